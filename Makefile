@@ -218,6 +218,7 @@ $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference
 
 include harness/library/library.mk
 include harness/packaging/packaging.mk
+include harness/packaging/install.mk
 
 FORCE:
 

@@ -4,6 +4,7 @@
 #include "harness/algebra/lanczos.h"
 
 #include <arpack/arpack.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -145,11 +146,34 @@ static status solve(const lanczos_problem *p, workspace *w, int wanted, int *fou
     return take_vectors(w, n, wanted, *found, mu, x, f);
 }
 
+/* ARPACK keeps its place between calls in variables of its own: one thread at a time. A process
+ * that is forked meanwhile has no such thread. */
+static pthread_mutex_t arpack = PTHREAD_MUTEX_INITIALIZER;
+static pthread_once_t forks = PTHREAD_ONCE_INIT;
+
+static void lock(void)
+{
+    pthread_mutex_lock(&arpack);
+}
+
+static void unlock(void)
+{
+    pthread_mutex_unlock(&arpack);
+}
+
+static void mind_forks(void)
+{
+    pthread_atfork(lock, unlock, unlock);
+}
+
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
                        long *solutions, fault *f)
 {
     workspace w;
+    pthread_once(&forks, mind_forks);
+    lock();
     const status outcome = solve(p, &w, wanted, found, mu, x, solutions, f);
+    unlock();
     workspace_free(&w);
     return outcome;
 }

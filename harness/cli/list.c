@@ -139,20 +139,25 @@ static int show(const command_request *r, const list_subject *what)
     return EXIT_AS_EXPECTED;
 }
 
-static int write_json(const command_request *r, const list_subject *what)
+static status write_json(const list_subject *what, const truths *ledger, fault *f)
 {
-    truths ledger;
-    fault f = {""};
-    if (what->type == NULL && what->chosen.type == NULL)
-        return message_exit(list_json_all(stdout, what->cases, what->formulations, &f), &f);
     if (what->type != NULL) {
         double value[CASE_MAX_PARAMETERS] = {0};
         parameters_default(what->type, value);
-        return message_exit(list_json_case(stdout, what->type, value, &f), &f);
+        return list_json_case(stdout, what->type, value, f);
     }
+    if (what->chosen.type != NULL)
+        return list_json_formulation(stdout, &what->chosen, ledger->rule, ledger->rules, f);
+    return list_json_all(stdout, what->cases, what->formulations, f);
+}
+
+/* The file of the ledger also says which formulations gate. */
+static int show_json(const command_request *r, const list_subject *what)
+{
+    truths ledger;
+    fault f = {""};
     read_ledger(r, &ledger);
-    const status written =
-        list_json_formulation(stdout, &what->chosen, ledger.rule, ledger.rules, &f);
+    const status written = write_json(what, &ledger, &f);
     truths_free(&ledger);
     return message_exit(written, &f);
 }
@@ -169,7 +174,7 @@ static int list_request(command_request *r)
         return message_fail(STATUS_REFUSED, f.text);
     if (strcmp(r->format, "csv") == 0)
         return message_fail(STATUS_REFUSED, "list: --format text or json");
-    return strcmp(r->format, "json") == 0 ? write_json(r, &what) : show(r, &what);
+    return strcmp(r->format, "json") == 0 ? show_json(r, &what) : show(r, &what);
 }
 
 int cli_list(int count, char **arguments)

@@ -1,15 +1,14 @@
-#include <libgen.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "harness/catalogue/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
+#include "harness/truth/data_place.h"
 #include "harness/truth/derive.h"
 #include "harness/truth/truth.h"
 
@@ -53,20 +52,17 @@ static int print_stored(const truths *t, const case_type *type, const double par
     return continuum;
 }
 
-/* Of reference/derive in BEAMWORK_REFERENCE, or in reference/ of the clone in whose build folder
- * the program is. */
+/* Of reference/derive: in BEAMWORK_REFERENCE, or where data stand. */
 static status script_path(const char *name, char out[PATH_MAX], fault *f)
 {
-    char program[PATH_MAX] = "";
+    char folder[PATH_MAX];
     const char *given = getenv("BEAMWORK_REFERENCE");
-    const ssize_t found = readlink("/proc/self/exe", program, sizeof program - 1);
-    const char *folder = given;
-    if (folder == NULL)
-        folder = found > 0 ? dirname(program) : ".";
-    const int length = snprintf(out, PATH_MAX, "%s%s/derive/%s", folder,
-                                given != NULL ? "" : "/../reference", name);
+    if (given == NULL)
+        data_place("reference", folder);
+    const int length =
+        snprintf(out, PATH_MAX, "%s/derive/%s", given != NULL ? given : folder, name);
     return length < PATH_MAX ? STATUS_OK
-                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", folder);
+                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
 }
 
 static status print_derived(const case_type *type, const double parameter[], fault *f)

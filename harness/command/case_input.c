@@ -6,7 +6,7 @@
 
 #include "harness/catalogue/case_find.h"
 #include "harness/command/message.h"
-#include "harness/truth/truths_place.h"
+#include "harness/truth/data_place.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
 static void tell_mistakes(const command_request *r, const mistakes *m, status outcome,
@@ -84,7 +84,7 @@ const char *case_input_truths_path(const command_request *r)
     static char found[PATH_MAX];
     if (r->truths != NULL)
         return r->truths;
-    truths_place(found);
+    data_place_truths(found);
     return found;
 }
 

@@ -18,7 +18,7 @@ int case_input_read(const command_request *r, const char *path, scene_file **out
 status case_input_truths(const command_request *r, truths *t, fault *f);
 /* One line on stderr: which analysis was made up where the scene file states none. */
 void case_input_tell_analysis(const command_request *r, const scene *s);
-/* The packed truths: --truths, or their place (harness/truth/truths_place.h). */
+/* The packed truths: --truths, or their place (harness/truth/data_place.h). */
 const char *case_input_truths_path(const command_request *r);
 
 #endif

@@ -4,7 +4,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "harness/truth/truths_place.h"
+#include "harness/truth/data_place.h"
 
 static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER;
 static struct {
@@ -31,7 +31,7 @@ static void place_now(char path[PATH_MAX])
     if (place[0] != '\0')
         memcpy(path, place, PATH_MAX);
     else
-        truths_place(path);
+        data_place_truths(path);
 }
 
 status known_read(const case_type *type, truths *out, fault *f)

@@ -6,18 +6,16 @@
 #include "harness/request/list_json.h"
 #include "harness/request/list_subject.h"
 
-/* With a ledger that list_of frees. */
-static status write(FILE *to, const list_subject *what, truths *ledger, fault *f)
+static status write(FILE *to, const list_subject *what, const truths *ledger, fault *f)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
     if (what->type != NULL) {
         parameters_default(what->type, value);
         return list_json_case(to, what->type, value, f);
     }
-    if (what->chosen.type == NULL)
-        return list_json_all(to, what->cases, what->formulations, f);
-    known_read(NULL, ledger, NULL); /* it may be missing */
-    return list_json_formulation(to, &what->chosen, ledger->rule, ledger->rules, f);
+    if (what->chosen.type != NULL)
+        return list_json_formulation(to, &what->chosen, ledger->rule, ledger->rules, f);
+    return list_json_all(to, what->cases, what->formulations, f);
 }
 
 static status list_of(const char *name, char **json, fault *f)
@@ -30,6 +28,7 @@ static status list_of(const char *name, char **json, fault *f)
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
+    known_read(NULL, &ledger, NULL); /* it may be missing */
     const status outcome = text_end(&t, write(t.to, &what, &ledger, f), json, f);
     truths_free(&ledger);
     return outcome;

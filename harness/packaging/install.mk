@@ -1,0 +1,22 @@
+# make install DESTDIR= PREFIX=/usr/local: program, library, headers, data, examples, manual.
+PREFIX ?= /usr/local
+BINDIR ?= $(PREFIX)/bin
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+SHAREDIR ?= $(PREFIX)/share
+DATADIR := $(SHAREDIR)/beamwork
+
+# Programs that are not beside their data look there.
+$(BUILD)/prefix: FORCE
+	@mkdir -p $(@D); echo '$(DATADIR)' | cmp -s - $@ || echo '$(DATADIR)' >$@
+$(BUILD)/harness/truth/data_place.o: $(BUILD)/prefix
+$(BUILD)/harness/truth/data_place.o: DEFINES := -DBEAMWORK_DATA='"$(DATADIR)"'
+
+.PHONY: install uninstall
+install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR= where they differ
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" \
+		VERSION="$(VERSION)" LIBS="$(DEP_LIBS)" harness/packaging/install.sh "$(BUILD)"
+
+uninstall: ## remove what install wrote, with the same DESTDIR and PREFIX
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" \
+		harness/packaging/uninstall.sh

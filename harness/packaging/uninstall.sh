@@ -1,0 +1,15 @@
+#!/bin/sh
+# Removes the files that 'make install' wrote, by its list, and folders of its own that are empty then.
+set -eu
+list=$DESTDIR$SHAREDIR/beamwork/installed
+[ -f "$list" ] || { echo "nothing is installed there: no $list"; exit 1; }
+count=0
+while IFS= read -r file; do
+    rm -f "$DESTDIR$file"
+    count=$((count + 1))
+done <"$list"
+rm -f "$list"
+for folder in "$SHAREDIR/beamwork" "$INCLUDEDIR/beamwork" "$LIBDIR/cmake/beamwork" "$SHAREDIR/doc/beamwork"; do
+    [ ! -d "$DESTDIR$folder" ] || find "$DESTDIR$folder" -depth -type d -empty -delete
+done
+echo "removed $count files below ${DESTDIR:-}$PREFIX"
