@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_STENCIL_H
 #define BEAMWORK_STENCIL_H
 
-enum { STENCIL_MOST = 256 }; /* values of a function */
+enum { STENCIL_MOST = 576 }; /* values of a function */
 
 /* Units between places: what is left out is h^6/140 of the seventh derivative, h^6/560 of the
  * eighth; round-off eps/h and 4 eps/h^2. */

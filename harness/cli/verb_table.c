@@ -31,6 +31,8 @@ static const verb verbs[] = {
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
     {"bench", cli_bench, "error against run time: the cheapest way to an error"},
     {"stress", cli_stress, "every formulation at extremes: a value, or a named failure"},
+    {"element-test", cli_element_test,
+     "a formulation against the interface: what to mend, and what it can do"},
     {"compare", cli_compare, "two stored runs: what became worse or better"},
     {"exchange", NULL, NULL},
     {"export", cli_export, "a structure as solids, as an input deck of another program"},
@@ -113,7 +115,7 @@ static int help(void)
         if (verbs[i].run == NULL)
             printf("\n%s\n", verbs[i].name);
         else
-            printf("  %-10s %s\n", verbs[i].name, verbs[i].summary);
+            printf("  %-12s  %s\n", verbs[i].name, verbs[i].summary);
     printf("\nto begin with\n");
     for (const manual_row *row = examples; row->name != NULL; row++)
         printf("  %-45s %s\n", row->name, row->text);

@@ -2,13 +2,11 @@
 
 #include <signal.h>
 #include <string.h>
-#include <sys/prctl.h>
-#include <sys/time.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/study/child.h"
 #include "harness/study/serialise.h"
 
 static cell_result *cell_of(const workload *w, int i)
@@ -16,37 +14,13 @@ static cell_result *cell_of(const workload *w, int i)
     return &w->s->series[w->tasks[i].series].cell[w->tasks[i].mesh];
 }
 
-/* Child: ends with its parent, even one that is killed or was already gone. */
-static void follow_parent(pid_t parent)
-{
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-        _exit(0);
-}
-
-/* Child: an alarm that nobody catches ends the process, as the parent's clock would. 0: none. */
-static void set_alarm(int seconds)
-{
-    const struct itimerval limit = {.it_value = {.tv_sec = seconds}};
-    setitimer(ITIMER_REAL, &limit, NULL);
-}
-
-static void default_alarm(void)
-{
-    sigset_t alarm_only;
-    sigemptyset(&alarm_only);
-    sigaddset(&alarm_only, SIGALRM);
-    signal(SIGALRM, SIG_DFL);
-    sigprocmask(SIG_UNBLOCK, &alarm_only, NULL);
-}
-
 static void run_task(const workload *w, int i, cell_result *out)
 {
     const cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
     fault f = {""};
-    set_alarm(w->time_limit);
+    child_alarm(w->time_limit);
     cell_run(&request, out, &f);
-    set_alarm(0);
+    child_alarm(0);
 }
 
 /* Child: takes tasks until none is left. */
@@ -54,7 +28,6 @@ static void work(const workload *w, int self, int to)
 {
     FILE *out = fdopen(to, "wb");
     board *b = w->board;
-    default_alarm();
     while (out != NULL) {
         const int i = atomic_fetch_add(&b->next, 1);
         cell_result cell;
@@ -88,7 +61,7 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
         return fault_set(f, STATUS_FAULT, "cannot start a worker process");
     }
     if (out->process == 0) {
-        follow_parent(parent);
+        child_begin(parent);
         close(ends[0]);
         work(w, self, ends[1]);
     }
@@ -128,14 +101,8 @@ int worker_bury(workload *w, int self, worker *dead)
     if (i < 0)
         return dead->stopped;
     solve_result *r = &cell_of(w, i)->solve;
-    const int late = dead->stopped || (WIFSIGNALED(how) && WTERMSIG(how) == SIGALRM);
+    const int late = child_ended(how, dead->stopped, w->time_limit, r->reason, sizeof r->reason);
     r->status = late ? STATUS_TIME_LIMIT : STATUS_FAULT;
-    if (late)
-        snprintf(r->reason, sizeof r->reason, "time limit: no result after %d s", w->time_limit);
-    else if (WIFSIGNALED(how))
-        snprintf(r->reason, sizeof r->reason, "crashed with signal %d", WTERMSIG(how));
-    else
-        snprintf(r->reason, sizeof r->reason, "its process ended with status %d", WEXITSTATUS(how));
     mark_done(w, i);
     return 1;
 }

@@ -29,7 +29,7 @@ class Help(ProgramTest):
         text = self.answered().stdout
         for words in (("help",), ("-h",), ("--help",)):
             self.assertEqual(self.answered(*words).stdout, text)
-        self.assertEqual(re.findall(r"^  ([a-z]+)  +[a-z]", text, re.MULTILINE), list(EVERY_VERB))
+        self.assertEqual(re.findall(r"^  ([a-z-]+)  +[a-z]", text, re.MULTILINE), list(EVERY_VERB))
         self.assertLessEqual(max(map(len, text.splitlines())), WIDEST)
         self.assertIn("HDF5", run("--version").stdout)
 

@@ -1,0 +1,41 @@
+/* The certificate of a formulation: the contract that it must keep, and what is measured of it.
+ * Each part is found in a process of its own, so that one that crashes, does not come back or
+ * spoils its memory is a named result, and the others go on. */
+#ifndef BEAMWORK_CERTIFICATE_H
+#define BEAMWORK_CERTIFICATE_H
+
+#include "harness/certificate/measures.h"
+#include "harness/contract/checks.h"
+
+enum { CERTIFICATE_MEASURED = 0, CERTIFICATE_PARTS = CHECKS_FAMILIES + CERTIFICATE_MEASURED };
+
+/* One part: claims, and, of what is measured, the numbers. */
+typedef struct certificate_part {
+    claims claims;
+    measures measures;
+} certificate_part;
+
+typedef struct certificate {
+    formulation chosen;
+    certificate_part part[CERTIFICATE_PARTS];
+} certificate;
+
+typedef struct certificate_request {
+    const formulation *chosen;   /* [count] */
+    int count, jobs, time_limit; /* time_limit: [s] of one part; 0: none */
+} certificate_request;
+
+/* certificates_free in any case. */
+status certificate_find(const certificate_request *, certificate **out, fault *f);
+void certificate_free(certificate *all, int count);
+
+const char *certificate_part_name(int part);
+/* What holds, in a line. */
+const char *certificate_part_words(int part);
+/* Claims of that outcome, and numbers that were compared, of all parts. */
+int certificate_counted(const certificate *, claim_outcome);
+int certificate_compared(const certificate *);
+/* 1: no claim is broken. */
+int certificate_holds(const certificate *);
+
+#endif

@@ -1,0 +1,23 @@
+#include "harness/certificate/measures.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+measure *measures_add(measures *m, const char *name)
+{
+    assert(m->count < MEASURES_MOST);
+    measure *one = &m->measure[m->count++];
+    memset(one, 0, sizeof *one);
+    snprintf(one->name, sizeof one->name, "%s", name);
+    one->order = NAN;
+    return one;
+}
+
+void measures_point(measure *one, double at, double error)
+{
+    assert(one->points < MEASURE_POINTS);
+    one->at[one->points] = at;
+    one->error[one->points++] = error;
+}

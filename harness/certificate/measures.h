@@ -1,0 +1,28 @@
+/* What is measured of a formulation, whatever it claims: errors over meshes and thicknesses,
+ * orders. Plain data of one size: it can lie in memory that processes share. */
+#ifndef BEAMWORK_MEASURES_H
+#define BEAMWORK_MEASURES_H
+
+enum { MEASURE_POINTS = 12, MEASURES_MOST = 16, MEASURE_NAME = 64, MEASURE_WORDS = 200 };
+
+typedef struct measure {
+    char name[MEASURE_NAME];
+    int points;
+    double at[MEASURE_POINTS];    /* numbers of elements, or thickness by length */
+    double error[MEASURE_POINTS]; /* relative to the exact value; NAN: none */
+    double order;                 /* of the errors; NAN: not asked for, or none is seen */
+    int least, highest;           /* orders that the type declares; 0: not asked for */
+    char words[MEASURE_WORDS];    /* why there is nothing, or what it comes to */
+} measure;
+
+typedef struct measures {
+    int count;
+    measure measure[MEASURES_MOST];
+} measures;
+
+/* The next one, empty. */
+measure *measures_add(measures *m, const char *name);
+/* One more point of it. */
+void measures_point(measure *one, double at, double error);
+
+#endif

@@ -1,0 +1,220 @@
+"""`element-test`: every formulation keeps the contract; what is planted into the example is told."""
+import json
+import os
+import subprocess
+
+from harness.test.program import ROOT, ProgramTest, environment, run
+
+EXAMPLES = ROOT / "elements" / "examples"
+CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # a crash is one
+ENTRY = "    if (out->e == NULL)"  # the beginning of the example's strain
+
+# Fault: (text of the example and what stands in its place) ..., words of the sentence.
+FAULTS = {
+    "energy": (
+        ("e[i] * e[i] / 2;", "e[i] * e[i];"),
+        "stress: sigma 1 is", "the energy's derivative in strain 1"),
+    "stiffness": (
+        ("= d->stiffness[i];\n", "= 2 * d->stiffness[i];\n"),
+        "C: the derivative of sigma", "differences of the stress give"),
+    "symmetry": (
+        ("    if (out->energy != NULL)\n",
+         "    if (out->C != NULL)\n        out->C[1] = d->stiffness[0];\n"
+         "    if (out->energy != NULL)\n"),
+        "C: entry 2, 1 is 0 and entry 1, 2", "symmetric"),
+    "objectivity": (
+        ("transposed(x[0].R, chord, p);", "memcpy(p, chord, sizeof p);"),
+        "strain: turned by", "axes that turn with the element"),
+    "length": (
+        ("    out->e[0] -= d->length;\n", ""),
+        "strain: strain 1 of the undeformed element is 0.2385 m, not zero"),
+    "nodes swapped": (
+        ("chord[i] = x[1].r[i] - x[0].r[i]", "chord[i] = x[0].r[i] - x[1].r[i]"),
+        "strain: strain 1 of the undeformed element"),
+    "first node's axes": (
+        ("out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];", "out->e[i] = p[i];"),
+        "with its nodes exchanged", "LIMIT_ORDER_DEPENDENT"),
+    "stale cache": (
+        ("out->e[0] -= d->length;",
+         "static double kept;\n    kept = kept > 0 ? kept : d->length;\n    out->e[0] -= kept;"),
+        "is another one after", "in a process of its own"),
+    "counter": (
+        ("out->e[0] -= d->length;",
+         "static int calls;\n    out->e[0] -= d->length + 1e-9 * calls++;"),
+        "strain: e is another one after the same call"),
+    "beyond sigma": (
+        ("    if (out->energy != NULL)\n",
+         "    if (out->sigma != NULL)\n        out->sigma[STRAINS] = 0;\n"
+         "    if (out->energy != NULL)\n"),
+        "stress: sigma: it has 6 entries, and entry 7 is written"),
+    "beyond strains": (
+        ("out->e[0] -= d->length;", "out->e[0] -= d->length;\n    out->e[STRAINS + 1] = 0;"),
+        "strain: e: it has 6 entries, and entry 8 is written"),
+    "beyond data": (
+        ("return sizeof(element_data);", "return sizeof(element_data) - sizeof(double);"),
+        "prepare: its data: it has 6 entries, and entry 7 is written"),
+    "not filled": (
+        ("        out->e[3 + i] = d->length * psi[i];", "        if (i < 2)\n"
+         "            out->e[3 + i] = d->length * psi[i];"),
+        "strain: e: entry 6 of 6 is never written"),
+    "inputs": (
+        (ENTRY, "    ((node_state *)x)[1].a = 1;\n" + ENTRY),
+        "the states of the nodes are changed; they are read only"),
+    "swallowed": (
+        ("        out->e[3 + i] = d->length * psi[i];",
+         "        out->e[3 + i] = isnan(psi[i]) ? 0 : d->length * psi[i];\n"
+         "        out->e[i] = isnan(out->e[i]) ? 0 : out->e[i];"),
+        "that is nan gives strains and stresses that look sound"),
+    "depends": (
+        ("        if (out->sigma != NULL)\n            out->sigma[i] = d",
+         "        if (out->sigma != NULL)\n            out->sigma[i] = out->energy == NULL ? 0 : d"),
+        "stress: sigma is another one after asking for that output alone"),
+    "energy at rest": (
+        ("double energy = 0;", "double energy = 1;"),
+        "stress: the undeformed element has an energy of 1 J"),
+    "units": (
+        ("const double l = request->length;",
+         "const double l = request->length * (request->length > 1 ? 1.1 : 1);"),
+        "in units of 0.001 m", "is a bare number compared with a length?"),
+    "theory": (
+        ("    .shear_theories = SHEAR_HARINGX,\n", ""),
+        "shear_theories: it offers shear and names no theory of it"),
+    "rotary": (
+        ("FEATURE_MASS | FEATURE_ROTARY_INERTIA", "FEATURE_ROTARY_INERTIA"),
+        "offers: FEATURE_ROTARY_INERTIA goes with FEATURE_MASS"),
+    "refused": (
+        ("    (void)f;\n",
+         "    if (request->features & FEATURE_SHEAR)\n"
+         "        return (void)(f && strcpy(f->text, \"no shear today\")), STATUS_REFUSED;\n"),
+        "offers: asked for all features, it is refused: no shear today", "do not offer it"),
+    "options": (
+        ("    .leaves = LEAVES_J,", "    .leaves = LEAVES_J,\n    .options = {(const parameter_type[])"
+         "{{\"form\", \"\", 2, 0, 0, \"one|two\", \"which\"}, {0}}},"),
+        "options: the default of 'form' is outside its range"),
+    "crash": (
+        (ENTRY, "    if (isnan(x[0].r[0]))\n        *(volatile int *)0 = 1;\n" + ENTRY),
+        "crashed with signal 11: strain and stress of a state that is nan"),
+    "loop": (
+        (ENTRY, "    while (isinf(x[0].r[0]) && x[0].R[0] > 0)\n        (void)(volatile int){1};\n"
+         + ENTRY),
+        "time limit: no result after 2 s: strain and stress of a state that is inf"),
+    "status": (
+        ("    return STATUS_OK;\n}\n\nstatic int strains",
+         "    return energy > 1 ? STATUS_SINGULAR : STATUS_OK;\n}\n\nstatic int strains"),
+        "stress: strains of some hundredths of the length end with status 'singular'"),
+}
+
+# The same of the example that gives forces and stiffness.
+FORCE_FAULTS = {
+    "sign": (
+        ("F[i] = n * r[i];", "F[i] = -n * r[i];"),
+        "force: F in coordinate 1 (displacement along x of node 1) is", "the energy's derivative"),
+    "energy": (
+        ("energy = n * n / d->axial / 2;", "energy = n * n / d->axial;"),
+        "force: F in coordinate", "the energy's derivative"),
+    "geometric stiffness": (
+        ("        add(3, N, 3, 0, B, W, K + b * N);", "        (void)W;"),
+        "K: the derivative of the force in coordinate", "differences of F give"),
+    "material stiffness": (
+        ("    add(N, N, 6, 1, D, kD, K); /* material */\n", ""),
+        "K: the derivative of the force in coordinate", "differences of F give"),
+    "objectivity": (
+        ("add(3, 3, 3, 0, E, x[k].R, S[k]);", "memcpy(S[k], x[k].R, sizeof S[k]);"),
+        "force: a rigid turn by", "axes that turn with the element"),
+    "beyond K": (
+        ("memset(out->K, 0, NODES * NODES * sizeof *K);",
+         "memset(out->K, 0, (NODES * NODES + 1) * sizeof *K);"),
+        "force: K: it has 196 entries, and entry 197 is written"),
+    "prestress": (
+        ("F[i] = n * r[i];", "F[i] = (n + 1) * r[i];"),
+        "of the undeformed element is", "not zero"),
+}
+
+
+class Tested(ProgramTest):
+
+    def compiled(self, name, *changes):
+        """The path of a shared object of an example with parts of its text replaced."""
+        text = (EXAMPLES / name).read_text(encoding="utf-8")
+        for before, after in changes:
+            self.assertIn(before, text)
+            text = text.replace(before, after, 1)
+        source, made = self.folder / name, self.folder / "mine.so"
+        source.write_text(text, encoding="utf-8")
+        subprocess.run([os.environ.get("CC", "cc"), "-O1", "-shared", "-fPIC", "-w", "-I", ROOT,
+                        source, "-o", made],
+                       check=True)
+        return made
+
+    def broken(self, made):
+        """The sentences of what is broken; the status says so."""
+        done = run("element-test", "--element", made, "--format", "json", "--time-limit", "2",
+                   env=CRASHES)
+        self.assertEqual(done.returncode, 1, done)
+        (one, ) = json.loads(done.stdout)["certificates"]
+        self.assertFalse(one["kept"])
+        return [c["sentence"] for p in one["parts"] for c in p["claims"] if c["outcome"] == "broken"]
+
+    def told(self, name, faults):
+        for fault, (change, *words) in faults.items():
+            with self.subTest(fault=fault):
+                said = self.broken(self.compiled(name, change))
+                self.assertTrue(any(all(w in s for w in words) for s in said), said)
+
+
+class Planted(Tested):
+
+    def test_each_is_told(self):
+        self.assertGreaterEqual(len(FAULTS), 20)
+        self.told("timoshenko.c", FAULTS)
+
+    def test_each_of_a_force_is_told(self):
+        self.told("corotational.c", FORCE_FAULTS)
+
+
+class Certificates(Tested):
+
+    def test_all_keep_the_contract(self):
+        record = self.record("element-test", "all")
+        listed = run("list", "formulations").stdout
+        for one in record["certificates"]:
+            self.assertTrue(one["kept"], one["formulation"])
+            self.assertIn(one["formulation"], listed)
+            self.assertGreater(one["compared"], 5000)
+        self.assertGreaterEqual(len(record["certificates"]), 10)
+
+    def test_examples_keep_it(self):
+        for source in sorted(EXAMPLES.glob("*.c")):
+            out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
+            self.assertIn("contract: KEPT", out)
+            self.assertIn("not claimed", out)
+
+    def test_with_options(self):
+        out = self.answered("element-test", "collocation:stages=3", "geometrically_exact:nodes=2",
+                            "--quiet").stdout
+        self.assertIn("2 of 2 formulations keep the contract", out)
+
+    def test_width(self):
+        out = self.answered("element-test", "all", "-v", env=environment(LC_ALL="C")).stdout
+        self.assertTrue(out.isascii())
+        self.assertLessEqual(max(map(len, out.splitlines())), 100)
+
+    def test_quiet_tells_what_is_broken(self):
+        made = self.compiled("timoshenko.c", FAULTS["energy"][0])
+        out = self.answered("element-test", "--element", made, "-q", code=1).stdout
+        self.assertIn("contract: BROKEN", out)
+        self.assertIn("sigma 1", " ".join(out.split()))
+        self.assertNotIn("declared", out)
+
+    def test_file(self):
+        path = self.folder / "certificates.json"
+        out = self.answered("element-test", "beamw", "--json", path).stdout
+        self.assertIn("contract: KEPT", out)
+        found = json.loads(path.read_text(encoding="utf-8"))
+        self.assertEqual([c["formulation"] for c in found["certificates"]], ["beamw"])
+
+    def test_refused(self):
+        self.refused(2, ("name a formulation", "--element ./mine.so"), "element-test")
+        self.refused(2, "beamv", "element-test", "beamv")
+        self.refused(2, "text or json", "element-test", "beamw", "--format", "csv")
+        self.refused(2, "twice", "element-test", "beamw", "beamw")

@@ -1,0 +1,209 @@
+/* Elements keep no state: what a call gives depends on its arguments alone. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/contract/checks.h"
+#include "harness/contract/specimens.h"
+
+enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+
+static const double longer = 1.7 * 0.2385; /* [m] */
+
+/* Everything that an element says of one state. */
+typedef struct account {
+    status stress, inertia;
+    double e[M], J[M * N], H[N * N], energy, sigma[M], C[M * M], residual, mass[N * N];
+    double inner[SPECIMEN_INNER];
+} account;
+
+static void tell(const specimen *s, const node_state x[], account *out)
+{
+    double weight[M];
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < s->strains; i++)
+        weight[i] = cos(3.7 * i + 0.3);
+    s->type.strain(s->data, x, &(strain_output){out->e, out->J, weight, out->H});
+    specimen_rest(s, out->inner);
+    out->stress = specimen_settled(
+        s, out->e, out->inner,
+        &(stress_output){
+            .energy = &out->energy, .sigma = out->sigma, .C = out->C, .residual = &out->residual});
+    if (s->type.inertia != NULL)
+        out->inertia = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = out->mass});
+}
+
+/* The name of the first that is not the same bits, or NULL. */
+static const char *apart(const account *a, const account *b)
+{
+    if (memcmp(a->e, b->e, sizeof a->e) != 0)
+        return "strain: e";
+    if (memcmp(a->J, b->J, sizeof a->J) != 0)
+        return "strain: J";
+    if (memcmp(a->H, b->H, sizeof a->H) != 0)
+        return "strain: H";
+    if (a->stress != b->stress || memcmp(&a->energy, &b->energy, sizeof a->energy) != 0)
+        return "stress: the energy";
+    if (memcmp(a->sigma, b->sigma, sizeof a->sigma) != 0)
+        return "stress: sigma";
+    if (memcmp(a->C, b->C, sizeof a->C) != 0)
+        return "stress: C";
+    return memcmp(a->mass, b->mass, sizeof a->mass) != 0 ? "inertia: M" : NULL;
+}
+
+/* What the first call of all says: in a process of its own, where nothing went before. */
+static void tell_first(const specimen *s, const node_state x[], account *out)
+{
+    const pid_t parent = getpid();
+    account *there =
+        mmap(NULL, sizeof *there, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (there == MAP_FAILED)
+        return;
+    fflush(NULL);
+    const pid_t child = fork();
+    if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() == parent)
+            tell(s, x, there);
+        _exit(0);
+    }
+    if (child > 0)
+        waitpid(child, NULL, 0);
+    *out = *there;
+    munmap(there, sizeof *there);
+}
+
+static void same(const account *a, const account *b, const char *after, const specimen *s,
+                 claim *one)
+{
+    const char *other = apart(a, b);
+    claims_asks(one, other == NULL,
+                "%s is another one after %s; keep nothing between calls, neither in static "
+                "variables nor in the data%s",
+                other, after, s->words);
+}
+
+/* Of another length, in memory of its own or in the place of the first, which is made again. Both
+ * say what they say where nothing went before. */
+static void other_element(const specimen *s, const account *before, const node_state x[],
+                          const account *first, claim *one)
+{
+    specimen_request what = s->made;
+    specimen other;
+    account between, after;
+    fault f = {""};
+    what.length = longer;
+    if (specimen_make(&what, &other, &f) == STATUS_OK) {
+        tell(&other, x, &between);
+        same(first, &between, "calls of another element, and not in a process of its own", s, one);
+        tell(s, x, &after);
+        same(before, &after, "calls of another element", s, one);
+    }
+    specimen_free(&other);
+}
+
+static void in_its_place(const specimen *s, const account *before, const node_state x[], claim *one)
+{
+    element_request request = s->request;
+    account after;
+    request.length = longer;
+    memset(s->data, 0, s->size);
+    if (s->type.data_size(&request) == s->size &&
+        s->type.prepare(&request, s->data, NULL) == STATUS_OK)
+        tell(s, x, &after);
+    memset(s->data, 0, s->size);
+    if (s->type.prepare(&s->request, s->data, NULL) != STATUS_OK)
+        return;
+    tell(s, x, &after);
+    same(before, &after, "another element stood in its memory", s, one);
+}
+
+/* Each output alone is what it is together with the others. */
+static void alone(const specimen *s, const account *before, const node_state x[], claim *one)
+{
+    account a = *before;
+    double weight[M], inner[SPECIMEN_INNER];
+    for (int i = 0; i < s->strains; i++)
+        weight[i] = cos(3.7 * i + 0.3);
+    s->type.strain(s->data, x, &(strain_output){.s = weight, .H = a.H});
+    s->type.strain(s->data, x, &(strain_output){.J = a.J});
+    s->type.strain(s->data, x, &(strain_output){.e = a.e});
+    memcpy(inner, before->inner, sizeof inner);
+    s->type.stress(s->data, a.e, inner, &(stress_output){.C = a.C});
+    s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma});
+    s->type.stress(s->data, a.e, inner, &(stress_output){.energy = &a.energy});
+    if (s->inner > 0) { /* its last correction is not repeated */
+        memcpy(a.sigma, before->sigma, sizeof a.sigma);
+        memcpy(a.C, before->C, sizeof a.C);
+        a.energy = before->energy;
+    }
+    same(before, &a, "asking for that output alone", s, one);
+}
+
+/* The same state by two ways, with inner unknowns: straight from rest, and over another state. */
+static void two_ways(const specimen *s, const account *before, const node_state x[], claim *one)
+{
+    double e[M], inner[SPECIMEN_INNER], energy = NAN;
+    node_state y[ELEMENT_MAX_NODES];
+    specimen_state(s, 0.04, 77, y);
+    s->type.strain(s->data, y, &(strain_output){.e = e});
+    specimen_rest(s, inner);
+    if (specimen_settled(s, e, inner, &(stress_output){.energy = &energy}) != STATUS_OK)
+        return;
+    s->type.strain(s->data, x, &(strain_output){.e = e});
+    specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
+    claims_departs(one, fabs(energy / before->energy - 1),
+                   "stress, update: the energy of the same strains is %.9g J, and %.9g J after "
+                   "other strains; the path must not matter%s",
+                   before->energy, energy, s->words);
+}
+
+/* Before this process has called anything: the longer element in another one. */
+static void tell_longer(const specimen *s, const node_state x[], account *out)
+{
+    specimen_request what = s->made;
+    specimen other;
+    fault f = {""};
+    what.length = longer;
+    memset(out, 0, sizeof *out);
+    if (specimen_make(&what, &other, &f) == STATUS_OK)
+        tell_first(&other, x, out);
+    specimen_free(&other);
+}
+
+static void check(const specimen *s, claims *c)
+{
+    account first, before, between, after;
+    node_state x[ELEMENT_MAX_NODES], y[ELEMENT_MAX_NODES];
+    claim *one = claims_open(c, "the same call gives the same bits", 0);
+    specimen_state(s, 0.04, 41, x);
+    specimen_state(s, 0.06, 43, y);
+    tell_longer(s, x, &first);
+    claims_doing(c, "the same state again%s", s->words);
+    tell(s, x, &before);
+    tell(s, x, &after);
+    same(&before, &after, "the same call", s, one);
+    tell(s, y, &between);
+    tell(s, x, &after);
+    same(&before, &after, "calls of another state", s, one);
+    claims_doing(c, "another element between%s", s->words);
+    other_element(s, &before, x, &first, one);
+    in_its_place(s, &before, x, one);
+    claims_doing(c, "outputs one by one%s", s->words);
+    alone(s, &before, x, claims_open(c, "outputs do not depend on each other", 0));
+    if (s->inner > 0)
+        two_ways(s, &before, x, claims_open(c, "the path does not matter", 1e-9));
+}
+
+void checks_stateless(const formulation *chosen, claims *out)
+{
+    specimens_each(chosen, out, check);
+    if (element_inner(chosen->type, chosen->option) == 0)
+        claims_not_made(out, "the path does not matter", "no unknowns of its own");
+}

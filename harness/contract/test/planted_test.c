@@ -1,0 +1,265 @@
+/* Faults planted into formulations that have none: each is noticed, with a sentence that names the
+ * right thing. A fault changes what one of their functions gives. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/contract/checks.h"
+
+static const element_type *base; /* what the fault is planted into */
+
+static void strain_changed(const element_data *d, const node_state x[], strain_output *out,
+                           void (*change)(strain_output *))
+{
+    base->strain(d, x, out);
+    change(out);
+}
+
+/* A strain function whose outputs are changed. */
+#define STRAIN(name, statement)                                                                    \
+    static void name##_change(strain_output *out)                                                  \
+    {                                                                                              \
+        statement;                                                                                 \
+    }                                                                                              \
+    static void name(const element_data *d, const node_state x[], strain_output *out)              \
+    {                                                                                              \
+        strain_changed(d, x, out, name##_change);                                                  \
+    }
+
+STRAIN(sign_in_J, if (out->J != NULL) out->J[14 * 2 + 1] *= -1)
+STRAIN(percent_in_J, if (out->J != NULL) out->J[14 * 3 + 10] *= 1.01)
+STRAIN(no_H, if (out->s != NULL && out->H != NULL) memset(out->H, 0, sizeof(double[14 * 14])))
+STRAIN(term_of_H, if (out->s != NULL && out->H != NULL) out->H[14 * 4 + 4] *= 0.9)
+STRAIN(beyond_J, if (out->J != NULL) out->J[14 * 8] = 0)
+STRAIN(before_e, if (out->e != NULL) out->e[-1] = 0)
+
+static status nodes_exchanged_call(const element_data *d, const node_state x[], double J[])
+{
+    double swapped[7];
+    base->strain(d, x, &(strain_output){.J = J});
+    for (int i = 0; i < 8; i++) {
+        memcpy(swapped, J + 14 * i, sizeof swapped);
+        memcpy(J + 14 * i, J + 14 * i + 7, sizeof swapped);
+        memcpy(J + 14 * i + 7, swapped, sizeof swapped);
+    }
+    return STATUS_OK;
+}
+
+static void nodes_exchanged(const element_data *d, const node_state x[], strain_output *out)
+{
+    base->strain(d, x, out);
+    if (out->J != NULL)
+        nodes_exchanged_call(d, x, out->J);
+}
+
+/* An inertia whose outputs are changed. */
+#define INERTIA(name, statement)                                                                   \
+    static status name(const element_data *d, const node_state x[],                                \
+                       const element_rotating_frame *frame, inertia_output *out)                   \
+    {                                                                                              \
+        const status outcome = base->inertia(d, x, frame, out);                                    \
+        statement;                                                                                 \
+        return outcome;                                                                            \
+    }
+#define EACH(count, statement)                                                                     \
+    for (int i = 0; i < (count); i++)                                                              \
+    statement
+
+INERTIA(heavier, if (out->M != NULL) EACH(196, out->M[i] *= 1.01))
+INERTIA(unsymmetric_mass, if (out->M != NULL) out->M[14 * 1 + 8] += 0.01 * out->M[14 + 1])
+INERTIA(negative_mass, if (out->M != NULL) out->M[14 * 10 + 10] *= -1)
+INERTIA(fixed_mass, if (out->M != NULL) out->M[14 * 3 + 3] += 0.5 * out->M[14 * 3 + 3])
+INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
+INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
+INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
+INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
+INERTIA(not_skew, if (out->G != NULL) out->G[14 * 1 + 1] += out->G[14 + 2])
+INERTIA(half_coriolis, if (out->G != NULL) EACH(196, out->G[i] /= 2))
+INERTIA(beyond_M, if (out->M != NULL) out->M[196] = 0)
+
+static status no_frame(const element_data *d, const node_state x[],
+                       const element_rotating_frame *frame, inertia_output *out)
+{
+    return frame != NULL ? STATUS_SINGULAR : base->inertia(d, x, frame, out);
+}
+
+static status half_energy(const element_data *d, const double e[], const double inner[],
+                          stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->energy != NULL)
+        *out->energy /= 2;
+    return outcome;
+}
+
+static status softer(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->C != NULL)
+        out->C[0] *= 0.99;
+    return outcome;
+}
+
+static status unsymmetric(const element_data *d, const double e[], const double inner[],
+                          stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->C != NULL)
+        out->C[1] += 0.01 * out->C[0];
+    return outcome;
+}
+
+static status stressed_at_rest(const element_data *d, const double e[], const double inner[],
+                               stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->sigma != NULL)
+        out->sigma[0] += 1;
+    if (out->energy != NULL)
+        *out->energy += e[0];
+    return outcome;
+}
+
+static status gives_up(const element_data *d, const double e[], const double inner[],
+                       stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    return fabs(e[0]) > 1e-5 ? STATUS_SINGULAR : outcome;
+}
+
+static void lopsided(const element_data *d, const double sigma[], double G[])
+{
+    base->geometric(d, sigma, G);
+    G[8] += 0.1 * sigma[0];
+}
+
+static void constant_geometric(const element_data *d, const double sigma[], double G[])
+{
+    base->geometric(d, sigma, G);
+    G[9] += 1e6;
+}
+
+static double lazy(const element_data *d, const double de[], const double memory[], double inner[])
+{
+    (void)d, (void)de, (void)memory, (void)inner;
+    return 1;
+}
+
+static status stiff_in_units(const element_request *request, element_data *out, fault *f)
+{
+    element_request longer = *request;
+    longer.length *= longer.length > 1 ? 1.01 : 1;
+    return base->prepare(&longer, out, f);
+}
+
+static status no_reason(const element_request *request, element_data *out, fault *f)
+{
+    return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
+}
+
+static int one_order_less(const double options[])
+{
+    (void)options;
+    return -1;
+}
+
+/* What is changed of the type, the family that must notice, and words of its sentence. */
+static void planted(const char *family, const element_type *fault_type, const char *first,
+                    const char *second)
+{
+    static claims c;
+    formulation chosen;
+    int noticed = 0;
+    formulation_default(base, &chosen);
+    chosen.type = fault_type;
+    for (int k = 0; k < CHECKS_FAMILIES; k++) {
+        if (strcmp(checks_families[k].name, family) != 0)
+            continue;
+        memset(&c, 0, sizeof c);
+        checks_families[k].run(&chosen, &c);
+        for (int i = 0; i < c.count; i++)
+            noticed += c.claim[i].outcome == CLAIM_BROKEN &&
+                       strstr(c.claim[i].sentence, first) != NULL &&
+                       strstr(c.claim[i].sentence, second) != NULL;
+    }
+    gsl_test(noticed == 0, "%s notices: %s ... %s", family, first, second);
+    for (int i = 0; i < c.count && noticed == 0; i++)
+        gsl_test(c.claim[i].outcome == CLAIM_BROKEN, "it said: %s", c.claim[i].sentence);
+}
+
+static element_type changed(const char *name)
+{
+    formulation chosen;
+    gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
+    base = chosen.type;
+    element_type out = *base;
+    out.options[0] = NULL; /* as by default, once */
+    return out;
+}
+
+#define PLANT(member, value, family, first, second)                                                \
+    do {                                                                                           \
+        element_type t = changed("beamw_consistent");                                              \
+        t.member = value;                                                                          \
+        planted(family, &t, first, second);                                                        \
+    } while (0)
+
+static void derivatives(void)
+{
+    PLANT(strain, sign_in_J, "derivatives", "J: the derivative of strain 3 in coordinate 2",
+          "displacement along y of node 1");
+    PLANT(strain, percent_in_J, "derivatives", "J: the derivative of strain 4 in coordinate 11",
+          "rotation about x of node 2");
+    PLANT(strain, nodes_exchanged, "derivatives", "J: the derivative of strain", "differences");
+    PLANT(strain, no_H, "derivatives", "H: the second derivative of strain", "is 0, differences");
+    PLANT(strain, term_of_H, "derivatives", "in coordinates 5 and 5",
+          "rotation about y of node 1, rotation about y of node 1");
+    PLANT(stress, half_energy, "energy", "stress: sigma", "the energy's derivative");
+    PLANT(stress, softer, "energy", "C: the derivative of sigma 1 in strain 1", "differences");
+    PLANT(stress, unsymmetric, "energy", "C: entry 2, 1", "symmetric");
+    PLANT(stress, stressed_at_rest, "energy", "stress: sigma 1 of the undeformed element", "N");
+    PLANT(stress, gives_up, "energy", "stress: strains of some hundredths", "'singular'");
+    PLANT(geometric, lopsided, "energy", "geometric: G entry 1, 2", "symmetric");
+    PLANT(geometric, constant_geometric, "energy", "geometric: G entry 2, 2", "sum");
+}
+
+static void inertia(void)
+{
+    PLANT(inertia, heavier, "mass", "inertia: the mass along x", "rho A l");
+    PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "other way round");
+    PLANT(inertia, negative_mass, "mass", "not positive", "rotation about x of node 2");
+    PLANT(inertia, fixed_mass, "mass", "turned as a whole", "turned back");
+    PLANT(inertia, fixed_mass, "mass", "moment of inertia of the sections about x", "rho l I");
+    PLANT(inertia, half_potential, "rotating", "the potential is", "kinetic energy");
+    PLANT(inertia, wrong_force, "rotating", "centrifugal force in coordinate 9",
+          "displacement along y of node 2");
+    PLANT(inertia, wrong_softening, "rotating", "N entry 3, 3", "differences");
+    PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "other way round");
+    PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
+    PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
+    PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
+}
+
+static void the_rest(void)
+{
+    PLANT(strain, beyond_J, "bounds", "strain: J: it has 112 entries", "entry 113");
+    PLANT(strain, before_e, "bounds", "strain: e", "before its first");
+    PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");
+    PLANT(prepare, stiff_in_units, "motion", "in units of", "instead of");
+    PLANT(prepare, no_reason, "features", "it is refused: no reason is given",
+          "asked for no feature");
+    PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
+    element_type t = changed("collocation");
+    t.update = lazy;
+    planted("energy", &t, "update: after", "residual");
+}
+
+int main(void)
+{
+    derivatives();
+    inertia();
+    the_rest();
+    return gsl_test_summary();
+}
