@@ -142,6 +142,12 @@ typedef struct inertia_output {
     double *G;         /* [7n x 7n] gyroscopic, skew: M x'' + G x' + (K + N) x = 0 */
 } inertia_output;
 
+/* Sizes and orders that no option changes. */
+typedef struct element_constants {
+    int nodes, strains;                    /* 0: 2 nodes, 8 strains */
+    element_order order[ELEMENT_ANALYSES]; /* highest 0: least 2, highest 4 */
+} element_constants;
+
 /* Of the whole element, for types without strains and stresses of their own. */
 typedef struct force_output {
     double *energy; /* [1] [J] */
@@ -216,13 +222,33 @@ typedef struct element_type {
     /* frame NULL: the frame is at rest. Left out: the mass lumped at the nodes. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
+
+    /* Optional: many elements at once, where that costs less than one after the other (lanes over
+     * elements, another process): the same values in any order and number. data[count], one for
+     * each element: elements of one kind share theirs and often follow each other. x[count x
+     * nodes]; all of out[count] want the same outputs. */
+    void (*strain_many)(int count, const element_data *const data[], const node_state x[],
+                        strain_output out[]);
+    /* e[count][strains], inner[count][inner], outcome[count]. */
+    void (*stress_many)(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[]);
+    void (*force_many)(int count, const element_data *const data[], const node_state x[],
+                       force_output out[], status outcome[]);
+
+    /* Optional: in place of nodes, strains and order where no option changes them. */
+    const element_constants *constants;
+    /* Optional: why nothing that was computed since the last question counts, one line; NULL:
+     * nothing is wrong. */
+    const char *(*trouble)(const element_data *);
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,
                                              const double options[])
 {
     const element_order usual = {2, 4};
-    return t->order ? t->order(a, options) : usual;
+    if (t->order)
+        return t->order(a, options);
+    return t->constants && t->constants->order[a].highest > 0 ? t->constants->order[a] : usual;
 }
 static inline unsigned element_judged(const element_type *t, int option)
 {
@@ -230,11 +256,15 @@ static inline unsigned element_judged(const element_type *t, int option)
 }
 static inline int element_nodes(const element_type *t, const double options[])
 {
-    return t->nodes ? t->nodes(options) : 2;
+    if (t->nodes)
+        return t->nodes(options);
+    return t->constants && t->constants->nodes > 0 ? t->constants->nodes : 2;
 }
 static inline int element_strains(const element_type *t, const double options[])
 {
-    return t->strains ? t->strains(options) : 8;
+    if (t->strains)
+        return t->strains(options);
+    return t->constants && t->constants->strains > 0 ? t->constants->strains : 8;
 }
 static inline int element_inner(const element_type *t, const double options[])
 {

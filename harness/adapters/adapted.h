@@ -20,14 +20,31 @@ static inline const element_data *adapted_own(const element_data *d)
     return (const element_data *)d->own;
 }
 
+/* The types' own data of at most so many elements; returns of how many. */
+enum { ADAPTED_TOGETHER = 1024 };
+static inline int adapted_owns(int count, const element_data *const data[],
+                               const element_data *own[ADAPTED_TOGETHER])
+{
+    const int part = count < ADAPTED_TOGETHER ? count : ADAPTED_TOGETHER;
+    for (int i = 0; i < part; i++)
+        own[i] = adapted_own(data[i]);
+    return part;
+}
+
 /* differences.c: J and H of a type that gives e, or e and J. */
 void differences_strain(const element_data *d, const node_state x[], strain_output *out);
+/* Of many elements, where the type has strain_many: all moved states together. */
+void differences_strain_many(int count, const element_data *const data[], const node_state x[],
+                             strain_output out[]);
 /* H [7n x 7n] of strains with a Jacobian: jacobian(d, x, J) fills J [strains x 7n]. */
 typedef void differences_jacobian(const element_data *d, const node_state x[], double J[]);
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
 /* relative.c: stresses of a type that gives a force or an energy. */
+/* Where the type has force_many. */
+void relative_stress_many(int count, const element_data *const data[], const double *const e[],
+                          const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
 /* Derivative of C at rest along the strains of this prestress: by differences. */

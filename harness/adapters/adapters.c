@@ -51,6 +51,21 @@ static status inertia(const element_data *d, const node_state x[],
     return d->given->inertia(adapted_own(d), x, frame, out);
 }
 
+static const char *trouble(const element_data *d)
+{
+    return d->given->trouble(adapted_own(d));
+}
+
+static void stress_many(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    const element_data *own[ADAPTED_TOGETHER];
+    for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
+        const int part = adapted_owns(count - i, data + i, own);
+        data[0]->given->stress_many(part, own, e + i, inner + i, out + i, outcome + i);
+    }
+}
+
 static status lumped(const element_data *d, const node_state x[],
                      const element_rotating_frame *frame, inertia_output *out)
 {
@@ -69,9 +84,13 @@ static void wrap(const element_type *given, element_type *out)
     out->geometric = given->geometric != NULL ? geometric : NULL;
     out->inertia = given->inertia != NULL ? inertia : lumped;
     out->strain = differences_strain;
+    out->strain_many = given->strain_many != NULL ? differences_strain_many : NULL;
+    out->stress_many = given->stress_many != NULL ? stress_many : NULL;
+    out->force_many = NULL;
+    out->trouble = given->trouble != NULL ? trouble : NULL;
 }
 
-static void make_relative(int nodes, element_type *out)
+static void make_relative(const element_type *given, int nodes, element_type *out)
 {
     out->offers &= ~(unsigned)FEATURE_CURVATURE;
     out->strains = nodes == 2 ? places_strains_two : places_strains_three;
@@ -79,6 +98,8 @@ static void make_relative(int nodes, element_type *out)
     out->memory = NULL;
     out->strain = places_strain;
     out->stress = relative_stress;
+    out->strain_many = NULL; /* it asks the formulation nothing */
+    out->stress_many = given->force_many != NULL ? relative_stress_many : NULL;
     out->geometric = relative_geometric;
 }
 
@@ -114,7 +135,7 @@ status adapters_complete(const element_type *given, const double options[], elem
         return STATUS_OK;
     wrap(given, out);
     if (given->force != NULL)
-        make_relative(element_nodes(given, options), out);
+        make_relative(given, element_nodes(given, options), out);
     return STATUS_OK;
 }
 

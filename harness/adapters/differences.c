@@ -3,6 +3,7 @@
 
 #include "harness/adapters/adapted.h"
 #include "harness/adapters/chart.h"
+#include "harness/adapters/gather.h"
 #include "harness/adapters/stencil.h"
 
 /* Where differences are taken. */
@@ -11,6 +12,7 @@ typedef struct place {
     const node_state *x;
     const double *s;                /* for second derivatives */
     differences_jacobian *jacobian; /* of the strains, where there is one */
+    gather *together;               /* strains of all moved states at once; NULL: each by itself */
 } place;
 
 static void moved(const place *at, int i, double si, int j, double sj, node_state out[])
@@ -21,12 +23,25 @@ static void moved(const place *at, int i, double si, int j, double sj, node_stat
     chart_move(at->x, at->data->nodes, step, out);
 }
 
+/* Zero while there is none. */
+static void copy_answer(const double *answer, int count, double values[])
+{
+    if (answer != NULL)
+        memcpy(values, answer, (size_t)count * sizeof *values);
+    else
+        memset(values, 0, (size_t)count * sizeof *values);
+}
+
 static int strains_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    moved(at, i, si, j, sj, x);
-    at->data->given->strain(adapted_own(at->data), x, &(strain_output){.e = values});
+    if (at->together == NULL || !at->together->answered)
+        moved(at, i, si, j, sj, x);
+    if (at->together == NULL)
+        at->data->given->strain(adapted_own(at->data), x, &(strain_output){.e = values});
+    else
+        copy_answer(gather_next(at->together, adapted_own(at->data), x), at->data->strains, values);
     return 0;
 }
 
@@ -49,8 +64,12 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
     const int n = NODE_COORDINATES * at->data->nodes;
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     node_state x[ELEMENT_MAX_NODES];
-    moved(at, i, si, j, sj, x);
-    at->jacobian(at->data, x, J);
+    if (at->together == NULL || !at->together->answered)
+        moved(at, i, si, j, sj, x);
+    if (at->together == NULL)
+        at->jacobian(at->data, x, J);
+    else
+        copy_answer(gather_next(at->together, adapted_own(at->data), x), at->data->strains * n, J);
     for (int c = 0; c < n; c++) {
         values[c] = 0;
         for (int k = 0; k < at->data->strains; k++)
@@ -89,15 +108,14 @@ static void second(const place *at, double H[])
         }
 }
 
-void differences_curvature(const element_data *d, const node_state x[],
-                           differences_jacobian *jacobian, const double s[], double H[])
+static void curvature(const place *at, double H[])
 {
-    const place at = {.data = d, .x = x, .s = s, .jacobian = jacobian};
+    const element_data *d = at->data;
     const int n = NODE_COORDINATES * d->nodes;
     double column[ELEMENT_MAX_COORDINATES];
     memset(H, 0, (size_t)(n * n) * sizeof *H);
     for (int j = 0; j < n; j++) {
-        stencil_first(forces_at, &at, n, j, column);
+        stencil_first(forces_at, at, n, j, column);
         for (int i = 0; i < n; i++) { /* the symmetric part: that of the exponential chart */
             const double half = column[i] * per_unit(d, j) / 2;
             H[i * n + j] += half;
@@ -106,28 +124,111 @@ void differences_curvature(const element_data *d, const node_state x[],
     }
 }
 
+void differences_curvature(const element_data *d, const node_state x[],
+                           differences_jacobian *jacobian, const double s[], double H[])
+{
+    curvature(&(place){.data = d, .x = x, .s = s, .jacobian = jacobian}, H);
+}
+
 static void given_jacobian(const element_data *d, const node_state x[], double J[])
 {
     d->given->strain(adapted_own(d), x, &(strain_output){.J = J});
 }
 
-void differences_strain(const element_data *d, const node_state x[], strain_output *out)
+static int leaves_j(const element_data *d)
 {
-    const element_type *t = d->given;
-    const place at = {.data = d, .x = x, .s = out->s};
-    const int leaves_j = (t->leaves & LEAVES_J) != 0,
-              leaves_h = leaves_j || (t->leaves & LEAVES_H) != 0;
+    return (d->given->leaves & LEAVES_J) != 0;
+}
+
+static int leaves_h(const element_data *d)
+{
+    return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
+}
+
+/* What of it the type gives itself. */
+static strain_output given_part(const element_data *d, const strain_output *out)
+{
     strain_output asked = *out;
-    asked.J = leaves_j ? NULL : out->J;
-    asked.H = leaves_h ? NULL : out->H;
-    asked.s = leaves_h ? NULL : out->s;
-    t->strain(adapted_own(d), x, &asked);
-    if (leaves_j && out->J != NULL)
+    asked.J = leaves_j(d) ? NULL : out->J;
+    asked.H = leaves_h(d) ? NULL : out->H;
+    asked.s = leaves_h(d) ? NULL : out->s;
+    return asked;
+}
+
+/* The rest. */
+static void made_part(const element_data *d, const node_state x[], gather *together,
+                      const strain_output *out)
+{
+    const place at = {
+        .data = d, .x = x, .s = out->s, .jacobian = given_jacobian, .together = together};
+    if (leaves_j(d) && out->J != NULL)
         first(&at, out->J);
-    if (!leaves_h || out->s == NULL || out->H == NULL)
+    if (!leaves_h(d) || out->s == NULL || out->H == NULL)
         return;
-    if (leaves_j)
+    if (leaves_j(d))
         second(&at, out->H);
     else
-        differences_curvature(d, x, given_jacobian, out->s, out->H);
+        curvature(&at, out->H);
+}
+
+/* Of many elements. */
+typedef struct many {
+    const element_data *const *data;
+    const node_state *x;
+    strain_output *out;
+} many;
+
+static void make_one(void *context, gather *together, int i)
+{
+    const many *all = context;
+    const element_data *d = all->data[i];
+    made_part(d, all->x + i * d->nodes, together, &all->out[i]);
+}
+
+static void evaluate_states(void *context, gather *g, int first_state, int count)
+{
+    const many *all = context;
+    strain_output out[GATHER_TOGETHER];
+    for (int i = 0; i < count; i++) {
+        double *answer = g->answer + (size_t)(first_state + i) * g->size;
+        out[i] =
+            leaves_j(all->data[0]) ? (strain_output){.e = answer} : (strain_output){.J = answer};
+    }
+    all->data[0]->given->strain_many(count, g->data + first_state,
+                                     g->x + (size_t)first_state * (size_t)g->nodes, out);
+}
+
+static void give_parts(int count, const many *all)
+{
+    const element_data *own[ADAPTED_TOGETHER];
+    strain_output asked[ADAPTED_TOGETHER];
+    for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
+        const int part = adapted_owns(count - i, all->data + i, own);
+        for (int k = 0; k < part; k++)
+            asked[k] = given_part(all->data[i + k], &all->out[i + k]);
+        all->data[0]->given->strain_many(part, own, all->x + i * all->data[0]->nodes, asked);
+    }
+}
+
+void differences_strain_many(int count, const element_data *const data[], const node_state x[],
+                             strain_output out[])
+{
+    many all = {data, x, out};
+    if (count == 0)
+        return;
+    give_parts(count, &all);
+    const element_data *d = data[0];
+    const int answer = leaves_j(d) ? d->strains : d->strains * NODE_COORDINATES * d->nodes;
+    gather_run(count, d->nodes, (size_t)answer, make_one, evaluate_states, &all);
+}
+
+void differences_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    if (d->given->strain_many != NULL) {
+        differences_strain_many(1, &d, x, out);
+        return;
+    }
+    strain_output asked = given_part(d, out);
+    d->given->strain(adapted_own(d), x, &asked);
+    made_part(d, x, NULL, out);
 }
