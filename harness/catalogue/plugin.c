@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/process/process.h"
+
 static status refuse(const char *path, const char *why, fault *f)
 {
     return fault_set(f, STATUS_REFUSED, "%.100s: %.180s", path, why);
@@ -61,11 +63,16 @@ static status copy(const char *path, const element_type *loaded, const element_t
 
 status plugin_load(const char *path, const element_type **out, fault *f)
 {
+    static const char exec[] = "exec:";
+    if (strncmp(path, exec, sizeof exec - 1) == 0)
+        return process_load(path + sizeof exec - 1, out, f);
     void *file = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (file == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "cannot load %.200s: is it a shared object? A path has a '/': ./mine.so",
-                         dlerror());
+        return fault_set(
+            f, STATUS_REFUSED,
+            "cannot load %.200s: is it a shared object? A path has a '/': ./mine.so; a "
+            "command 'exec:' before it",
+            dlerror());
     const element_type *loaded = dlsym(file, "beamwork_element");
     if (loaded == NULL)
         return refuse(

@@ -8,13 +8,13 @@
 
 #include "harness/algebra/team.h"
 #include "harness/catalogue/formulation_list.h"
-#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/plugin.h"
 #include "harness/command/case_input.h"
 #include "harness/command/help.h"
 #include "harness/command/message.h"
 #include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
+#include "harness/process/process.h"
 #include "harness/request/meshes.h"
 
 static void refuse(const char *text)
@@ -50,12 +50,24 @@ void command_add_formulation(command_request *r, const char *text)
         refuse(f.text);
 }
 
-static void load_formulation(const char *path)
+static void name_element(command_request *r, const char *path)
 {
-    const element_type *type;
-    fault f;
-    if (plugin_load(path, &type, &f) != STATUS_OK || formulations_add(type, &f) != STATUS_OK)
-        refuse(f.text);
+    if (r->elements == FORMULATIONS_MOST_LOADED)
+        refuse("too many --element; give at most 16");
+    r->element[r->elements++] = path;
+}
+
+/* When the time limit is known, which holds for a process that says what it is. */
+static void load_elements(const command_request *r)
+{
+    process_limit(r->time_limit);
+    for (int i = 0; i < r->elements; i++) {
+        const element_type *type;
+        fault f;
+        if (plugin_load(r->element[i], &type, &f) != STATUS_OK ||
+            formulations_add(type, &f) != STATUS_OK)
+            refuse(f.text);
+    }
 }
 
 /* When all options are known: those that --element loads can be named before it. */
@@ -176,9 +188,10 @@ static error_t take(int key, char *value, struct argp_state *state)
         name_formulation(r, value);
         return 0;
     case 'x':
-        load_formulation(value);
+        name_element(r, value);
         return 0;
     case ARGP_KEY_END:
+        load_elements(r);
         add_formulations(r);
         return 0;
     case 'n':

@@ -5,6 +5,7 @@
 #include <argp.h>
 
 #include "harness/catalogue/formulation.h"
+#include "harness/catalogue/formulations.h"
 #include "harness/scene_file/scene_file.h"
 
 enum {
@@ -26,6 +27,8 @@ typedef struct command_request {
     double parameter[CASE_MAX_PARAMETERS];
     const char *assignment[CASE_MAX_PARAMETERS];
     int assignments;
+    const char *element[FORMULATIONS_MOST_LOADED]; /* of --element */
+    int elements;
     const char *named_formulation[COMMAND_MAX_FORMULATIONS]; /* as -f says them */
     int named_formulations;
     formulation formulation[COMMAND_MAX_FORMULATIONS];

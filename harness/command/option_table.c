@@ -5,8 +5,10 @@
 const verb_option option_table[OPTION_MOST] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]",
      "formulation and its options; again for another, 'all' for every one", 0},
-    {"element", 'x', "FILE",
-     "a formulation of your own: a shared object (with a '/': ./mine.so); again for another", 0},
+    {"element", 'x', "FILE|exec:COMMAND",
+     "a formulation of your own: a shared object (with a '/': ./mine.so), or a command that speaks "
+     "the protocol of harness/process ('exec:python3 my_beam.py'); again for another",
+     0},
     {"elements", 'n', "N[,N...]", "elements per member", 0},
     {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another", 0},
     {"format", 'F', "text|json|csv", "form of the output (default text)", 0},

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/adapters/adapters.h"
+#include "harness/process/process.h"
 #include "harness/timing/price.h"
 
 const double reach_level[REACH_LEVELS] = {0.1, 0.01, 0.001, 0.0001};
@@ -77,9 +78,11 @@ int reach_asks(const reach_question *q, int series_index)
     return 1;
 }
 
-static int is_by_differences(const formulation *chosen)
+/* Its time is not that of its equations: they are elsewhere, or differences. */
+static int has_no_rank(const formulation *chosen)
 {
-    return chosen->type != NULL && adapters_words(chosen->type)[0] != '\0';
+    return chosen->type != NULL &&
+           (adapters_words(chosen->type)[0] != '\0' || process_serves(chosen->type));
 }
 
 /* Of one series. 0: it is not within the level in all that is asked. */
@@ -102,7 +105,7 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     }
     if (out->mesh < 0)
         return 0;
-    out->cost = is_by_differences(&one->formulation)
+    out->cost = has_no_rank(&one->formulation)
                     ? INFINITY
                     : price_cost(&one->formulation, &one->cell[out->mesh]);
     return 1;

@@ -13,8 +13,8 @@ extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
 /* A formulation within a level. */
 typedef struct reached {
     int series, mesh; /* index of that mesh */
-    double cost; /* [s] of its counted work; INFINITY: it leaves derivatives to differences, and
-                    ranks behind those that do not */
+    double cost;      /* [s] of its counted work; INFINITY: it leaves derivatives to differences or
+                         is computed by another process, and ranks behind those that do not */
     const verdict *defect; /* the first verdict that is not a pass; NULL: all are */
 } reached;
 

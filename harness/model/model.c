@@ -154,6 +154,11 @@ model_size model_sizes(const model *m)
                         m->strains,  m->inner,    m->kinds, m->features};
 }
 
+const char *model_trouble(const model *m)
+{
+    return m->type->trouble != NULL && m->kinds > 0 ? m->type->trouble(m->kind[0].data) : NULL;
+}
+
 int model_stresses(const model *m)
 {
     return m->elements * m->strains + SPRING_STRAINS * m->springs;

@@ -50,6 +50,10 @@ double model_length(const model *);
 /* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
 int model_left_out(const model *, const char *const **lines);
 
+/* Why nothing that was evaluated counts: what the formulation says of itself
+ * (element_type.trouble), once; NULL: nothing is wrong. */
+const char *model_trouble(const model *);
+
 /* Work done so far; the solver adds its own. */
 typedef struct counters {
     long strain_evaluations, stress_evaluations, inertia_evaluations;

@@ -6,6 +6,7 @@
 #include "harness/adapters/adapters.h"
 #include "harness/catalogue/formulation.h"
 #include "harness/catalogue/formulations.h"
+#include "harness/process/process.h"
 #include "harness/schema/fields_keys.h"
 
 static const element_type *type_of(const subject *s)
@@ -111,6 +112,11 @@ static void get_differences(const subject *s, field_value *out)
     schema_set_text(out, adapters_words(type_of(s)));
 }
 
+static void get_process(const subject *s, field_value *out)
+{
+    out->whole = process_serves(type_of(s));
+}
+
 static void get_is_new(const subject *s, field_value *out)
 {
     out->whole = formulations_is_new(type_of(s));
@@ -129,6 +135,8 @@ static const schema_field fields[] = {
     {"lacks", "", FIELD_TEXT, "what it offers in one direction only", .get = get_lacks},
     {"differences", "", FIELD_TEXT, "what it leaves to differences: its times rank nothing",
      .get = get_differences},
+    {"process", "", FIELD_FLAG, "computed by another process: its times rank nothing",
+     .get = get_process},
     {"is_new", "", FIELD_FLAG, "not accepted yet: its verdicts do not gate", .get = get_is_new},
     {"shear_theory", "", FIELD_TEXT, "of shear in stability", .get = get_theory},
     {"statics_least", "1", FIELD_INT, "order of convergence in statics", .get = get_order},

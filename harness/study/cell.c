@@ -75,7 +75,13 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
 {
     model *m = NULL;
     memset(out, 0, sizeof *out);
-    const status outcome = run(request, &m, out, f);
+    status outcome = run(request, &m, out, f);
+    const char *trouble = m != NULL ? model_trouble(m) : NULL;
+    if (trouble != NULL) { /* whatever came of it */
+        outcome = fault_set(f, STATUS_NOT_CONVERGED, "%s", trouble);
+        out->solve.status = outcome;
+        snprintf(out->solve.reason, sizeof out->solve.reason, "%s", trouble);
+    }
     if (outcome != STATUS_OK && out->solve.status == STATUS_OK) {
         out->solve.status = outcome;
         snprintf(out->solve.reason, sizeof out->solve.reason, "%s", f != NULL ? f->text : "");

@@ -1,0 +1,37 @@
+"""A shear-deformable beam of two nodes: strains uniform along the element [m],
+  d = Rm^T (rq - rp) - (l, 0, 0), Rm half way from Rp to Rq, and l log(Rp^T Rq).
+The physics of timoshenko.c beside this file.
+  beamwork converge tapered_cantilever --element 'exec:python3 timoshenko.py' -f all
+"""
+import numpy as np
+
+from beamwork_element import rotation_vector, serve, sinc
+
+
+def prepare(kind):
+    """Its stiffness C [N/m]: sigma = C e."""
+    c, l = kind.section, kind.length
+    # Forces across: shear where it is asked for, and bending that a uniform curvature lacks.
+    shear = l / c.shear_modulus if "shear" in kind.features else 0
+    across_y = shear * c.F[0] + l**3 / (12 * c.young * c.Iz)
+    across_z = shear * c.F[4] + l**3 / (12 * c.young * c.Iy)
+    return np.diag([c.young * c.A / l, 1 / across_y, 1 / across_z, c.shear_modulus * c.It / l**3,
+                    c.young * c.Iy / l**3, c.young * c.Iz / l**3])
+
+
+def strain(kind, r, _u, R, _a):
+    """e[N, 6] from r[N, 2, 3] and R[N, 2, 3, 3]; also of complex steps."""
+    chord = (r[:, 1] - r[:, 0])[:, None, None, :] @ R  # in the axes of both nodes
+    psi = rotation_vector(R[:, 0].swapaxes(1, 2) @ R[:, 1])
+    # Across psi their mean is that of the middle, shortened by c; along it all are the same.
+    angle = np.sqrt((psi * psi).sum(1))[:, None]
+    c, along = np.cos(angle / 2), (psi * chord[:, 0, 0]).sum(1)[:, None]
+    e = (chord[:, 0, 0] + chord[:, 1, 0]) / (2 * c) - sinc(angle / 4)**2 / (8 * c) * along * psi
+    return np.hstack([e - [kind.length, 0, 0], kind.length * psi])
+
+
+serve(prepare, strain, name="timoshenko_py", family="example", strains=6,
+      summary="two nodes, one point, shear-deformable, without warping, in Python",
+      source="Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
+      offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"],
+      shear_theories=["haringx"], limits=["doubly symmetric"])

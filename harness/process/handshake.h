@@ -1,0 +1,22 @@
+/* What a process says of itself: the line of JSON of the protocol (README.md). */
+#ifndef BEAMWORK_HANDSHAKE_H
+#define BEAMWORK_HANDSHAKE_H
+
+#include <stddef.h>
+
+#include "elements/element.h"
+
+enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
+
+typedef struct handshake {
+    element_type type; /* what is data; no function */
+    int whole;         /* 1: energy, force or tangent of whole elements; 0: strains and stresses */
+    element_constants constants; /* of the type */
+} handshake;
+
+/* `who` begins every refusal. What the type points to stays allocated; on refusal a little of it
+ * too: the program ends then. type.constants is left for the owner. REFUSED: what it says is not
+ * the line of the protocol. */
+status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
+
+#endif

@@ -1,0 +1,13 @@
+/* A command line as words. */
+#ifndef BEAMWORK_WORDS_H
+#define BEAMWORK_WORDS_H
+
+#include "elements/shared/status.h"
+
+enum { WORDS_MOST = 63 };
+
+/* *words: NULL-terminated, to be freed at once with what they point to. Blanks part words; quotes '
+ * and " keep blanks. REFUSED: none, too many, a quote that does not end; FAULT: memory. */
+status words_split(const char *command, char ***words, fault *f);
+
+#endif
