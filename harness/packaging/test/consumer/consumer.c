@@ -23,12 +23,13 @@ int model_alloc(void)
     return 1;
 }
 
-static int failed(const char *what, bw_status status, char *why)
+/* After a call that has set *why. */
+static int failed(bw_status status, char **why)
 {
     if (status == BW_OK)
         return 0;
-    fprintf(stderr, "%s: %s: %s\n", what, bw_status_name(status), why != NULL ? why : "");
-    bw_free_text(why);
+    fprintf(stderr, "%s: %s\n", bw_status_name(status), *why);
+    bw_free_text(*why);
     return 1;
 }
 
@@ -36,13 +37,13 @@ static int show(const bw_scene *scene, const char *formulation, int elements)
 {
     bw_result *result = NULL;
     char *why = NULL, *json = NULL;
-    if (failed("solve", bw_solve(scene, formulation, elements, NULL, &result, &why), why))
+    if (failed(bw_solve(scene, formulation, elements, NULL, &result, &why), &why))
         return 1;
     for (int i = 0; i < bw_result_quantities(result); i++) {
         const char *name = bw_result_name(result, i);
         printf("%s %.17g %s\n", name, bw_result_value(result, name), bw_result_unit(result, i));
     }
-    if (failed("json", bw_result_json(result, &json, &why), why))
+    if (failed(bw_result_json(result, &json, &why), &why))
         return 1;
     printf("%s", json);
     bw_free_text(json);
@@ -55,12 +56,11 @@ int main(void)
     bw_scene *scene = NULL;
     char *why = NULL;
     printf("version %s\n", bw_version());
-    if (failed("truths", bw_truths(NULL, &why), why) ||
-        failed("case", bw_scene_case("c_column", &scene, &why), why) ||
-        show(scene, "beamw_consistent", 4))
+    if (failed(bw_truths(NULL, &why), &why) ||
+        failed(bw_scene_case("c_column", &scene, &why), &why) || show(scene, "beamw_consistent", 4))
         return 1;
     bw_scene_free(scene);
-    if (failed("scene", bw_scene_read(leaf, strlen(leaf), "leaf", &scene, &why), why) ||
+    if (failed(bw_scene_read(leaf, strlen(leaf), "leaf", &scene, &why), &why) ||
         show(scene, NULL, 0))
         return 1;
     bw_scene_free(scene);
