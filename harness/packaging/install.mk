@@ -5,6 +5,8 @@ LIBDIR ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 SHAREDIR ?= $(PREFIX)/share
 DATADIR := $(SHAREDIR)/beamwork
+# Where Debian's Python looks for modules of that prefix.
+PYTHONDIR ?= $(PREFIX)/lib/python$(if $(filter /usr,$(PREFIX)),3,$(shell $(PYTHON) -I -c 'import sys; print("%d.%d" % sys.version_info[:2])'))/dist-packages
 
 # Programs that are not beside their data look there.
 $(BUILD)/prefix: FORCE
@@ -13,10 +15,10 @@ $(BUILD)/harness/truth/data_place.o: $(BUILD)/prefix
 $(BUILD)/harness/truth/data_place.o: DEFINES := -DBEAMWORK_DATA='"$(DATADIR)"'
 
 .PHONY: install uninstall
-install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR= where they differ
-	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" \
+install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR=, PYTHONDIR= where they differ
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		VERSION="$(VERSION)" LIBS="$(DEP_LIBS)" harness/packaging/install.sh "$(BUILD)"
 
 uninstall: ## remove what install wrote, with the same DESTDIR and PREFIX
-	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" \
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		harness/packaging/uninstall.sh

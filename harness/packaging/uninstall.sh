@@ -9,7 +9,7 @@ while IFS= read -r file; do
     count=$((count + 1))
 done <"$list"
 rm -f "$list"
-for folder in "$SHAREDIR/beamwork" "$INCLUDEDIR/beamwork" "$LIBDIR/cmake/beamwork" "$SHAREDIR/doc/beamwork"; do
+for folder in "$SHAREDIR/beamwork" "$INCLUDEDIR/beamwork" "$LIBDIR/cmake/beamwork" "$SHAREDIR/doc/beamwork" "$PYTHONDIR/beamwork"; do
     [ ! -d "$DESTDIR$folder" ] || find "$DESTDIR$folder" -depth -type d -empty -delete
 done
 echo "removed $count files below ${DESTDIR:-}$PREFIX"

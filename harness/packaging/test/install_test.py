@@ -149,6 +149,14 @@ class Installed(ProgramTest):
                                   source.stem, "-n", "4")
             self.assertIn("w_over_L", text)
 
+    def test_python(self):
+        """The module, from its own place; it finds the library and its truths."""
+        module, = self.root.glob("lib/python3*/dist-packages")
+        text = self.installed("-B", "-c", "import beamwork as bw; print(bw.Scene.case('c_column')"
+                              ".solve('beamw', 4).errors['buckling_load'])",
+                              program="/usr/bin/python3", PYTHONPATH=str(module))
+        self.assertGreater(abs(float(text)), 0)
+
     def test_report(self):
         program = str(self.root / "bin" / "beamwork-report")
         self.installed("verify", "-k", "elastica/default and collocation", "-o", "r.h5")
@@ -177,6 +185,7 @@ class Installed(ProgramTest):
         self.assertEqual([path for path in place.rglob("*") if not path.is_dir()], [])
         again = make("uninstall", f"DESTDIR={place}", "PREFIX=/usr/local")
         self.assertNotEqual(again.returncode, 0)
+        self.assertFalse((place / "usr" / "local" / "share" / "beamwork").exists())
         self.assertIn("nothing is installed", again.stdout)
 
     def test_nothing_is_written_at_work(self):
