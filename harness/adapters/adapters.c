@@ -139,6 +139,13 @@ status adapters_complete(const element_type *given, const double options[], elem
     return STATUS_OK;
 }
 
+double adapters_error(const element_type *given)
+{
+    if (given->force != NULL && given->leaves & LEAVES_FORCE)
+        return 1e-10;
+    return given->force != NULL || given->leaves != 0 ? 1e-11 : 0;
+}
+
 const char *adapters_words(const element_type *given)
 {
     if (given->force != NULL && given->leaves & LEAVES_FORCE)

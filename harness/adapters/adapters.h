@@ -10,6 +10,10 @@
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
+/* Relative error that differences leave in its stiffness, as measured on beams
+ * (test/adapters_test.c); 0: it leaves nothing to them. */
+double adapters_error(const element_type *given);
+
 /* In a few words what the type leaves to differences; "" where that is nothing. */
 const char *adapters_words(const element_type *given);
 

@@ -212,7 +212,7 @@ static void forces_only(const element_type *given, const section *c)
         double bound, buckling;
     } way[] = {{0, "force and tangent", 1e-10, 1e-9},
                {LEAVES_TANGENT, "force", 1e-9, 1e-9},
-               {LEAVES_FORCE | LEAVES_TANGENT, "energy", 1e-7, 1e-7}};
+               {LEAVES_FORCE | LEAVES_TANGENT, "energy", 1e-9, 1e-7}};
     for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
         const element_type bare = by_force(given, way[i].leaves);
         subject part;
