@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/ahead.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/linear_springs.h"
 
@@ -16,17 +17,16 @@ typedef struct linear_element {
         S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
 } linear_element;
 
-static status evaluate(const model *m, int i, linear_element *out)
+static status evaluate(model *m, int i, linear_element *out)
 {
     const mesh_element *el = &m->element[i];
-    const element_data *data = m->kind[el->kind].data;
     double e[ELEMENT_MAX_STRAINS] = {0}, inner[1] = {0};
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, el, x);
-    m->type->strain(data, x, &(strain_output){.e = e, .J = out->J});
-    return m->type->stress(data, e,
-                           m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
-                           &(stress_output){.C = out->S});
+    ahead_strain(m, i, x, &(strain_output){.e = e, .J = out->J});
+    return ahead_stress(m, i, e,
+                        m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
+                        &(stress_output){.C = out->S});
 }
 
 /* J, S of an element are evaluated once and kept in the model: the undeformed state never changes.
@@ -67,7 +67,16 @@ static status not_evaluated(const model *m, int i, status outcome, fault *f)
         i, m->element[i].member, m->type->name);
 }
 
-status linear_stiffness(model *m, sparse *K, fault *f)
+/* What no element has yet is evaluated for all together. */
+static void begin(model *m)
+{
+    if (m->undeformed != NULL)
+        return;
+    ahead_strains(m, m->rest, AHEAD_E | AHEAD_J, NULL);
+    ahead_stresses(m, NULL, m->rest->inner);
+}
+
+static status stiffness_elements(model *m, sparse *K, fault *f)
 {
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     sparse_zero(K);
@@ -82,8 +91,17 @@ status linear_stiffness(model *m, sparse *K, fault *f)
         eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
         assemble_matrix(pattern_of(m, K), i, k, K);
     }
-    linear_springs_stiffness(m, K);
     return STATUS_OK;
+}
+
+status linear_stiffness(model *m, sparse *K, fault *f)
+{
+    begin(m);
+    const status outcome = stiffness_elements(m, K, f);
+    ahead_end(m);
+    if (outcome == STATUS_OK)
+        linear_springs_stiffness(m, K);
+    return outcome;
 }
 
 /* J x of one element. */
@@ -111,19 +129,20 @@ status linear_stresses(model *m, const double x[], double sigma[], fault *f)
 
 void linear_forces(model *m, const double sigma[], double f[])
 {
+    ahead_strains(m, m->rest, AHEAD_J, NULL);
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
-        const element_data *data = m->kind[m->element[i].kind].data;
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, m->rest, &m->element[i], x);
-        m->type->strain(data, x, &(strain_output){.J = J});
+        ahead_strain(m, i, x, &(strain_output){.J = J});
         m->counters.strain_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                 &sigma[(size_t)i * (size_t)m->strains], force);
         eliminate_forces(m, m->rest, &m->element[i], force);
         assemble_vector(&m->element[i], force, f);
     }
+    ahead_end(m);
     linear_springs_forces(m, sigma + m->elements * m->strains, f);
 }
 
@@ -134,7 +153,7 @@ static void geometric_of(model *m, int i, const double sigma[], double H[], doub
     const element_data *data = m->kind[el->kind].data;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, el, x);
-    m->type->strain(data, x, &(strain_output){.J = J, .s = sigma, .H = H});
+    ahead_strain(m, i, x, &(strain_output){.J = J, .s = sigma, .H = H});
     if (m->type->geometric != NULL)
         m->type->geometric(data, sigma, G);
     else
@@ -150,6 +169,7 @@ status linear_geometric_stiffness(model *m, const double sigma[], double path, s
     if (out->symmetric)
         TRY(loads_have_potential(m, m->rest, path, f));
     sparse_zero(out);
+    ahead_strains(m, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++) {
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
@@ -162,6 +182,7 @@ status linear_geometric_stiffness(model *m, const double sigma[], double path, s
         eliminate_matrix(m, m->rest, &m->element[i], force, H);
         assemble_matrix(pattern_of(m, out), i, H, out);
     }
+    ahead_end(m);
     loads_subtract_stiffness(m, m->rest, path, out);
     linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
     return STATUS_OK;
@@ -249,8 +270,10 @@ static double geometric_energy2(model *m, int i, const double sigma[], const dou
 double linear_geometric_energy2(model *m, const double sigma[], const double x[])
 {
     double sum = 0;
+    ahead_strains(m, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++)
         sum += geometric_energy2(m, i, &sigma[(size_t)i * (size_t)m->strains], x);
+    ahead_end(m);
     return sum + linear_springs_geometric_energy2(m, sigma + m->elements * m->strains, x);
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/ahead.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 #include "harness/model/discrete.h"
@@ -27,45 +28,45 @@ model_slot linearise_slot(const model *m, int element)
 static status compatible_element(model *m, model_state *s, int i)
 {
     const mesh_element *el = &m->element[i];
-    const element_data *data = m->kind[el->kind].data;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
     double *e = &s->e[(size_t)i * (size_t)m->strains],
            *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
-    m->type->strain(data, x, &(strain_output){.e = e});
+    ahead_strain(m, i, x, &(strain_output){.e = e});
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
-    return m->type->stress(data, e, &s->inner[(size_t)i * (size_t)m->inner],
-                           &(stress_output){.sigma = sigma});
+    return ahead_stress(m, i, e, &s->inner[(size_t)i * (size_t)m->inner],
+                        &(stress_output){.sigma = sigma});
 }
 
 status linearise_make_compatible(model *m, model_state *s, fault *f)
 {
-    for (int i = 0; i < m->elements; i++) {
-        const status outcome = compatible_element(m, s, i);
+    status outcome = STATUS_OK;
+    ahead_strains(m, s, AHEAD_E, NULL);
+    ahead_stresses(m, NULL, s->inner);
+    for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
+        outcome = compatible_element(m, s, i);
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
-                             m->element[i].member, m->type->name);
+            fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
+                      m->element[i].member, m->type->name);
     }
-    return STATUS_OK;
+    ahead_end(m);
+    return outcome;
 }
 
 /* Fills the slot; H: sum sigma_i H_i of the element in the state of its nodes x. */
 static status evaluate(model *m, const model_state *s, int i, const node_state x[], model_slot *w,
                        double H[])
 {
-    const mesh_element *el = &m->element[i];
-    const element_data *data = m->kind[el->kind].data;
     const double *e = &s->e[(size_t)i * (size_t)m->strains];
     double deformed[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
-    m->type->strain(
-        data, x,
-        &(strain_output){.e = deformed,
-                         .J = w->J,
-                         .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL,
-                         .H = H});
-    const status outcome = m->type->stress(
-        data, e, &s->inner[(size_t)i * (size_t)m->inner],
+    ahead_strain(m, i, x,
+                 &(strain_output){.e = deformed,
+                                  .J = w->J,
+                                  .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL,
+                                  .H = H});
+    const status outcome = ahead_stress(
+        m, i, e, &s->inner[(size_t)i * (size_t)m->inner],
         &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
     for (int k = 0; k < m->strains; k++)
         w->incompatibility[k] = deformed[k] - e[k];
@@ -193,7 +194,7 @@ static status add_discrete(model *m, const model_state *s, model_linearisation *
     return STATUS_OK;
 }
 
-status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
+static status linearise_elements(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
     element_part own, *part = &own;
     const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
@@ -230,6 +231,16 @@ status linearise_state(model *m, const model_state *s, model_linearisation *lin,
         loads_subtract_stiffness(m, s, lin->path, lin->K);
     phases_lap(&m->phases, PHASE_ASSEMBLY);
     return STATUS_OK;
+}
+
+status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
+{
+    const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
+    ahead_strains(m, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
+    ahead_stresses(m, s->e, s->inner);
+    const status outcome = linearise_elements(m, s, lin, f);
+    ahead_end(m);
+    return outcome;
 }
 
 void linearise_node_force(model *m, const model_state *s, int node, double F[6])

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/ahead.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/discrete.h"
 
@@ -29,8 +30,10 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
 status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)
 {
     const mesh_pattern *p = &m->pattern[G->row == m->pattern[1].matrix.row];
+    status outcome = STATUS_OK;
     sparse_zero(G);
-    for (int i = 0; i < m->elements; i++) {
+    ahead_strains(m, s, AHEAD_H, s->sigma);
+    for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         const mesh_element *el = &m->element[i];
         const model_slot w = linearise_slot(m, i);
         const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
@@ -38,15 +41,17 @@ status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, faul
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
-        m->type->strain(m->kind[el->kind].data, x, &(strain_output){.s = sigma, .H = H});
+        ahead_strain(m, i, x, &(strain_output){.s = sigma, .H = H});
         m->counters.strain_evaluations++;
         if (m->rotates) {
-            TRY(rotating_frame_add(m, x, i, s->path, present, H, f));
+            outcome = rotating_frame_add(m, x, i, s->path, present, H, f);
         }
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
         eliminate_matrix(m, s, el, present, H);
         assemble_matrix(p, i, H, G);
     }
+    ahead_end(m);
+    TRY(outcome);
     discrete_geometric(m, s, s->path, G);
     loads_subtract_stiffness(m, s, s->path, G);
     return STATUS_OK;

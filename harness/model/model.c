@@ -142,6 +142,7 @@ void model_free(model *m)
     free(m->driver_coordinate);
     free(m->work);
     free(m->undeformed);
+    free(m->ahead);
     free(m->part);
     team_free(m->team);
     kinematics_state_free(m->rest);

@@ -71,6 +71,18 @@ typedef struct mesh_pattern {
     int *place; /* in matrix.value */
 } mesh_pattern;
 
+/* Strains and stresses evaluated for all elements at once: harness/equations/ahead.h. */
+typedef struct mesh_ahead {
+    int what, stresses; /* what of the strains, and whether the stresses, are valid */
+    const element_data **data;
+    const double **at, **inner;
+    node_state *x;
+    strain_output *strain;
+    stress_output *stress;
+    status *outcome;
+    double *e, *sigma, *J, *H, *C, *memory;
+} mesh_ahead;
+
 /* One element's equations in model coordinates. */
 typedef struct element_part {
     status outcome;
@@ -116,6 +128,7 @@ struct model {
     team *team;         /* of the loop over elements; NULL: one thread */
     element_part *part; /* [elements] what the team computes before it is added up in order; NULL
                            without a team */
+    mesh_ahead *ahead;  /* one block; NULL: nothing has been evaluated ahead */
     int lines;
     char **line; /* what was left out */
 };
