@@ -198,5 +198,5 @@ int cli_solve(int count, char **arguments)
         "changes by more than 0.1 % from the mesh before: the output says both."
         "\vbeamwork solve elastica\n"
         "beamwork solve c_column -f beamw -n 8 --set section_data=printed",
-        "fnsFoKSPRVtTYL", count, arguments, solve_request);
+        "fnsFoKSPRVtTYL.", count, arguments, solve_request);
 }

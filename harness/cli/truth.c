@@ -187,5 +187,5 @@ int cli_truth(int count, char **arguments)
         "or these parameters, or a scene of your own, "
         "2 refused, 4 file, disk or memory."
         "\vbeamwork truth elastica --set load=3",
-        "sTY", count, arguments, truth_request);
+        "sTY.", count, arguments, truth_request);
 }

@@ -4,6 +4,7 @@
 
 #include "harness/algebra/clock.h"
 #include "harness/cli/cli.h"
+#include "harness/command/own_tables.h"
 #include "harness/command/scenes.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/families.h"
@@ -221,6 +222,7 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
         TRY(files_check_input(r, own->path[i], f));
     for (int i = 0; i < r->beside_count; i++)
         TRY(files_check_input(r, r->beside[i], f));
+    TRY(own_tables_check(r, f));
     TRY(scenes_truths(own, r, t, f));
     TRY(verification_run(&request, t, s, f));
     for (int i = 0; i < r->beside_count; i++)
@@ -266,5 +268,5 @@ int cli_verify(int count, char **arguments)
         "until then is in files named .partial"
         "\vbeamwork verify -k \"c_column and collocation\"\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvqp", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvqpW.", count, arguments, verify_request);
 }

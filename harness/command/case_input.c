@@ -6,6 +6,7 @@
 
 #include "harness/catalogue/case_find.h"
 #include "harness/command/message.h"
+#include "harness/command/own_tables.h"
 #include "harness/truth/data_place.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
@@ -88,13 +89,22 @@ const char *case_input_truths_path(const command_request *r)
     return found;
 }
 
+static status add_truths(const command_request *r, truths *t, fault *f)
+{
+    const case_type *type = r->scene != NULL       ? scene_file_case(r->scene)
+                            : r->case_name != NULL ? case_find(r->case_name, f)
+                                                   : NULL;
+    if (r->scene != NULL)
+        TRY(scene_file_truths_add(r->scene, r->parameter, t, f));
+    else
+        TRY(truths_read_case(case_input_truths_path(r), type, t, f));
+    return own_tables_truths(r, (const case_type *const[]){type, NULL}, type, t, f);
+}
+
 status case_input_truths(const command_request *r, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
-    if (r->scene == NULL)
-        return truths_read_case(case_input_truths_path(r),
-                                r->case_name != NULL ? case_find(r->case_name, f) : NULL, t, f);
-    const status outcome = scene_file_truths_add(r->scene, r->parameter, t, f);
+    const status outcome = add_truths(r, t, f);
     if (outcome != STATUS_OK)
         truths_free(t);
     return outcome;

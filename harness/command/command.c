@@ -107,7 +107,7 @@ static void refuse_again(command_request *r, int key, const struct argp_state *s
     char message[160];
     while (o->name != NULL && o->key != key)
         o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fxnsYB", key) != NULL)
+    if (o->name == NULL || o->arg == NULL || strchr("fxnsYBTW", key) != NULL)
         return;
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
@@ -147,11 +147,23 @@ static void add_path(const char *path, int most, const char *list[], int *count)
 {
     if (*count == most)
         refuse(most == 1 ? "--scene is given twice; give it one value"
-                         : "too many --scene or --beside; give a folder, import files together");
+                         : "too many files of one option; give a folder, join tables");
     for (int i = 0; i < *count; i++)
         if (strcmp(list[i], path) == 0)
-            refuse("--scene or --beside is given twice with one path; give it once");
+            refuse("an option is given twice with one path; give it once");
     list[(*count)++] = path;
+}
+
+/* Tables stand beside the packed truths, of which there is one file. */
+static void add_truths(command_request *r, const char *path)
+{
+    const size_t length = strlen(path);
+    if (r->takes_tables && length > 4 && strcmp(path + length - 4, ".csv") == 0)
+        add_path(path, COMMAND_MAX_CASES, r->own_truths, &r->own_truths_count);
+    else if (r->truths != NULL)
+        refuse("--truths is given twice with packed truths; give one, and tables (.csv) beside");
+    else
+        r->truths = path;
 }
 
 static error_t take_plain(int key, const char *value, command_request *r)
@@ -205,6 +217,12 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'Y':
         add_path(value, r->most_scenes, r->scene_path, &r->scene_count);
+        return 0;
+    case 'T':
+        add_truths(r, value);
+        return 0;
+    case 'W':
+        add_path(value, COMMAND_MAX_CASES, r->findings, &r->findings_count);
         return 0;
     case 'F':
         if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)
@@ -271,6 +289,7 @@ void command_parse(const char *verb, const char *arguments_doc, const char *doc,
     out->refusal = EXIT_REFUSED;
     out->format = "text";
     out->most_arguments = most_arguments(keys);
+    out->takes_tables = strchr(keys, '.') != NULL;
     out->most_scenes = strchr(keys, 'I') != NULL ? COMMAND_MAX_CASES : 1;
     out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(name, sizeof name, "beamwork %s", verb);

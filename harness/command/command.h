@@ -54,6 +54,10 @@ typedef struct command_request {
     int reads_files;   /* 1: the arguments are files that are read */
     const char *beside[COMMAND_MAX_CASES]; /* stored imports: contestants of a run */
     int beside_count;
+    const char *own_truths[COMMAND_MAX_CASES]; /* tables beside the packed truths */
+    const char *findings[COMMAND_MAX_CASES];   /* tables beside the ledger */
+    int own_truths_count, findings_count;
+    int takes_tables;   /* 1: --truths may name tables too; the verb lists the key '.' */
     const char *map;    /* of columns without a header */
     int gate;           /* 1: their verdicts count */
     const char *to;     /* program that a deck is for */

@@ -62,8 +62,12 @@ const verb_option option_table[OPTION_MOST] = {
     {"plant", 'X', "PERCENT",
      "make the other slower by that much, to see whether the comparison finds it", 0},
     {"truths", 'T', "FILE",
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)",
-     offsetof(command_request, truths)},
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program); "
+     "verify, solve, converge, bench and truth also take a FILE.csv: truths of your own beside "
+     "them, again for another",
+     0},
+    {"findings", 'W', "FILE.csv",
+     "findings of your own beside the ledger: new formulations gate by them; again for another", 0},
     {"scene", 'Y', "FILE",
      "a scene of your own in YAML, in the place of a case (verify: or a folder of them; again for "
      "another)",

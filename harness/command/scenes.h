@@ -16,7 +16,8 @@ typedef struct scenes {
  * ends in NULL. Not EXIT_AS_EXPECTED: an exit code, after messages; no two are of one name. */
 int scenes_read(const command_request *, scenes *out);
 void scenes_free(scenes *);
-/* The built-in truths where those cases are wanted, the ledger, and the truths of each file. */
+/* The built-in truths where those cases are wanted, the ledger, the truths of each file, and the
+ * tables of one's own project. */
 status scenes_truths(const scenes *, const command_request *, truths *t, fault *f);
 
 #endif

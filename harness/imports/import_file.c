@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
-#include "harness/imports/line.h"
+#include "harness/language/line.h"
 
 typedef enum column {
     QUANTITY,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
-#include "harness/imports/line.h"
+#include "harness/language/line.h"
 
 static const char *name_at(const void *context, int i)
 {

@@ -10,6 +10,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/judge/agreements.h"
 #include "harness/judge/coverage.h"
+#include "harness/judge/missed.h"
 #include "harness/judge/sound.h"
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
@@ -116,6 +117,12 @@ static int imports_inform(const series *one)
     return one->imported != NULL && !one->imported->gates;
 }
 
+/* Of a formulation that does not gate yet? */
+static int is_new(const series *one)
+{
+    return one->imported == NULL && formulations_is_new(one->formulation.type);
+}
+
 /* Has a series that was imported a value of the quantity at all? */
 static int is_imported(const series *one, int quantity)
 {
@@ -138,7 +145,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
         v->matches = 1;
         return;
     }
-    if (formulations_is_new(s->series[index].formulation.type)) {
+    if (is_new(&s->series[index])) {
         v->needs_finding = !v->matches && v->truth != NULL;
         out->is_new += v->truth != NULL && v->kind != VERDICT_SKIP;
         out->proposed += v->needs_finding;
@@ -202,11 +209,9 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     }
 }
 
-/* What a whole run should have shown and did not. */
+/* Truths that a whole run should have met and did not. */
 static void count_missed(const truths *t, judgement *out)
 {
-    for (int i = 0; i < t->rules; i++)
-        out->unobserved += !rules_is_observed(&t->rule[i]);
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         const int elsewhere =
@@ -235,6 +240,7 @@ status judgement_make(const sweep *s, truths *t, int whole, judgement *out, faul
             TRY(check_cells(s, i, out, f));
     }
     TRY(coverage_count(s, out, f));
+    out->unobserved = missed_rules(s, t, whole);
     if (whole)
         count_missed(t, out);
     return STATUS_OK;

@@ -43,7 +43,8 @@ typedef struct judgement {
     int proposed;   /* ... and those among them that would need a finding */
     int disagreements;
     int judged; /* verdicts that compare with a truth */
-    /* rules of the ledger that no verdict showed, or predictions of theirs (whole runs only) */
+    /* rules that no verdict showed, or predictions of theirs: of the ledger (whole runs only), of
+     * one's own (missed.h) */
     int unobserved;
     int unmet; /* truths that speak of no case, point or quantity there is (whole runs only) */
     /* truths that every formulation skips, or of one that is not here (whole runs only) */

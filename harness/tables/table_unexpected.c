@@ -137,9 +137,10 @@ static void print_rules(FILE *to, const truths *t, int *number)
 {
     for (int i = 0; i < t->rules; i++) {
         const rule *r = &t->rule[i];
-        if (rules_is_observed(r))
+        if (!r->missed)
             continue;
-        print_heading(to, ++*number, "finding %s %s", r->name,
+        print_heading(to, ++*number, "finding %s%s%s%s %s", r->name, r->from != NULL ? " (" : "",
+                      r->from != NULL ? r->from : "", r->from != NULL ? ")" : "",
                       r->observed == 0 ? "was not observed"
                                        : "names a prediction that no verdict met");
         paragraph_say(to, 0, INDENT, "formulations: %s", r->formulations);

@@ -13,7 +13,7 @@
 #include "harness/model/model.h"
 #include "harness/truth/columns.h"
 
-enum { WORD = 128 };
+enum { WORD = RULES_WORD };
 
 /* The next word of a text; returns where the rest begins, or NULL at the end. */
 static const char *next_word(const char *text, const char *separators, char word[WORD])
@@ -146,32 +146,43 @@ int rules_is_observed(const rule *r)
 }
 
 /* Does some case that the rule speaks of have the term's parameter, with such values? */
-static int term_means_something(const rule *r, const term *t)
+static int term_means_something(const rule *r, const term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;
-    for (int k = 0; registry_cases[k] != NULL && !found; k++) {
-        const int i = parameter_index(registry_cases[k]->parameters, t->parameter);
+    for (int k = 0; cases[k] != NULL && !found; k++) {
+        const int i = parameter_index(cases[k]->parameters, t->parameter);
         char word[WORD];
         const char *values = t->values;
-        found = i >= 0 && list_has(r->cases, registry_cases[k]->name);
+        found = i >= 0 && list_has(r->cases, cases[k]->name);
         while (found && (values = next_word(values, "|", word)) != NULL)
-            found = isfinite(value_of(parameter_at(registry_cases[k]->parameters, i), word));
+            found = isfinite(value_of(parameter_at(cases[k]->parameters, i), word));
     }
     return found;
+}
+
+int rules_bad_condition(const rule *r, const case_type *const cases[], char word[RULES_WORD])
+{
+    term t;
+    for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
+        if (!term_parse(word, &t) || !term_means_something(r, &t, cases))
+            return 1;
+    return 0;
+}
+
+const char *rules_next_word(const char *list, char word[RULES_WORD])
+{
+    return next_word(list, " ", word);
 }
 
 static status check_rule(const columns *c, const rule *r)
 {
     char word[WORD];
-    term t;
-    for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
-        if (!term_parse(word, &t) || !term_means_something(r, &t))
-            return fault_set(
-                c->f, STATUS_FAULT,
-                "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor compares a "
-                "parameter of its cases; correct reference/findings.csv and build again",
-                c->path, r->name, word);
-    return STATUS_OK;
+    if (!rules_bad_condition(r, registry_cases, word))
+        return STATUS_OK;
+    return fault_set(c->f, STATUS_FAULT,
+                     "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor compares "
+                     "a parameter of its cases; correct reference/findings.csv and build again",
+                     c->path, r->name, word);
 }
 
 static status read_all(columns *c, rule **out)
@@ -216,9 +227,9 @@ status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f
 void rules_free(rule *r, int count)
 {
     for (int i = 0; i < count; i++) {
-        char *const all[] = {r[i].name,      r[i].formulations, r[i].cases,
-                             r[i].condition, r[i].quantities,   r[i].verdicts,
-                             r[i].predicted, r[i].cause,        r[i].proof};
+        char *const all[] = {r[i].name,       r[i].formulations, r[i].cases,     r[i].condition,
+                             r[i].quantities, r[i].verdicts,     r[i].predicted, r[i].cause,
+                             r[i].proof,      r[i].from};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
     }

@@ -20,6 +20,8 @@ typedef struct rule {
     /* relative, of the limit from the derived one, or from the truth where none was derived; beyond
      * it the rule does not explain */
     double largest_error;
+    char *from;        /* of a table of one's own: "file:line"; NULL: of the ledger */
+    int missed;        /* by the judge: 1: the run should have shown it and did not */
     int observed;      /* by the judge: verdicts it explains */
     unsigned foretold; /* by the judge: bits of the predictions that were met */
 } rule;
@@ -42,6 +44,12 @@ int rules_speak_of(const rule *, const char *formulation);
 
 /* Notes that a verdict met a prediction which the rule names. */
 void rules_foretell(rule *, const rule_subject *);
+/* The first term of the condition that is neither a feature nor compares a parameter of its cases,
+ * into word; cases ends with NULL. 0: there is none. */
+enum { RULES_WORD = 128 };
+int rules_bad_condition(const rule *, const case_type *const cases[], char word[RULES_WORD]);
+/* Next word of a list into word; where the rest begins, NULL at the end. */
+const char *rules_next_word(const char *list, char word[RULES_WORD]);
 /* Has a verdict shown it, and verdicts all its predictions? */
 int rules_is_observed(const rule *);
 

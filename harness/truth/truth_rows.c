@@ -48,8 +48,7 @@ static int elements_fit(const truth *row)
     return row->elements >= 0 && (row->elements > 0) == of_formulation;
 }
 
-/* The first column that makes no sense, or NULL. */
-static const char *wrong_column(const truth *row)
+const char *truth_rows_wrong(const truth *row)
 {
     if (!isfinite(row->value))
         return "value";
@@ -115,7 +114,7 @@ static status fill_rows(const columns *r, const case_type *type, const loose_col
         } else
             TRY(check_row(r, type, i, loose->parameters[i], loose->hash[i], row[i].parameter,
                           row[i].any));
-        const char *wrong = wrong_column(&row[i]);
+        const char *wrong = truth_rows_wrong(&row[i]);
         if (wrong != NULL)
             return columns_broken(r, wrong);
     }

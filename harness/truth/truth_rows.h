@@ -5,6 +5,8 @@
 #include "harness/truth/columns.h"
 #include "harness/truth/truths.h"
 
+/* The first column of a row that makes no sense, or NULL. */
+const char *truth_rows_wrong(const truth *row);
 /* row[table->rows], zero before. FAULT: a column that makes no sense, or a row whose case has other
  * defaults by now; what was read stays for truths_free. */
 status truth_rows_read(const columns *table, const case_type *type, truth row[]);

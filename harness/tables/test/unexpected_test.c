@@ -120,6 +120,7 @@ int main(void)
               "    contradicts itself: more steps than iterations\n");
 
     b.j.unobserved = 1;
+    b.known[0].missed = 1;
     holds(&b, "\n 4. finding rule was not observed\n    formulations: element\n"
               "    cases: made_up other_case\n    quantities: load\n    cause: cccc");
 

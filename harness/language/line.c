@@ -1,4 +1,4 @@
-#include "harness/imports/line.h"
+#include "harness/language/line.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -73,8 +73,13 @@ static char *unquoted(char *field)
     const size_t length = strlen(field);
     if (length < 2 || field[0] != '"' || field[length - 1] != '"')
         return field;
-    field[length - 1] = '\0';
-    return field + 1;
+    char *to = field;
+    for (const char *from = field + 1; from < field + length - 1; from++) {
+        from += from[0] == '"' && from[1] == '"' && from + 1 < field + length - 1;
+        *to++ = *from;
+    }
+    *to = '\0';
+    return field;
 }
 
 int line_split(char *line, char *field[], int most)

@@ -6,8 +6,8 @@
 char *line_trim(char *line);
 /* UTF-8 without control characters? */
 int line_is_text(const char *line);
-/* Fields between commas, trimmed, which may stand in quotes; their number, more than `most` where
- * there are too many. The line is cut. */
+/* Fields between commas, trimmed, which may stand in quotes ("" inside them is one quote); their
+ * number, more than `most` where there are too many. The line is cut. */
 int line_split(char *line, char *field[], int most);
 /* Words between blanks; the same. */
 int line_words(char *line, char *word[], int most);

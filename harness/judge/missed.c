@@ -1,0 +1,75 @@
+#include "harness/judge/missed.h"
+
+#include <fnmatch.h>
+#include <string.h>
+
+#include "harness/catalogue/formulations.h"
+#include "harness/catalogue/registry.h"
+
+static int is_run(const sweep *s, const case_type *type, const element_type *element)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].imported == NULL &&
+            (type == NULL || s->point[s->series[i].point].type == type) &&
+            (element == NULL || s->series[i].formulation.type == element))
+            return 1;
+    return 0;
+}
+
+/* Is a formulation of that name with options run? */
+static int key_is_run(const sweep *s, const char *word)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].imported == NULL && fnmatch(word, s->series[i].formulation.key, 0) == 0)
+            return 1;
+    return 0;
+}
+
+/* Everything that the word of a list may mean? */
+static int formulations_are_run(const sweep *s, const char *word)
+{
+    int all = 1, found = 0;
+    if (strchr(word, ':') != NULL)
+        return key_is_run(s, word);
+    for (int i = 0; formulations_at(i) != NULL; i++)
+        if (fnmatch(word, formulations_at(i)->name, 0) == 0) {
+            all &= is_run(s, NULL, formulations_at(i));
+            found = 1;
+        }
+    return all && found;
+}
+
+static int cases_are_run(const sweep *s, const char *word)
+{
+    int all = 1, found = 0;
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        if (fnmatch(word, registry_cases[i]->name, 0) == 0)
+            all &= is_run(s, registry_cases[i], NULL);
+    for (int i = 0; i < s->points; i++)
+        found |= fnmatch(word, s->point[i].type->name, 0) == 0;
+    return all && found;
+}
+
+static int all_is_run(const sweep *s, const rule *r)
+{
+    char word[RULES_WORD];
+    for (const char *at = r->formulations; (at = rules_next_word(at, word)) != NULL;)
+        if (!formulations_are_run(s, word))
+            return 0;
+    for (const char *at = r->cases; (at = rules_next_word(at, word)) != NULL;)
+        if (!cases_are_run(s, word))
+            return 0;
+    return s->select == NULL && s->unfinished == 0;
+}
+
+int missed_rules(const sweep *s, truths *t, int whole)
+{
+    int count = 0;
+    for (int i = 0; i < t->rules; i++) {
+        rule *r = &t->rule[i];
+        const int due = whole || (r->from != NULL && all_is_run(s, r));
+        r->missed = due && !rules_is_observed(r);
+        count += r->missed;
+    }
+    return count;
+}

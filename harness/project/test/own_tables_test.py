@@ -1,0 +1,212 @@
+"""Findings and truths of one's own project beside ours: a private repository can gate by them."""
+import csv
+import subprocess
+
+from harness.test.program import PROGRAM, ROOT, ProgramTest
+
+EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
+RULES = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof"
+ROWS = ("case,parameters,formulation,theory,elements,quantity,at,value,unit,uncertainty,kind,model,"
+        "convention,source")
+RUN = ("-k", "elastica/default or tapered_cantilever/default")
+SCENE = """beamwork: 1
+sections:
+  leaf: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}
+parameters: {length: {value: 0.1, unit: m, min: 0.01, max: 1, about: span}}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip:  {at: [length, 0, 0]}
+members:
+  leaf: {from: base, to: tip, section: leaf, y: [0, 1, 0]}
+loads:
+  push: {force: [0, 0.1, 0], on: tip}
+analyses: {run: {linear: {}}}
+quantities: {dip: {displacement: {analysis: run, node: tip, component: uy}, unit: m}}
+"""
+
+
+class Own(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.class_folder()
+        text = EXAMPLE.read_text(encoding="utf-8")
+        cls.element = {}
+        for name, change in (("right", ""), ("wrong", "1.01 * ")):
+            planted = text.replace("c->young * c->Iy / l3", f"{change}c->young * c->Iy / l3", 1)
+            source = folder / f"{name}.c"
+            source.write_text(planted, encoding="utf-8")
+            cls.element[name] = folder / f"{name}.so"
+            subprocess.run(["cc", "-O2", "-shared", "-fPIC", "-I", ROOT, source, "-o",
+                            cls.element[name]], check=True)
+
+    def write(self, name, head, *lines):
+        path = self.folder / name
+        path.write_text("\n".join([head, *lines]) + "\n", encoding="utf-8")
+        return path
+
+    def verified(self, element, *options, code=0, what=RUN):
+        return self.answered("verify", "--element", self.element[element], "-f", "timoshenko", *what,
+                             *options, code=code)
+
+    def scene(self):
+        path = self.folder / "leaf.yaml"
+        path.write_text(SCENE, encoding="utf-8")
+        return path
+
+    @staticmethod
+    def dip(factor):
+        """A row with the deflection of a slender cantilever, or a multiple of it."""
+        value = 0.1 * 0.1**3 / 3 / (210e9 * 50e-3 * 0.5e-3**3 / 12)
+        return f"leaf,,,,,dip,,{factor * value:.12g},m,{1e-4 * value},exact,same,,beam theory"
+
+    def proposed(self, element):
+        needed = self.folder / "needed.csv"
+        self.verified(element, "--propose", needed)
+        return needed
+
+
+class Findings(Own):
+
+    def test_what_is_proposed_explains(self):
+        """A fault is red by an empty table, and explained by the rules that were proposed."""
+        empty = self.write("empty.csv", RULES)
+        self.verified("right", "--findings", empty)
+        out = self.verified("wrong", "--findings", empty, code=1).stdout
+        self.assertIn("wrong limit, expected pass", out)
+        self.assertNotIn("(new)", out)
+        needed = self.proposed("wrong")
+        with open(needed, newline="", encoding="utf-8") as rows:
+            self.assertIn("wrong limit", {r["verdicts"] for r in csv.DictReader(rows)})
+        self.verified("wrong", "--findings", needed)
+
+    def test_beyond_the_largest_error(self):
+        needed = self.proposed("wrong")
+        text = needed.read_text(encoding="utf-8").replace('"wrong limit",0.0', '"wrong limit",0.00')
+        self.assertNotEqual(text, needed.read_text(encoding="utf-8"))
+        small = self.folder / "small.csv"
+        small.write_text(text, encoding="utf-8")
+        self.assertIn("of finding", self.verified("wrong", "--findings", small, code=1).stdout)
+
+    def test_a_rule_nobody_shows(self):
+        """Told where all that it speaks of was run, with its place in the file."""
+        rule = "old,collocation,leaf,,*,wrong limit,0.1,,once,paper"
+        truths = self.write("t.csv", ROWS, self.dip(1))
+        run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
+        path = self.write("f.csv", RULES, rule)
+        self.answered(*run, "--findings", path, "-k", "dip")  # of a part: it may lie outside
+        out = self.answered(*run, "--findings", path, code=1).stdout
+        self.assertIn(f"finding old ({path}:2) was not observed", " ".join(out.split()))
+        for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
+            other = self.write("o.csv", RULES, rule.replace(*change))  # others may show it
+            self.answered(*run, "--findings", other)
+
+    def test_several(self):
+        files = [self.write("empty.csv", RULES), self.proposed("wrong")]
+        for first, second in (files, files[::-1]):
+            self.verified("wrong", "--findings", first, "--findings", second)
+
+    def test_refused(self):
+        good = "a,timoshenko,elastica,,*,wrong limit,0.1,,cause,proof"
+        for words, line in (
+                (("2:2", "did you mean 'timoshenko'"), good.replace("timoshenko", "timoshenk")),
+                (("2:3", "did you mean 'elastica'"), good.replace("elastica", "elastca")),
+                (("2:4", "neither a feature"), good.replace("elastica,", "elastica,lod=3")),
+                (("2:5", "did you mean 'w_over_L'"), good.replace("*", "w_ovr_L")),
+                (("2:6", "did you mean 'wrong limit'"), good.replace("wrong limit", "wrong limt")),
+                (("2:6", "no verdict"), good.replace("wrong limit", "pass")),
+                (("2:7", "largest_error"), good.replace("0.1", "-0.1")),
+                (("2:8", "prediction"), good.replace("0.1,", "0.1,elastca/w_over_L")),
+                (("2:9", "needs cause"), good.replace("cause", "")),
+                (("2:1", "one word"), good.replace("a,", "a b,", 1)),
+                (("2:1", "the ledger"), good.replace("a,", "J66-shear,", 1)),
+                (("2:1", "fields"), good + ",more"), (("2:1", "quotes"), good + '"')):
+            with self.subTest(line=line):
+                self.refused(2, ("f.csv:", *words), "verify", "--element", self.element["right"],
+                             "--findings", self.write("f.csv", RULES, line))
+        self.refused(2, ("f.csv:1:1", "first line"), "verify", "--findings",
+                     self.write("f.csv", "rule,case"))
+        self.refused(2, ("2:2", "1 more"), "verify", "--findings", self.write(
+            "f.csv", RULES, good, good.replace("a,", "b,", 1)))
+        self.refused(4, "cannot be read", "verify", "--findings", self.folder / "none.csv")
+        path = self.write("f.csv", RULES)
+        self.refused(2, "is read", "verify", "--findings", path, "--propose", path)
+
+
+class Repository(Own):
+    """The lines of the README, in a folder of a project."""
+
+    def test_gate_of_a_repository(self):
+        readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        lines = [line.split("#")[0].split() for line in readme.splitlines()
+                 if line.startswith(("beamwork/build/beamwork verify --element ./mine.so",
+                                     "cc -O2 -shared -fPIC -I beamwork mine.c"))]
+        self.assertEqual(len(lines), 3)
+        (self.folder / "truths.csv").write_text(
+            f"{ROWS}\n{Truths.row.format(at='load=0.6', value=0.1923502802)}\n", encoding="utf-8")
+        text = EXAMPLE.read_text(encoding="utf-8").replace('"timoshenko"', '"mine"')
+        codes = []
+        for planted in ("", "1.01 * "):
+            (self.folder / "mine.c").write_text(
+                text.replace("c->young * c->Iy / l3", f"{planted}c->young * c->Iy / l3", 1),
+                encoding="utf-8")
+            for line in lines if not planted else lines[::2]:
+                codes.append(self.called(line))
+        self.assertEqual(codes, [0, 0, 0, 0, 1])
+
+    def called(self, words):
+        """A line with the places of this clone; two cases are enough."""
+        program = [str(ROOT) if w == "beamwork" else w for w in words]
+        if program[0].endswith("/beamwork"):
+            program = [PROGRAM, *program[1:], "-k", "elastica or tapered_cantilever/default"]
+        return subprocess.run(program, cwd=self.folder, check=False, capture_output=True).returncode
+
+
+class Truths(Own):
+    row = "elastica,{at},,,,w_over_L,,{value},1,1e-9,independent,same,,my program"
+
+    def test_beside(self):
+        """A point of one's own is run, and judged by its value alone."""
+        for value, code in ((0.5, 1), (0.1923502802, 0)):
+            path = self.write("t.csv", ROWS, self.row.format(at="load=0.6", value=value))
+            out = self.answered("verify", "-k", "elastica/load=0.6 and w_over_L", "-f",
+                                "collocation", "--truths", path, "-v", code=code).stdout
+            self.assertIn("load=0.6", out)
+
+    def test_several_in_all_verbs(self):
+        paths = [self.write(f"{i}.csv", ROWS, self.row.format(at=f"load=0.{i}", value=0.2))
+                 for i in (6, 7)]
+        both = [word for path in paths for word in ("--truths", path)]
+        for i in (6, 7):
+            out = self.answered("truth", "elastica", "--set", f"load=0.{i}", *both).stdout
+            self.assertIn("my program", out)
+        out = self.record("converge", "elastica", "--set", "load=0.6", "-f", "collocation", *both)
+        self.assertEqual(out["series"][0]["quantities"][0]["truth"], 0.2)
+
+    def test_of_a_scene(self):
+        for factor, code in ((1, 0), (1.1, 1)):
+            path = self.write("t.csv", ROWS, self.dip(factor))
+            self.answered("verify", "--scene", self.scene(), "-f", "collocation", "--truths", path,
+                          code=code)
+
+    def test_refused(self):
+        good = self.row.format(at="load=0.6", value=0.5)
+        for words, line in (
+                (("2:1", "did you mean 'elastica'"), good.replace("elastica", "elastca")),
+                (("2:2", "did you mean 'load'"), good.replace("load", "lod")),
+                (("2:3", "did you mean 'beamw'"), good.replace("0.6,,,,", "0.6,beamv,,4,")),
+                (("2:4", "theory"), good.replace("0.6,,,", "0.6,,euler,")),
+                (("2:5", "elements"), good.replace("0.6,,,,", "0.6,,,4,")),
+                (("2:6", "did you mean 'w_over_L'"), good.replace("w_over_L", "w_ovr_L")),
+                (("2:8", "finite"), good.replace("0.5", "nan")),
+                (("2:9", "'1'"), good.replace("0.5,1", "0.5,m")),
+                (("2:10", "uncertainty"), good.replace("1e-9", "-1e-9")),
+                (("2:11", "kind"), good.replace("independent", "guess")),
+                (("2:12", "model"), good.replace("same", "mine")),
+                (("2:14", "source"), good.replace("my program", "")),
+                (("2:6", "there already"), good.replace("load=0.6", "").replace(
+                    "independent", "exact"))):
+            with self.subTest(line=line):
+                self.refused(2, ("t.csv:", *words), "verify", "--truths",
+                             self.write("t.csv", ROWS, line))
+        self.refused(2, "packed truths", "verify", "--truths", "a.h5", "--truths", "b.h5")
