@@ -27,6 +27,9 @@ class Judged:
         self.assertEqual([line for line in lines if line.startswith('#include "')],
                          ['#include "elements/element.h"'])
 
+    def test_keeps_the_contract(self):
+        self.answered("element-test", "--element", self.object)
+
     def test_judged_like_the_others(self):
         """Ten cases, statics, vibration and buckling."""
         record = self.folder / "v.json"
@@ -64,3 +67,48 @@ class Ancf(Judged, PluginTest):
     cases = ("elastica", "sprung_beam", "lateral_buckling", "loaded_cantilever", "roll_up",
              "rotating_cantilever", "snap_through", "tapered_cantilever", "tip_body",
              "weighted_column")
+
+
+class Planted(PluginTest):
+    """What an author gets wrong is told by what he runs first, `element-test`, or by `verify`."""
+
+    def broken(self, example, change, *words):
+        made = self.altered(example, change)
+        told = " ".join(self.answered("element-test", "--element", made, code=1).stdout.split())
+        for word in words:
+            self.assertIn(word, told)
+
+    def test_sign_of_forces(self):
+        """RHS in the place of F."""
+        self.broken("corotational.c", ("F[i] = n * r[i]", "F[i] = -n * r[i]"),
+                    "displacement along x of node 1", "the energy's derivative is")
+
+    def test_sign_in_the_tangent(self):
+        self.broken("corotational.c", ("spin(-1, F + b", "spin(1, F + b"), "differences of F give")
+
+    def test_no_geometric_stiffness_by_moments(self):
+        self.broken("corotational.c", ("add(N, N, 3, 1, Pk, HP, K);", ""), "rotation about",
+                    "differences of F give")
+
+    def test_rotations_in_the_wrong_axes(self):
+        self.broken("corotational.c", ("- S[k][i]) / 2", "- S[k][3 * (i % 3) + i / 3]) / 2"),
+                    "rotation about z of node 2", "the energy's derivative is")
+
+    def test_energy_that_turning_changes(self):
+        self.broken("ancf.c", ("(size - 1) * (size - 1)", "(first[0] - 1) * (first[0] - 1)"),
+                    "a rigid turn", "measure strains in axes that turn with the element")
+
+    def test_energy_of_one_end(self):
+        self.broken("ancf.c", ("carried(x[1].R, t, dt, y[1])", "carried(x[0].R, t, dt, y[1])"),
+                    "with its nodes exchanged")
+
+    def test_axes_exchanged(self):
+        """No contradiction in itself: another beam, which verify sees."""
+        made = self.altered("ancf.c", ("ky = dot(section_y", "ky = dot(section_z"),
+                            ("kz = dot(section_z", "kz = dot(section_y"))
+        record = self.folder / "v.json"
+        self.answered("verify", "--element", made, "-f", "ancf", "-k",
+                      "tapered_cantilever/default", "--json", record)
+        wrong = {v["quantity"] for v in read_json(record)["verdicts"]
+                 if v["verdict"] == "wrong limit"}
+        self.assertEqual(wrong, {"deflection_y", "deflection_z", "slope_y", "slope_z"})
