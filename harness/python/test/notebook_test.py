@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 import unittest
 from unittest import mock
 
@@ -38,8 +39,7 @@ class Notebook(ModuleTest):
         import nbclient  # pylint: disable=import-outside-toplevel
         import nbformat  # pylint: disable=import-outside-toplevel
         notebook = nbformat.read(NOTEBOOK, as_version=4)
-        settings = {**SETTINGS, "MPLCONFIGDIR": str(self.folder), "IPYTHONDIR": str(self.folder)}
-        with mock.patch.dict(os.environ, settings):
+        with mock.patch.dict(os.environ, self.settings()):
             nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3",
                                     resources={"metadata": {"path": str(FOLDER)}}).execute()
         code = [cell for cell in notebook.cells if cell.cell_type == "code"]
@@ -55,6 +55,41 @@ class Notebook(ModuleTest):
             self.assertIn(word, limits)
         self.assertTrue(any("for 1 % in every quantity" in text and "sheet_third n = 1 (" in text
                             for text in told))
+
+    @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
+    def test_interrupted(self):
+        """A kernel, which has threads of its own, verifies in processes; interrupted, these end and
+        the scene goes on."""
+        from jupyter_client.manager import run_kernel  # pylint: disable=import-outside-toplevel
+        with mock.patch.dict(os.environ, self.settings()), run_kernel() as client:
+            self.assertEqual(self.asked(client, "import beamwork as bw, numpy, os\n"
+                                        "numpy.linalg.inv(numpy.eye(400) + 1)\n"
+                                        "s = bw.Scene.case('elastica')\n"
+                                        "assert s.verify('collocation', jobs=2).passed"), "ok")
+            long = client.execute("print('go'); bw.verify(doublings=3)")
+            while client.get_iopub_msg(timeout=60)["msg_type"] != "stream":
+                pass
+            time.sleep(0.5)
+            client.parent.interrupt_kernel()
+            self.assertEqual(self.reply(client, long), "KeyboardInterrupt")
+            time.sleep(0.5)  # requests that were waiting at the interrupt are refused by Jupyter
+            self.assertEqual(self.asked(client, "assert s.solve('beamw', 1)['w_over_L'] > 0"), "ok")
+            self.assertEqual(self.asked(client, "os.waitpid(-1, os.WNOHANG)"), "ChildProcessError")
+
+    def settings(self):
+        return {**SETTINGS, "MPLCONFIGDIR": str(self.folder), "IPYTHONDIR": str(self.folder),
+                "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
+
+    @staticmethod
+    def reply(client, request):
+        """How a request ended: ok, or the name of an exception."""
+        while True:
+            message = client.get_shell_msg(timeout=100)
+            if message["parent_header"].get("msg_id") == request:
+                return message["content"].get("ename", message["content"]["status"])
+
+    def asked(self, client, code):
+        return self.reply(client, client.execute(code))
 
     @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
     def test_as_a_script(self):
