@@ -41,7 +41,10 @@ check() {
     verify) timeout 300 build/beamwork verify -j 2 "$@" ;;
     compare) build/beamwork verify -k "elastica/default" -o "$work/after.h5"; build/beamwork compare "$work/before.h5" "$work/after.h5" ;;
     test) built "build/$1" && BEAMWORK_TRUTHS=build/truths.h5 timeout 300 "build/$1" ;;
-    python) BEAMWORK=build/beamwork BEAMWORK_TRUTHS=build/truths.h5 timeout 300 /usr/bin/python3 -m unittest "$@" ;;
+    python)
+        case $1 in harness.python.*) built library || return 98 ;; esac
+        BEAMWORK=build/beamwork BEAMWORK_TRUTHS=build/truths.h5 timeout 300 /usr/bin/python3 -m unittest "$@"
+        ;;
     run) timeout 300 "$@" ;;
     esac
 }

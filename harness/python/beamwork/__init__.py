@@ -70,5 +70,6 @@ def verify(*formulations, select=None, results=None, **options):
     """Verdicts of formulations (none named: all) on the built-in cases.
 
     select: words with and, or, not, as "c_column and not beamw_first"; None: all, minutes.
-    results: an HDF5 file to write.  options: jobs, time_limit [s] of a cell, doublings, shapes."""
+    results: an HDF5 file to write.  options: jobs, time_limit [s] of a cell, doublings, shapes,
+    stop (a file descriptor: once it can be read, the work ends with TimeLimit)."""
     return _verified(None, formulations, select, results, options)

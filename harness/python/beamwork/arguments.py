@@ -56,9 +56,8 @@ def whole_list(values, what):
     return ",".join(str(whole(v, what)) for v in listed).encode()
 
 
-def options(values, **more):
-    """Options as JSON, those of more that are there among them; None where there are none."""
-    values = {**values, **{key: value for key, value in more.items() if value is not None}}
+def options(values):
+    """Options as JSON; None where there are none."""
     try:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None

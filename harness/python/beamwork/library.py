@@ -143,28 +143,35 @@ def owned_by(kind, name, *arguments, entries=()):
     return made
 
 
-def stoppable(work):
-    """What work(descriptor) gives, in a thread beside: Ctrl-C makes the descriptor readable, which
-    ends the library's processes, and is raised here once it has come back."""
-    if threading.current_thread() is not threading.main_thread():
-        return work(None)
-    outcome, (readable, writable) = [], os.pipe()
+def stoppable(work, options):
+    """What work(options) gives, in a thread beside: Ctrl-C makes a descriptor readable that the
+    option stop names, which ends the library's processes, and is raised here once they have.
+    Where stop is given, or in another thread, which gets no Ctrl-C: work(options) itself."""
+    if "stop" in options or threading.current_thread() is not threading.main_thread():
+        return work(options)
+    outcome, done = [], threading.Event()  # Thread.join takes an interrupted thread for an ended one
+    readable, writable = os.pipe()
 
     def run():
         try:
-            outcome.append((work(readable), None))
+            outcome.append((work({**options, "stop": readable}), None))
         except BaseException as error:  # pylint: disable=broad-exception-caught
             outcome.append((None, error))
+        finally:
+            done.set()
 
-    thread = threading.Thread(target=run)
-    thread.start()
+    threading.Thread(target=run).start()
     try:
-        while thread.is_alive():
-            thread.join(0.5)
+        done.wait()
     finally:
-        os.close(writable)  # which can be read, as the end
-        thread.join()
+        os.write(writable, b"x")  # the processes that were forked have it open: an end is not seen
+        while not done.is_set():
+            try:
+                done.wait()
+            except KeyboardInterrupt:  # asked again while it ends
+                pass
         os.close(readable)
+        os.close(writable)
     found, error = outcome[0]
     if error is not None:
         raise error

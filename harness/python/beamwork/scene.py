@@ -19,8 +19,8 @@ def verified(scene, formulations, select, results, options, lines=()):
     chosen, words = arguments.names(formulations, "formulation"), utf8(select, "select")
     into = utf8(results, "results")
     return Verdicts(json.loads(stoppable(
-        lambda stop: text_of("verify", scene, chosen, words, arguments.options(options, stop=stop),
-                             into, entries=lines))))
+        lambda given: text_of("verify", scene, chosen, words, arguments.options(given), into,
+                              entries=lines), options)))
 
 
 class Scene:
@@ -177,16 +177,15 @@ class Scene:
         """The Convergence of formulations (none named: all that can) over meshes (None: the
         scene's own): errors, limits with their uncertainty, orders, and who is soonest.
 
-        options: error (0.01: what `answers` asks for), select ("C_zz or C_xx"), jobs (processes).
-        """
+        options: error (0.01: what `answers` asks for), select ("C_zz or C_xx"), jobs (processes),
+        stop (a file descriptor: once it can be read, TimeLimit)."""
         chosen = arguments.names(formulations, "formulation")
         sizes = arguments.whole_list(meshes, "meshes")
         with self._lock:
-            pointer = self._ready().pointer
+            handle = self._ready()
             return Convergence(json.loads(stoppable(
-                lambda stop: text_of("converge", pointer, chosen, sizes,
-                                     arguments.options(options, stop=stop),
-                                     entries=self._lines))))
+                lambda given: text_of("converge", handle.pointer, chosen, sizes,
+                                      arguments.options(given), entries=self._lines), options)))
 
     def verify(self, *formulations, select=None, results=None, **options):
         """The Verdicts of formulations on this scene by its truths; as beamwork.verify."""

@@ -220,6 +220,20 @@ class Processes(ModuleTest):
             keep.set()
             waiting.join()
 
+    def test_stop(self):
+        """A descriptor that can be read ends converge and verify before they are done."""
+        readable, writable = os.pipe()
+        self.addCleanup(os.close, readable)
+        self.addCleanup(os.close, writable)
+        scene = bw.Scene.case("elastica")
+        self.assertTrue(scene.converge("beamw", meshes=[1, 2], stop=readable))
+        os.write(writable, b"x")
+        many = bw.Scene.case(CASE)  # so many cells that not all are done at once
+        for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
+                     lambda: bw.verify(select=CASE, stop=readable)):
+            self.one_line(bw.TimeLimit, "stopped before", call)
+        self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
+
     def test_interrupt(self):
         """Ctrl-C ends verify and converge with their processes, and a solution when it is done."""
         for call in ("bw.verify(doublings=3)", "while True: s.solve('collocation', 16)",
