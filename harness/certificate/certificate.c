@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "harness/algebra/clock.h"
-#include "harness/certificate/measured.h"
 #include "harness/study/child.h"
 
 enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between looks at the clocks */ };

@@ -4,10 +4,10 @@
 #ifndef BEAMWORK_CERTIFICATE_H
 #define BEAMWORK_CERTIFICATE_H
 
-#include "harness/certificate/measures.h"
+#include "harness/certificate/measured.h"
 #include "harness/contract/checks.h"
 
-enum { CERTIFICATE_MEASURED = 0, CERTIFICATE_PARTS = CHECKS_FAMILIES + CERTIFICATE_MEASURED };
+enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
 /* One part: claims, and, of what is measured, the numbers. */
 typedef struct certificate_part {

@@ -6,7 +6,7 @@
 #include "harness/adapters/adapters.h"
 #include "harness/tables/paragraph.h"
 
-enum { NAME = 14, INDENT = 18 };
+enum { NAME = 14, INDENT = 18, MEASURE = 36, COLUMN = 8 };
 
 static void put_mark(FILE *to, screen look, claim_outcome outcome)
 {
@@ -61,6 +61,63 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
     write_claims(to, look, own, verbose);
 }
 
+/* "exact", "0.35 %", "3e-05 %". */
+static void error_text(double error, char text[COLUMN + 8])
+{
+    const double percent = 100 * fabs(error);
+    if (isnan(error))
+        snprintf(text, COLUMN + 8, "-");
+    else if (fabs(error) < 1e-9)
+        snprintf(text, COLUMN + 8, "exact");
+    else if (percent >= 999)
+        snprintf(text, COLUMN + 8, "%.0e %%", percent);
+    else
+        snprintf(text, COLUMN + 8, percent < 1e-2 ? "%.0e %%" : "%.2g %%", percent);
+}
+
+static int nothing(const measure *one)
+{
+    for (int i = 0; i < one->points; i++)
+        if (!isnan(one->error[i]))
+            return 0;
+    return 1;
+}
+
+static void write_measure(FILE *to, const measure *one, int verbose)
+{
+    const int at = fprintf(to, "    %-*s", MEASURE - 4, one->name);
+    if (nothing(one)) {
+        paragraph_write(to, at, at, one->words);
+        return;
+    }
+    for (int i = 0; i < one->points; i++) {
+        char text[COLUMN + 8];
+        error_text(one->error[i], text);
+        fprintf(to, " %*s", COLUMN - 1, text);
+    }
+    if (!isnan(one->order))
+        fprintf(to, "  %.1f (%d-%d)", one->order, one->least, one->highest);
+    fputs(one->locks ? "  locks\n" : "\n", to);
+    if (verbose && one->words[0] != '\0')
+        paragraph_write(to, fprintf(to, "      "), 6, one->words);
+}
+
+/* What is measured, below a line that says what the columns are. */
+static void write_measures(FILE *to, screen look, const certificate *c, int part, int verbose)
+{
+    const certificate_part *own = &c->part[part];
+    const measure *first = &own->measures.measure[0];
+    fprintf(to, "  %-*s", MEASURE - 2, certificate_part_name(part));
+    for (int i = 1; i < own->measures.count; i++)
+        first = own->measures.measure[i].points > first->points ? &own->measures.measure[i] : first;
+    for (int i = 0; i < first->points; i++)
+        fprintf(to, part == CHECKS_FAMILIES + 1 ? " %*.0e" : " %*.0f", COLUMN - 1, first->at[i]);
+    fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order" : "");
+    for (int i = 0; i < own->measures.count; i++)
+        write_measure(to, &own->measures.measure[i], verbose);
+    write_claims(to, look, &own->claims, verbose);
+}
+
 static void write_verdict(FILE *to, screen look, const certificate *c)
 {
     const int broken = certificate_counted(c, CLAIM_BROKEN),
@@ -85,6 +142,16 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
     for (int i = 0; i < CHECKS_FAMILIES; i++)
         if (!quiet || outcome_of(&c->part[i].claims) == CLAIM_BROKEN)
             write_family(to, look, c, i, verbose);
+    if (!quiet)
+        fputs("measured: errors by numbers of elements (states: 4 of unequal lengths; orders), and "
+              "by "
+              "thickness\n",
+              to);
+    for (int i = CHECKS_FAMILIES; i < CERTIFICATE_PARTS; i++)
+        if (!quiet)
+            write_measures(to, look, c, i, verbose);
+        else
+            write_claims(to, look, &c->part[i].claims, verbose);
 }
 
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,

@@ -13,6 +13,11 @@ typedef struct measured_group {
     measured_run *run;
 } measured_group;
 
-extern const measured_group measured_groups[];
+enum { MEASURED_GROUPS = 3 };
+extern const measured_group measured_groups[MEASURED_GROUPS];
+
+measured_run measured_states;  /* of a cantilever, whose exact solution is known */
+measured_run measured_locking; /* over thickness by length */
+measured_run measured_orders;  /* over the number of elements */
 
 #endif

@@ -12,6 +12,7 @@ typedef struct measure {
     double error[MEASURE_POINTS]; /* relative to the exact value; NAN: none */
     double order;                 /* of the errors; NAN: not asked for, or none is seen */
     int least, highest;           /* orders that the type declares; 0: not asked for */
+    int locks;                    /* 1: the errors grow where it becomes thin */
     char words[MEASURE_WORDS];    /* why there is nothing, or what it comes to */
 } measure;
 

@@ -78,8 +78,12 @@ int cli_element_test(int count, char **arguments)
     return command_run(
         "element-test", "[FORMULATION...|all]",
         "Holds a formulation against the interface: derivatives against differences, energy, "
-        "symmetry, rigid motion, statelessness, memory, mass; each failure says what to mend. Of a "
-        "formulation of your own (--element) it needs no name. Exit status: 0 the contract is "
+        "symmetry, rigid motion, calls without memory, bounds, mass; each failure says what to "
+        "mend. "
+        "And measures what a paper should print of it: uniform and linear states, locking, orders "
+        "of "
+        "convergence. Of a formulation of your own (--element) it needs no name. Exit status: 0 "
+        "the contract is "
         "kept, "
         "1 it is broken, 2 refused, 4 file, disk or memory."
         "\vbeamwork element-test collocation\n"
