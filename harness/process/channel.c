@@ -96,7 +96,7 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     return channel_break(c, why, f);
 }
 
-/* Reads to the end of a line, which must be the last that is there. */
+/* Reads a line; where it is JSON, nothing may stand behind it. */
 static status first_line(channel *c, char line[], fault *f)
 {
     size_t count = 0;
@@ -110,9 +110,10 @@ static status first_line(channel *c, char line[], fault *f)
         if (count == HANDSHAKE_MOST && memchr(line, '\n', count) == NULL)
             return channel_break(c, "its process began with no line of JSON", f);
     }
-    if (line[count - 1] != '\n' || memchr(line, '\n', count - 1) != NULL)
+    char *end = memchr(line, '\n', count);
+    if (end != line + count - 1 && line[0] == '{')
         return breach(c, CHILD_SPOKE, " behind its first line", f);
-    line[count - 1] = '\0';
+    *end = '\0';
     on_one_line(line);
     return STATUS_OK;
 }

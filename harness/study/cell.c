@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/solver/quantity.h"
 
 static status copy_left_out(const model *m, cell_result *out, fault *f)
 {
@@ -71,17 +72,24 @@ void cell_formulation(cell_request *request, const formulation *chosen)
     request->solve.newton = formulation_newton(chosen);
 }
 
+/* Whatever came of it. */
+static status nothing_counts(const char *trouble, solve_result *out, fault *f)
+{
+    out->status = STATUS_NOT_CONVERGED;
+    snprintf(out->reason, sizeof out->reason, "%s", trouble);
+    for (int i = 0; i < out->quantities; i++)
+        quantity_no_value(&out->quantity[i], out->status, trouble);
+    return fault_set(f, out->status, "%s", trouble);
+}
+
 status cell_run(const cell_request *request, cell_result *out, fault *f)
 {
     model *m = NULL;
     memset(out, 0, sizeof *out);
     status outcome = run(request, &m, out, f);
     const char *trouble = m != NULL ? model_trouble(m) : NULL;
-    if (trouble != NULL) { /* whatever came of it */
-        outcome = fault_set(f, STATUS_NOT_CONVERGED, "%s", trouble);
-        out->solve.status = outcome;
-        snprintf(out->solve.reason, sizeof out->solve.reason, "%s", trouble);
-    }
+    if (trouble != NULL)
+        outcome = nothing_counts(trouble, &out->solve, f);
     if (outcome != STATUS_OK && out->solve.status == STATUS_OK) {
         out->solve.status = outcome;
         snprintf(out->solve.reason, sizeof out->solve.reason, "%s", f != NULL ? f->text : "");
