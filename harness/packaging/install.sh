@@ -39,6 +39,7 @@ fill harness/packaging/beamwork-config.cmake.in "$LIBDIR/cmake/beamwork/beamwork
 fill harness/packaging/beamwork-config-version.cmake.in "$LIBDIR/cmake/beamwork/beamwork-config-version.cmake"
 
 for file in harness/python/beamwork/*.py; do put 644 "$file" "$PYTHONDIR/beamwork/${file##*/}"; done
+put 644 elements/examples/beamwork_element.py "$PYTHONDIR/beamwork_element.py"
 
 put 644 "$build/truths.h5" "$data/truths.h5"
 put 644 "$build/peers.h5" "$data/peers.h5"
