@@ -1,5 +1,8 @@
 """Every example of a formulation: compiled as a stranger would, short, and judged on ten cases."""
 import re
+import shutil
+import subprocess
+import unittest
 
 from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
 from harness.test.program import read_json
@@ -67,6 +70,37 @@ class Ancf(Judged, PluginTest):
     cases = ("elastica", "sprung_beam", "lateral_buckling", "loaded_cantilever", "roll_up",
              "rotating_cantilever", "snap_through", "tapered_cantilever", "tip_body",
              "weighted_column")
+
+
+@unittest.skipUnless(shutil.which("gfortran"), "no gfortran")
+class Uel(Judged, PluginTest):
+    """A user element in Fortran; the same beam as that of corotational.c."""
+
+    example = "uel"
+    cases = ("elastica", "sprung_beam", "lateral_buckling", "loaded_cantilever",
+             "rotating_cantilever", "snap_through", "tapered_cantilever", "tip_body",
+             "weighted_column", "right_angle_frame")
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.class_folder()
+        beam, cls.object = folder / "uel_beam.o", folder / "uel.so"
+        subprocess.run(["gfortran", "-O2", "-Wall", "-Wno-unused-dummy-argument", "-Werror", "-fPIC",
+                        "-c", EXAMPLES / "uel_beam.f90", "-o", beam],
+                       check=True)
+        compile_shared(EXAMPLES / "uel.c", cls.object, *WARNINGS, beam, "-lgfortran")
+
+    def test_the_beam_of_the_other_example(self):
+        other = compile_shared(EXAMPLES / "corotational.c", self.folder / "other.so")
+        values = [
+            [q["value"] for q in self.record(
+                "solve", "lee_frame", "--element", made, "-f", name, "-n", "4")["quantities"]
+             if q["value"] is not None]
+            for name, made in ((self.example, self.object), ("corotational", other))
+        ]
+        self.assertGreater(len(values[0]), 3)
+        for one, same in zip(*values, strict=True):
+            self.assertAlmostEqual(one / same, 1, delta=1e-9)
 
 
 class Planted(PluginTest):
