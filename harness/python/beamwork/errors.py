@@ -22,6 +22,10 @@ class Error(Exception):
     result = None
     partial = None  # the library's memory of it
 
+    def __reduce__(self):  # a result stays in its process
+        state = {k: v for k, v in vars(self).items() if k not in ("result", "partial")}
+        return type(self), self.args, state
+
 
 class Refused(Error, ValueError):
     """An input that cannot be meant; mistakes: those of a scene, each a Mistake, in their order."""

@@ -170,7 +170,7 @@ class Scene:
                                        entries=self._lines))
             except Error as error:
                 if error.partial is not None:
-                    error.result = Result(error.partial)
+                    error.result, error.partial = Result(error.partial), None
                 raise
 
     def converge(self, *formulations, meshes=None, **options):

@@ -7,11 +7,10 @@ import numpy
 
 from harness.python.test.module import ModuleTest, bw, leaf
 
-WRITING = bw.scene.scene_text
-
 
 def written(scene):
-    return WRITING({}, scene._entries)[0]  # pylint: disable=protected-access
+    """Its text without the head."""
+    return bw.scene.scene_text({}, scene._entries)[0]  # pylint: disable=protected-access
 
 
 class Building(ModuleTest):

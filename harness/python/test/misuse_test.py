@@ -128,6 +128,9 @@ class Arguments(ModuleTest):
         error = self.one_line(bw.NotConverged, "converge", scene.solve, "beamw_first", 1)
         self.assertIsInstance(error.result, bw.Result)
         self.assertEqual(error.result.cell["status"], "not_converged")
+        again = pickle.loads(pickle.dumps(error))  # as a pool of processes hands it over
+        self.assertEqual((type(again), str(again), again.result),
+                         (bw.NotConverged, str(error), None))
 
     def test_no_pandas(self):
         done = python("import sys; sys.modules['pandas'] = None\nimport beamwork as bw\n"
