@@ -78,12 +78,18 @@ report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify
 ifndef RESULTS
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
+	@test $(BUILD)/elements.json -nt $(PROGRAM) || $(MAKE) --no-print-directory certificates >/dev/null
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
+
+.PHONY: certificates
+# Its status 1 says that a contract is broken, which the report tells.
+certificates: all ## hold every formulation against the interface, and measure what a paper should print; build/elements.json
+	@$(PROGRAM) element-test all --json $(BUILD)/elements.json || [ $$? = 1 ]
 
 stress: all ## drive every formulation to extremes; a table, and build/stress.json
 	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)

@@ -11,6 +11,7 @@ ADDS = (
     ("bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
      "times of the joint and the hexapod beside the published ones"),
     ("causes", ("causes.json", ), "experiments on the causes of the ledger"),
+    ("certificates", ("elements.json", ), "what each formulation keeps of its interface, and can do"),
     ("newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
     ("stress", ("stress.json", ), "every formulation at its extremes"),
     ("mutants", ("mutants.json", ), "planted faults"),

@@ -2,7 +2,7 @@
 import functools
 from dataclasses import dataclass
 
-from reports import answers, data, explanation, formulation_figures, ledger, tally
+from reports import answers, certificates, data, explanation, formulation_figures, ledger, tally
 from reports.case import page_of
 from reports.site import LEVELS, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
@@ -136,11 +136,13 @@ class Known:
     declared: dict  # formulation -> row of /declarations
     ways: dict  # all_ways
     titles: list  # of the errata
+    certified: set  # names of those that have a certificate
 
 
 def gather(site):
     return Known(list(tally.rows(site.cases)), data.read_rules(site.truths),
-                 data.read_declarations(site.results), all_ways(site.cases), ledger.headings())
+                 data.read_declarations(site.results), all_ways(site.cases), ledger.headings(),
+                 certificates.names(site))
 
 
 def pages_of(site):
@@ -176,6 +178,7 @@ def contents(site, key, known):
         "example": example(name, choices),
         "analyses": ANALYSES,
         "choice": CHOICE,
+        "certified": name in known.certified,
         "counts": sorted(counts.items(), key=lambda item: SEVERITY[item[0]]),
         "rules": rules(own, known.rules, known.titles),
         "wrong": [(c, v) for c, v in failing if v is not None and v.verdict in WRONG],

@@ -7,7 +7,7 @@ GROUPS = (
     ("beamwork", ("index.html",)),
     ("Answers", ("answers.html", "explorer.html")),
     ("Cases", ("cases.html", "pictures.html", "paths.html", "rotation.html", "mechanisms.html")),
-    ("Formulations", ("formulations.html", "newton.html")),
+    ("Formulations", ("formulations.html", "certificates.html", "newton.html")),
     ("Profiles", ("profiles.html",)),
     ("Stability", ("stability.html",)),
     ("Papers & errata", ("claims.html", "papers.html", "errata.html")),

@@ -31,6 +31,7 @@ PAGES = (
     "mechanisms",
     "paths",
     "campbell",
+    "certificates",
     "newton",
     "predictions",
     "stability",
