@@ -232,6 +232,7 @@ typedef struct element_type {
     /* e[count][strains], inner[count][inner], outcome[count]. */
     void (*stress_many)(int count, const element_data *const data[], const double *const e[],
                         const double *const inner[], stress_output out[], status outcome[]);
+    /* outcome[count]. */
     void (*force_many)(int count, const element_data *const data[], const node_state x[],
                        force_output out[], status outcome[]);
 

@@ -3,7 +3,14 @@
 man: all ## write the manual pages: build/man; 'man -l build/man/beamwork.1' shows one
 	@mkdir -p $(BUILD)/man
 	@for page in $$($(PROGRAM) help --man); do $(PROGRAM) help --man $$page >$(BUILD)/man/$$page || exit 1; done
-	@harness/packaging/element_page.sh $(VERSION) $(RELEASED) >$(BUILD)/man/beamwork-element.7
+	@for page in $(notdir $(wildcard harness/packaging/*.[0-9])); do harness/packaging/page.sh $$page $(VERSION) $(RELEASED) >$(BUILD)/man/$$page || exit 1; done
 
 api: ## draw the pages of beamwork.h and element.h: build/api/index.html; needs doxygen
 	@harness/packaging/api/pages.sh $(VERSION) $(BUILD)/api
+
+.PHONY: deb deb-check
+deb: ## build Debian packages: build/deb/*.deb; needs debhelper
+	@harness/packaging/deb.sh $(VERSION) $(RELEASED) $(BUILD)/deb
+
+deb-check: deb ## lintian on them, and what is in them used from an empty tree
+	@if ls $(BUILD)/deb/*.deb >/dev/null 2>&1; then harness/packaging/deb_check.sh $(BUILD)/deb; fi

@@ -9,7 +9,6 @@ import sys
 
 COMMENT = re.compile(r"/\*(.*?)\*/", re.DOTALL)
 FEATURE = re.compile(r'\{(FEATURE_\w+),\s*"([^"]+)",\s*"([^"]+)"\}')
-GROUP = re.compile(r"\A\s*((?:Required|Optional)\b[^.:]*)[.:]")
 
 
 def escaped(text):
@@ -45,22 +44,35 @@ def features(source):
     return source
 
 
+def is_alone(code):
+    """Is what follows a declaration that no comment of its own documents?"""
+    declaration = code[:code.find(";") + 1]
+    behind = code[len(declaration):].split("\n", 1)[0]
+    return "/*" not in declaration + behind
+
+
 def groups(source):
-    """Members behind "Required: ..." or "Optional: ..." stand together under these words."""
-    out, is_open = [], False
-    for line in source.split("\n"):
-        text = line.strip().removeprefix("/*").removesuffix("*/")
-        found = GROUP.match(text) if line.startswith("    /*") else None
-        if found:
-            close = "    /**@}*/\n" if is_open else ""
-            name = text.strip().rstrip(".").replace("`", "")
-            line = f"{close}    /**@name {escaped(name)} */\n    /**@{{*/"
-            is_open = True
-        elif is_open and line.startswith("}"):
-            line = "    /**@}*/\n" + line
-            is_open = False
-        out.append(line)
-    return "\n".join(out)
+    """Members behind "Required: ..." or "Optional: ..." stand together under these words; where
+    nothing else is said of the first one, the words document it too."""
+    start = source.find("typedef struct element_type {")
+    end = source.find("} element_type;")
+    if start < 0:
+        return source
+    body, opened = source[start:end], []
+
+    def one(found):
+        text = re.sub(r"\n\s*\*", "", found[1])
+        name = text.rstrip(" .")
+        if "\n" in found[1]:
+            name = re.split(r"[.;]|(?<!Optional)(?<!Required):", text, maxsplit=1)[0]
+        opened.append(name)
+        close = "/**@}*/\n    " if len(opened) > 1 else ""
+        said = f"\n    /*{found[1]}*/" if is_alone(body[found.end():]) else ""
+        title = escaped(name.strip()).replace("`", "")
+        return f"    {close}/**@name {title} */\n    /**@{{*/{said}"
+    body = re.sub(r"^    /\*(\s*(?:Required|Optional)\b.*?)\*/", one, body,
+                  flags=re.MULTILINE | re.DOTALL)
+    return source[:start] + body + ("    /**@}*/\n" if opened else "") + source[end:]
 
 
 def apart(source):
