@@ -268,7 +268,8 @@ static status tangents_of(const element_data *d, const double e[], gather_elemen
 void relative_geometric(const element_data *d, const double sigma[], double G[])
 {
     const int m = d->strains;
-    double C[PLACES_MOST * PLACES_MOST], e[PLACES_MOST], rest[PLACES_MOST] = {0}, most = 0;
+    const double rest[PLACES_MOST] = {0};
+    double C[PLACES_MOST * PLACES_MOST], e[PLACES_MOST] = {0}, most = 0;
     status outcome = tangents_of(d, rest, tangent_there, C);
     memset(G, 0, (size_t)(m * m) * sizeof *G);
     if (outcome == STATUS_OK)
