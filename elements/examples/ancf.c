@@ -1,13 +1,17 @@
-/* A thin beam of the absolute nodal coordinate formulation by its energy alone; forces and
- * stiffness are left to differences. Of that formulation: the line r(x), a cubic by positions and
- * slopes r' of two nodes (Gerstmayr and Shabana, Nonlinear Dyn. 45 (2006)); its energy, by the
- * stretch |r'| - 1 and the curvature |t x t'| per undeformed length, t = r'/|r'| (Gerstmayr and
- * Irschik, J. Sound Vib. 318 (2008)). Not of it: nodes here have rotations, not slopes. A slope has
- * the direction of the node's x axis, which members share as they share its y and z axes, and a
- * length of the element's own, such that the energy of the stretch is least. Twist, which slopes do
- * not have, is the angle between the triads of both nodes carried to t by the smallest rotation
- * (Meier, Popp and Wall, Comput. Methods Appl. Mech. Engrg. 278 (2014)). The mass is lumped: no
- * constant mass matrix of slopes. cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
+/* A thin beam after the absolute nodal coordinate formulation, by its energy alone; its forces and
+ * stiffness are left to differences.
+ *
+ * Of that formulation: the line r(x), a cubic by positions and slopes r' of two nodes (Gerstmayr
+ * and Shabana, Nonlinear Dyn. 45 (2006)); its energy, by the stretch |r'| - 1 and, per undeformed
+ * length, the curvature |t x t'|, t = r'/|r'| (Gerstmayr and Irschik, J. Sound Vib. 318 (2008)).
+ *
+ * Not of it: nodes here have rotations, not slopes. A slope has the direction of the node's x axis,
+ * which neighbours share, and a length of the element's own, such that the energy of the stretch is
+ * least. Twist, which slopes do not have, is the angle between the triads of both nodes carried to
+ * t by the smallest rotation (Meier, Popp and Wall, Comput. Methods Appl. Mech. Engrg. 278 (2014)).
+ * The mass is lumped: no constant mass matrix of slopes.
+ *
+ *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
  *   beamwork verify --element ./ancf.so -f ancf */
 #include <math.h>
 #include <string.h>
