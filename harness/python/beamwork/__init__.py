@@ -19,8 +19,8 @@ The library is libbeamwork.so.0: BEAMWORK_LIBRARY, or beside this module, in lib
 build of the clone that it stands in, beside the program, or where the system looks (beamwork.path).
 
 Threads: other threads run while the library computes; one scene computes one thing at a time.
-Ctrl-C: KeyboardInterrupt comes when the library's call has ended; converge and verify compute in
-processes of their own.
+Ctrl-C ends the processes in which converge and verify compute, with KeyboardInterrupt; a solution
+comes to its end first.
 """
 import json as _json
 

@@ -41,8 +41,8 @@ class Scene:
     springs, motions, loads, analyses, quantities, parts and instances are dicts of entries; truths,
     needs and meshes are lists. Entries may be changed between solutions.
 
-    Mistakes raise Refused, all together (error.mistakes). A scene may be used from several threads,
-    one after the other."""
+    Mistakes raise Refused, all together (error.mistakes). Threads that share a scene wait for each
+    other."""
     __slots__ = ("summary", "source", "_name", "_make", "_written", "_entries", "_values",
                  "_handle", "_lines", "_lock", "__weakref__")
 
