@@ -35,6 +35,11 @@ def percent(error):
     return "0 %" if error == 0 else f"{100 * error:+.2g} %"
 
 
+def of_unit(unit):
+    """Nothing for plain numbers."""
+    return "" if unit == "1" else unit
+
+
 def plain(value):
     if value is None:
         return ""
@@ -55,9 +60,26 @@ def table(head, rows, title=""):
     return "".join(parts) + "</table>"
 
 
-def scene(described, text):
-    return (f"<p>{escape(described)}</p><details><summary>scene file</summary>"
-            f"<pre>{escape(text)}</pre></details>")
+def folded(title, content):
+    return f"<details><summary>{escape(title)}</summary>{content}</details>"
+
+
+def scene(about, text):
+    """What it is and its parameters; quantities and the file unfold."""
+    parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
+                  for p in about["parameters"]]
+    quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]
+    title = f"{about['case']}: {about['summary']}" if about["summary"] else about["case"]
+    shown = (table(("parameter", "value", "unit", "what"), parameters, title)
+             if parameters else f"<p>{escape(title)}</p>")
+    return (shown + folded(f"{len(quantities)} quantities",
+                           table(("quantity", "unit", "what"), quantities)) +
+            folded("scene file", f"<pre>{escape(text)}</pre>"))
+
+
+def mistakes(told):
+    """Those of a scene that cannot be shown otherwise."""
+    return table(("mistakes", ), ((str(m), ) for m in told))
 
 
 def result(shown):
@@ -65,7 +87,7 @@ def result(shown):
     for name, value in shown.values.items():
         error = shown.errors.get(name)
         off = None if error is None else abs(error * value)
-        rows.append((name, known(value, off), shown.units[name], percent(error)))
+        rows.append((name, known(value, off), of_unit(shown.units[name]), percent(error)))
     for name in shown.curves:
         rows.append((name, f"curve of {len(shown.curve(name).x)} points", shown.units[name], ""))
     return table(("quantity", "value", "unit", "error"), rows, str(shown))
@@ -85,7 +107,7 @@ def convergence(shown):
         return percent(record["error"]) or known(record["value"], limit["limit_uncertainty"])
 
     rows = ([r["quantity"], r["formulation"]] + [cell(r, n) for n in meshes] +
-            [known(r["limit"], r["limit_uncertainty"]), r["unit"],
+            [known(r["limit"], r["limit_uncertainty"]), of_unit(r["unit"]),
              significant(r["order"], 3), r["verdict"]] for r in shown.limits)
     head = ["quantity", "formulation", *(f"n = {n}" for n in meshes), "limit", "unit", "order",
             "verdict"]

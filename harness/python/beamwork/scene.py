@@ -7,9 +7,9 @@ from collections.abc import Mapping
 
 from . import arguments, display
 from .arguments import required, utf8
-from .errors import Error
+from .errors import Error, Refused
 from .library import call, owned_by, stoppable, text_of
-from .records import Convergence, Verdicts
+from .records import Convergence, Records, Verdicts
 from .result import Result
 from .writing import ENTRIES, HEAD, LISTS, number, scene_text
 
@@ -142,6 +142,15 @@ class Scene:
                 raise
         return self
 
+    @property
+    def about(self):
+        """What it is, as `beamwork list CASE --format json`: a dict of case, summary, source and
+        Records of parameters (name, unit, value, default, min, max, choices, summary), quantities
+        (name, unit, meaning, is_curve) and formulations (formulation, runs, without)."""
+        with self._lock:
+            told = json.loads(text_of("scene_json", self._ready().pointer, entries=self._lines))
+        return {k: Records(v) if isinstance(v, list) else v for k, v in told.items()}
+
     def write(self, path=None):
         """The scene as a file says it, loops and expressions written out, 17 digits: the text; with
         path: into that file too."""
@@ -213,4 +222,7 @@ class Scene:
         return f"<Scene {self._name}, {kind}{''.join(f', {k}' for k in self._values)}>"
 
     def _repr_html_(self):
-        return display.scene(repr(self)[1:-1], self.write())
+        try:
+            return display.scene(self.about, self.write())
+        except Refused as error:
+            return display.mistakes(error.mistakes or (error, ))

@@ -98,6 +98,14 @@ class Building(ModuleTest):
         told = path.read_text(encoding="utf-8").splitlines()[line - 1][column - 1:]
         self.assertTrue(told.startswith("yong"), told)
 
+    def test_about(self):
+        about = bw.Scene.case("sheet_cantilever").set(length=0.2).about
+        length, = about["parameters"].where(name="length")
+        self.assertEqual((length["value"], length["default"], length["unit"]), (0.2, 0.1, "m"))
+        self.assertEqual([q["name"] for q in about["quantities"] if q["is_curve"]],
+                         ["C_xx_curve", "C_zz_curve"])
+        self.assertIn("tip_uy", [q["name"] for q in leaf().about["quantities"]])
+
     def test_parameters(self):
         scene = bw.Scene.case("sheet_cantilever")
         changed = scene.set(thickness=numpy.float64(0.5e-3), moment_convention="spatial")

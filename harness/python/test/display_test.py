@@ -25,7 +25,9 @@ class Shown(ModuleTest):
     def test_escaped(self):
         scene = leaf()
         scene.summary = HOSTILE
-        self.assertIn(ESCAPED, self.shown(scene))
+        html = self.shown(scene)
+        self.assertIn(ESCAPED, html)
+        self.assertNotIn("<script", html)
         convergence = bw.Scene.case("elastica").converge("beamw", meshes=[1, 2])
         document = copy.deepcopy(convergence.document)
         document["sentence"] = HOSTILE
@@ -62,6 +64,17 @@ class Shown(ModuleTest):
         self.assertIn("curve of 15 points", html)
         self.assertIn("-0.64 %", html)
         self.assertLess(len(html), 6000)
+
+    def test_scene(self):
+        """Parameters with their values; mistakes, where there are some."""
+        html = self.shown(bw.Scene.case("sheet_cantilever").set(thickness=0.00175))
+        for words in ("clamped sheet flexure", "<td>thickness</td><td>0.00175</td><td>m</td>",
+                      "25 quantities", "beamwork: 1"):
+            self.assertIn(words, html)
+        scene = leaf(thicknes="<b>")
+        self.assertIn("rectangle has no key", self.shown(scene))
+        scene.nodes["tip"] = {"at": [float("nan"), 0, 0]}
+        self.assertIn("is nan", self.shown(scene))
 
     def test_convergence_and_verdicts(self):
         html = self.shown(bw.Scene.case("elastica").converge("beamw", "collocation"))
