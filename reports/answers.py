@@ -11,6 +11,7 @@ that only repeat the formulation without their options are left out.
     found.dearer     [Way] the other ones that pass, by cost
     found.defective  [Way] within the level too, but with a verdict that is not a pass, by cost
     found.faster     [Way] of the dearer ones: measured faster than the cheapest in every round
+    found.unranked   [Way] that pass and whose costs rank nothing (Way.unranked says why), by name
     found.missed     [key] not within the level on these meshes
     found.unjudged   [key] without a truth of their theory in all that is asked
 """
@@ -21,6 +22,7 @@ from reports import data
 from reports import verdicts as words
 
 ALL = "all quantities"
+NO_COSTS = "the results have no costs"  # files of before work was priced
 SOUND = ("pass", *words.UNJUDGED)
 
 
@@ -35,6 +37,7 @@ class Way:
     worst: object  # data.Verdict: the worst of those that it takes
     defects: list  # verdicts of them that are not a pass
     priced: bool = True  # by prices of its formulation, not by those of any
+    unranked: str = ""  # why its cost ranks nothing; it has none then
 
     @property
     def seconds(self):
@@ -50,15 +53,17 @@ class Answer:
     dearer: list = field(default_factory=list)
     defective: list = field(default_factory=list)
     faster: list = field(default_factory=list)
+    unranked: list = field(default_factory=list)
     missed: list = field(default_factory=list)
     unjudged: list = field(default_factory=list)
 
     @property
     def ways(self):
-        """All that are within the level: [(Way, rank, tie)]; a defect has no rank."""
+        """All that are within the level: [(Way, rank, tie)]; rank 0: a defect, or unranked."""
         ranked = self.best + self.dearer
         return [(w, i + 1, len(self.best) > 1 and i < len(self.best))
-                for i, w in enumerate(ranked)] + [(w, 0, False) for w in self.defective]
+                for i, w in enumerate(ranked)] + [(w, 0, False)
+                                                  for w in self.unranked + self.defective]
 
 
 def judged(point):
@@ -127,7 +132,8 @@ def way(series, quantities, level):
         return None
     mesh = next(m for m in series.meshes if m.n == max(counts))
     return Way(series.key, mesh.n, mesh.cost, mesh.clock, error_of(mesh, quantities),
-               words.worst(verdicts), [v for v in verdicts if v.verdict not in SOUND], mesh.priced)
+               words.worst(verdicts), [v for v in verdicts if v.verdict not in SOUND], mesh.priced,
+               series.unranked or ("" if math.isfinite(mesh.cost) else NO_COSTS))
 
 
 def words_of(v):
@@ -156,13 +162,15 @@ def answer(point, quantity, level):
             continue
         found = way(series, quantities, level)
         if found is not None:
-            (out.defective if found.defects else sound).append(found)
+            (out.defective if found.defects else
+             out.unranked if found.unranked else sound).append(found)
         elif verdicts_on(series, quantities):
             out.missed.append(series.key)
         elif not series.missing:
             out.unjudged.append(series.key)
     sound.sort(key=by_cost)
     out.defective.sort(key=by_cost)
+    out.unranked.sort(key=lambda w: w.key)
     ties = sum(not w.cost > point.noise * sound[0].cost for w in sound)
     out.best, out.dearer = sound[:ties], sound[ties:]
     out.faster = [w for w in out.dearer if faster(w.clock, sound[0].clock)]
@@ -182,8 +190,8 @@ def differ(a, b):
 
 
 def front(point, quantity):
-    """[(series, mesh)] not beaten in both time and error, by time."""
-    cells = [(s, m) for s in point.series if not s.missing for m in s.meshes
+    """[(series, mesh)] not beaten in both time and error, by time; of what ranks."""
+    cells = [(s, m) for s in point.series if not s.missing and not s.unranked for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
     best, out = math.inf, []
     for series, mesh in sorted(cells, key=lambda c: (c[1].seconds, abs(c[1].errors[quantity]))):

@@ -53,7 +53,10 @@ def points_of(case, keys):
                 found.append([keys.index(series.key), defect_of(verdicts),
                               staying(series, names)])
         asked.append([quantity, found])
-    return {"case": case.name, "meshes": meshes, "asked": asked, "noise": point.noise}
+    words = {keys.index(s.key): s.unranked or answers.NO_COSTS for s in point.series
+             if s.unranked or not any(math.isfinite(m.cost) for m in s.meshes)}
+    return {"case": case.name, "meshes": meshes, "asked": asked, "noise": point.noise,
+            "unranked": words}
 
 
 def short_seconds(value):
@@ -79,7 +82,7 @@ def write(site):
                                  for level in LEVELS])
              for c in cases for quantity in answers_table.asked(c.points[0])[:1]]
     unpriced = sorted({s.key for c in cases for s in c.points[0].series
-                       for m in s.meshes if not m.priced})
+                       for m in s.meshes if not m.priced and not s.unranked})
     site.write("answers.html", "answers.html", table=table, unpriced=unpriced, timed=site.bench is not None,
                points=embedded({"keys": keys, "cases": [points_of(c, keys) for c in cases]}))
     found = answers_table.rows(site.cases)

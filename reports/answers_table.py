@@ -3,7 +3,8 @@
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
 A row for each formulation that is within the tolerance, in the order of its counted work; rank 0:
-its verdict is not a pass, so that it has no place in that order.
+its verdict is not a pass, or its costs rank nothing (`unranked` says why), so that it has no place
+in that order.
 """
 import argparse
 import csv
@@ -15,7 +16,7 @@ import sys
 from reports import answers, data
 
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
-           "error", "rank", "tie", "defect", "priced")
+           "error", "rank", "tie", "defect", "priced", "unranked")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
 LEVELS = tuple(data.REACH)
 ASKED = 4  # columns that say what is asked; the others are of each answer
@@ -44,7 +45,7 @@ def rows(cases, levels=LEVELS, everywhere=False):
                         out.append(dict(zip(COLUMNS, (
                             case.name, point.parameters, quantity, level, w.key, w.n, short(w.cost),
                             short(w.seconds), short(w.error), rank, int(tie), defect,
-                            int(w.priced)))))
+                            int(w.priced), w.unranked))))
     return out
 
 
@@ -78,9 +79,13 @@ def sentence(answer):
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
-    out = told(answer.best) or "not reached by one that passes"
+    out = told(answer.best) or ("" if answer.unranked else "not reached by one that passes")
     if len(answer.best) > 1:
         out += ": within noise of each other"
+    for words in sorted({w.unranked for w in answer.unranked}):
+        ways = [w for w in answer.unranked if w.unranked == words]
+        out += ("; also " if out else "") + (f"within {100 * answer.level:g} %, no rank ({words}): "
+                                             f"{told(ways)}")
     by_words = {}
     for w in answer.defective:
         by_words.setdefault(answers.defect_words(w), []).append(w)

@@ -69,6 +69,11 @@ def figures_of(site, case, index):
     return out
 
 
+def cost_of(cell):
+    """Of a way; without one it stands behind all that have one."""
+    return cell[0].cost if math.isfinite(cell[0].cost) else math.inf
+
+
 def table_of(point, quantity):
     """[(formulation, {level: (way, factor to the cheapest, tie)})]: what each formulation needs for
     each level."""
@@ -78,7 +83,7 @@ def table_of(point, quantity):
         for w, _, tie in found.ways:
             factor = w.cost / found.best[0].cost if found.best else math.nan
             rows.setdefault(w.key, {})[level] = (w, factor, tie)
-    return sorted(rows.items(), key=lambda r: (-len(r[1]), min(w[0].cost for w in r[1].values())))
+    return sorted(rows.items(), key=lambda r: (-len(r[1]), min(map(cost_of, r[1].values())), r[0]))
 
 
 def cheapest_of(point):

@@ -102,6 +102,20 @@ def read_verdict(row):
     return Verdict(**own, reach={level: row[name] for level, name in REACH.items() if row[name]})
 
 
+def unranked(declared):
+    """Why the costs of a formulation rank nothing, by its row of /declarations; else nothing."""
+    if declared.get("differences"):
+        return "by differences"
+    return "in another process" if declared.get("process") else ""
+
+
+def mark(series, declared):
+    """What a formulation declares of itself: what does not rank has no cost."""
+    series.unranked, series.is_new = unranked(declared), bool(declared.get("is_new"))
+    for mesh in series.meshes if series.unranked else []:
+        mesh.cost = math.nan
+
+
 def read_points(group, meshes, units, noise):
     series, points = {}, []
     for row in rows(group, "series"):
@@ -141,10 +155,13 @@ def read_case(path, name, bench=None):
         group = file["cases"][name]
         meshes, units = read_meshes(group)
         read_timings(group, meshes)
+        declared = declarations_in(file)
         case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]),
                     read_points(group, meshes, units, float(file.attrs.get("cost_noise", 1))),
                     rows(group, "coverages"))
         case.parameters = read_words(group, case.points)
+        for one in [s for p in case.points for s in p.series]:
+            mark(one, declared.get(one.key, {}))
     if bench:
         read_bench(bench, name, meshes)
     return case
@@ -218,11 +235,16 @@ def read_rules(path):
     return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
 
-def read_declarations(path):
+def declarations_in(file):
     """{formulation: row of /declarations}; {} for results that were stored without."""
-    with h5py.File(path) as file:
-        found = rows(file, "declarations") if "declarations" in file else []
+    found = rows(file, "declarations") if "declarations" in file else []
     return {row["formulation"]: row for row in found}
+
+
+def read_declarations(path):
+    """The same of a file of results."""
+    with h5py.File(path) as file:
+        return declarations_in(file)
 
 
 def read_glossary(path):

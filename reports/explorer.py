@@ -111,7 +111,7 @@ def looks(site):
 
 def write(site):
     chosen = {"cases": [c.name for c in site.cases], "looks": looks(site), "axes": AXES,
-              "columns": COLUMNS, "extra": style.extra(site.styles.order)}
+              "columns": COLUMNS, "extra": style.extra(site.styles.order), "marks": site.marks}
     site.write("explorer.html", "explorer.html", cases=site.cases,
                chosen=json.dumps(chosen, separators=(",", ":")).replace("<", "\\u003c"))
 

@@ -142,7 +142,7 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
         return {**(marks_of(site, point, series, quantity, meshes, errors) if told else
                    site.styles.of(series.key)), **look}
 
-    panel.plot(x, y, label=series.key, marks=known, **own(known))
+    panel.plot(x, y, label=series.label, marks=known, **own(known))
     if lost:
         panel.plot([x[i] for i in lost], [y[i] for i in lost],
                    **own(lost) | {"linestyle": "none", "hollow": True})

@@ -33,8 +33,10 @@ class Problem:
 
 
 def contestants(cases):
-    """Keys of formulations that were run, without options and kept misprints where it can be."""
-    keys = {s.key for c in cases for p in c.points for s in p.series if not s.missing}
+    """Keys of formulations that were run and whose costs rank, without options and kept misprints
+    where it can be."""
+    keys = {s.key for c in cases for p in c.points for s in p.series
+            if not s.missing and not s.unranked}
     plain = {k for k in keys if ":" not in k and tally.corrected(k) is None}
     return sorted(plain or keys)
 

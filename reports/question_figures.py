@@ -35,7 +35,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
     for i, series in enumerate(point.others):
         pairs = [(where(m), e) for m, e in finite(series, quantity) if where(m) > 0]
         if pairs:  # not everything is said of other programs
-            panel.plot([x for x, _ in pairs], [e for _, e in pairs], label=series.key,
+            panel.plot([x for x, _ in pairs], [e for _, e in pairs], label=series.label,
                        **beside.style(i))
     if abscissa == "elements":
         plots.slope_triangle(panel, shown, quantity)
@@ -104,6 +104,6 @@ def curves(site, point, quantity, name):
         marks = range(0, len(x), max(1, len(x) // 12))
         look = site.points(series.key, names, [(float(x[i]), float(value[i])) for i in marks],
                            f"n = {meshes[-1].n}")
-        panel.plot(x, value, label=f"{series.key}, n = {meshes[-1].n}", marks=marks,
+        panel.plot(x, value, label=f"{series.label}, n = {meshes[-1].n}", marks=marks,
                    **{**look, "markersize": 3})
     return chart.image(site, name)

@@ -108,6 +108,18 @@ class Series:
     verdicts: list
     imported: str = ""  # file of another program that it was read from
     model: str = "beam"
+    unranked: str = ""  # why its costs rank nothing: derivatives by differences, another process
+    is_new: bool = False  # not accepted yet: its verdicts do not gate
+
+    @property
+    def marks(self):
+        """What is said wherever its name stands."""
+        return "; ".join(filter(None, (self.unranked, "new, not gating" if self.is_new else "")))
+
+    @property
+    def label(self):
+        """Its name in a legend."""
+        return f"{self.key} ({self.marks})" if self.marks else self.key
 
 
 @dataclass

@@ -62,6 +62,8 @@ class Site:
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
+        self.marks = {s.key: s.marks for c in self.cases for p in c.points for s in p.series
+                      if s.marks}
         self.navigation, self.sections, self.said = [], [], []
         os.makedirs(folder, exist_ok=True)
         self.write_assets()
@@ -85,6 +87,7 @@ class Site:
                                       defect_words=answers.defect_words,
                                       bar=self.bar,
                                       has_page=self.has_page,
+                                      marks=self.marks,
                                       colour=self.styles.fill,
                                       shape=self.styles.shape,
                                       look_of=style.class_of)

@@ -18,12 +18,12 @@ const reached = (one, found, level) => {
   const out = [];
   for (const [index, defect, errors] of found) {
     const at = errors.findIndex(e => e !== null && e <= level), [n, cost, time, most] = one.meshes[index];
-    if (at >= 0) out.push({ key: data.keys[index], n: n[at], cost: cost[at], time: time[at], most: most[at], error: errors[at], defect });
+    if (at >= 0) out.push({ unranked: one.unranked[index] || "", key: data.keys[index], n: n[at], cost: cost[at], time: time[at], most: most[at], error: errors[at], defect });
   }
   const cost = way => way.cost === null ? Infinity : way.cost;
-  return out.sort((a, b) => Boolean(a.defect) - Boolean(b.defect) || cost(a) - cost(b) || (a.key < b.key ? -1 : 1));
+  return out.sort((a, b) => Boolean(a.defect) - Boolean(b.defect) || Boolean(a.unranked) - Boolean(b.unranked) || cost(a) - cost(b) || (a.key < b.key ? -1 : 1));
 };
-const ties = (list, noise) => list.filter(way => !way.defect && !(way.cost > noise * list[0].cost)).length;
+const ties = (list, noise) => list.filter(way => !way.defect && !way.unranked && !(way.cost > noise * list[0].cost)).length;
 
 const name = way => `${way.key} n\u00a0=\u00a0${way.n}`;
 const beside = (list, cell, level) => {
@@ -31,23 +31,25 @@ const beside = (list, cell, level) => {
     make("div", `also within ${level}, ${words}: ` + list.filter(way => way.defect == words).map(name).join(", "), cell, "beside");
 };
 // Dearer by its counts than the first one, and yet faster in every round of a benchmark.
-const faster = (list, tied) => list.slice(tied).filter(way => tied && !way.defect && way.most !== null && list[0].most !== null && way.most < list[0].time);
+const faster = (list, tied) => list.slice(tied).filter(way => tied && !way.defect && !way.unranked && way.most !== null && list[0].most !== null && way.most < list[0].time);
 const range = values => {
   const known = values.filter(t => t !== null), least = Math.min(...known), most = Math.max(...known);
   return !known.length ? "\u2013" : seconds(least) == seconds(most) ? seconds(least) : seconds(least) + " to " + seconds(most);
 };
 const row = (one, quantity, found, level, percent) => {
-  const list = reached(one, found, level), tied = ties(list, one.noise), line = document.createElement("tr");
+  const list = reached(one, found, level), tied = ties(list, one.noise), loose = list.filter(way => way.unranked && !way.defect), line = document.createElement("tr");
   const place = make("td", "", line);
   make("a", one.case, place).href = one.case + ".html";
   make("div", quantity, place, "beside");
-  const best = make("td", tied ? list.slice(0, tied).map(name).join(", ") : "not reached by one that passes", line, tied ? "" : "skip");
+  const best = make("td", tied ? list.slice(0, tied).map(name).join(", ") : loose.length ? "" : "not reached by one that passes", line, tied ? "" : "skip");
   if (tied > 1) make("div", "within noise of each other", best, "noise");
+  for (const words of [...new Set(loose.map(way => way.unranked))])
+    make("div", `within ${percent}, no rank (${words}): ` + loose.filter(way => way.unranked == words).map(name).join(", "), best, "beside");
   beside(list.filter(way => way.defect), best, percent);
   for (const way of faster(list, tied)) make("div", `measured faster in every round: ${name(way)}, ${seconds(way.time)} to ${seconds(list[0].time)}`, best, "beside");
   make("td", range(list.slice(0, tied).map(way => way.cost)), line);
   make("td", range(list.slice(0, tied).map(way => way.time)), line);
-  make("td", list.slice(tied).filter(way => !way.defect).map(way => `${name(way)} (\u00d7 ${Number((way.cost / list[0].cost).toPrecision(2))})`).join(", ") || "\u2013", line, "beside");
+  make("td", list.slice(tied).filter(way => !way.defect && !way.unranked).map(way => `${name(way)} (\u00d7 ${Number((way.cost / list[0].cost).toPrecision(2))})`).join(", ") || "\u2013", line, "beside");
   body.append(line);
   return tied > 0;
 };

@@ -3,7 +3,7 @@
 "use strict";
 (() => {
 const find = id => document.getElementById(id);
-const { cases, looks, axes, columns: order, extra } = JSON.parse(find("chosen").textContent);
+const { cases, looks, axes, columns: order, extra, marks: signs } = JSON.parse(find("chosen").textContent);
 const form = find("choice"), fields = form.elements, loaded = {}, waiting = {};
 const safe = text => String(text).replace(/[&<>"]/g, c => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" }[c]));
 const numbers = text => text ? text.split(" ").map(word => word == "-" ? NaN : Number(word)) : [];
@@ -61,20 +61,21 @@ function draw() {
   const text = (a, b, said, anchor) => `<text x="${a.toFixed(1)}" y="${b.toFixed(1)}" text-anchor="${anchor}">${safe(said)}</text>`;
   let out = `<path stroke="currentColor" stroke-opacity=".12" d="${xs.map(([v]) => `M${across(v)} ${top}V${bottom}`).join("")}${ys.map(([v]) => `M${left} ${up(v)}H${right}`).join("")}"/>`;
   let marks = "";
+  const abreast = curves.some(({ key }) => signs[key]) ? 2 : 3, said = key => signs[key] ? `${key} (${signs[key]})` : key;
   curves.forEach(({ key, rows }, i) => {
     const [colour, marker, dash] = looks[key];
     marks += `<marker id="explored${i}" markerUnits="userSpaceOnUse" overflow="visible" markerWidth="1" markerHeight="1"><${marker} fill="${colour}" stroke="${colour}"/></marker>`;
     const line = points => `<polyline points="${points}" fill="none" stroke="${colour}" stroke-width="1.6" stroke-dasharray="${dash}" style="marker:url(#explored${i})"/>`;
     out += `<g data-f="${safe(key)}" data-p="${i}">${line(rows.map(r => at(across(r.x), up(r.y))).join(" "))}</g>`;
-    const [a, b] = [left + 260 * (i % 3), bottom + 66 + 18 * Math.floor(i / 3)];
-    out += `<g data-l="${safe(key)}"><path fill="none" pointer-events="all" d="M${a} ${b - 9}h250v17H${a}z"/>${line([at(a, b - 1), at(a + 13, b - 1), at(a + 26, b - 1)].join(" "))}${text(a + 34, b + 3, key, "start")}</g>`;
+    const [a, b] = [left + 780 / abreast * (i % abreast), bottom + 66 + 18 * Math.floor(i / abreast)];
+    out += `<g data-l="${safe(key)}"><path fill="none" pointer-events="all" d="M${a} ${b - 9}h250v17H${a}z"/>${line([at(a, b - 1), at(a + 13, b - 1), at(a + 26, b - 1)].join(" "))}${text(a + 34, b + 3, said(key), "start")}</g>`;
   });
   out += `<path fill="none" stroke="currentColor" d="M${left} ${top}V${bottom}H${right}"/>`;
   out += xs.map(([v, said]) => text(across(v), bottom + 18, said, "middle")).join("") + ys.map(([v, said]) => text(left - 8, up(v) + 4, said, "end")).join("");
   out += text(left + wide / 2, bottom + 38, x_name, "middle");
   const side = error ? `relative error of ${name}` : `${name} [${unit}]`;
   out += `<text transform="translate(14 ${top + tall / 2}) rotate(-90)" text-anchor="middle">${safe(side)}</text>`;
-  const high = bottom + 66 + 18 * Math.ceil(curves.length / 3), first = extra.filter(key => curves.some(curve => curve.key == key));
+  const high = bottom + 66 + 18 * Math.ceil(curves.length / abreast), first = extra.filter(key => curves.some(curve => curve.key == key));
   const off = curves.length > 8 ? first.slice(-(curves.length - 8)) : [];
   place.innerHTML = `<svg viewBox="0 0 ${right + 14} ${high}" width="${right + 14}" height="${high}" role="img" aria-label="${safe(side)} against ${safe(x_name)}" data-off="${safe(off.join(" "))}" fill="currentColor" font-size="11.5" font-family="'DejaVu Sans',Verdana,sans-serif"><defs>${marks}</defs>${out}</svg>`;
   const columns = ["elements", unit && unit != "1" ? `value [${unit}]` : "value", "error", "time [s]", "cost [s]", "unknowns", "iterations", "verdict"];
