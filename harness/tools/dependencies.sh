@@ -1,6 +1,6 @@
 #!/bin/sh
 # Checks what one command needs, installs what is missing (as root, on Debian), or prints the one line that does.
-# What only single tests use (chromium, gfortran, python3-vtk9) is asked for by nobody: those tests are skipped by name.
+# What only single tests use (chromium, gfortran, octave-cli, python3-vtk9) is asked for by nobody: those tests are skipped by name.
 # usage: dependencies.sh build FLAGS.mk     the compiler's part: libraries; writes their flags
 #        dependencies.sh verify|report|test|truths
 set -eu
