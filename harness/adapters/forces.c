@@ -8,7 +8,7 @@ enum { OUTCOME, ENERGY, FORCES };
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out)
 {
     static const double none[FORCES + ELEMENT_MAX_COORDINATES * (ELEMENT_MAX_COORDINATES + 1)];
-    const size_t n = (size_t)(NODE_COORDINATES * d->nodes);
+    const size_t n = (size_t)NODE_COORDINATES * (size_t)d->nodes;
     if (together == NULL)
         return d->given->force(adapted_own(d), x, out);
     const double *answer = gather_next(together, adapted_own(d), x);

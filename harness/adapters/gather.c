@@ -9,7 +9,7 @@ static int make_room(gather *g)
 {
     const int room = g->room > 0 ? 2 * g->room : 256;
     const size_t count = (size_t)room, nodes = (size_t)g->nodes;
-    const element_data **data = realloc(g->data, count * sizeof *data);
+    const element_data **data = realloc(g->data, count * sizeof(void *));
     if (data == NULL)
         return 0;
     g->data = data;

@@ -33,9 +33,9 @@ static int allocate(model *m)
         return m->ahead != NULL;
     mesh_ahead *a = m->ahead = part(&block, 1, sizeof *a);
     memset(a, 0, sizeof *a);
-    a->data = part(&block, n, sizeof *a->data);
-    a->at = part(&block, n, sizeof *a->at);
-    a->inner = part(&block, n, sizeof *a->inner);
+    a->data = part(&block, n, sizeof(void *));
+    a->at = part(&block, n, sizeof(void *));
+    a->inner = part(&block, n, sizeof(void *));
     a->x = part(&block, n * nodes, sizeof *a->x);
     a->strain = part(&block, n, sizeof *a->strain);
     a->stress = part(&block, n, sizeof *a->stress);

@@ -40,11 +40,13 @@ static const char *join(const json_t *list)
             return NULL;
         length += json_string_length(json_array_get(list, i)) + 1;
     }
-    char *out = json_array_size(list) > 0 ? calloc(length, 1) : NULL;
+    char *out = json_array_size(list) > 0 ? calloc(length, 1) : NULL, *to = out;
     for (size_t i = 0; out != NULL && i < json_array_size(list); i++) {
+        const json_t *word = json_array_get(list, i);
         if (i > 0)
-            strcat(out, "|");
-        strcat(out, json_string_value(json_array_get(list, i)));
+            *to++ = '|';
+        memcpy(to, json_string_value(word), json_string_length(word));
+        to += json_string_length(word);
     }
     return out;
 }

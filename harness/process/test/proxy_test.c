@@ -108,7 +108,7 @@ static void evaluate(int64_t what, int64_t count, const int64_t number[], const 
     }
 }
 
-static void answer(const int64_t head[4])
+static void reply_to(const int64_t head[4])
 {
     const int64_t what = head[0], mask = head[1], count = head[2];
     const size_t m = (size_t)element_strains(served, option), c = 2 * NODE_COORDINATES,
@@ -145,7 +145,7 @@ static _Noreturn void serve(const char *name)
         get(mark, 1, sizeof mark);
         get(head, sizeof *head, 4);
         if (head[0] != 1) {
-            answer(head);
+            reply_to(head);
             continue;
         }
         learn();
