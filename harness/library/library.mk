@@ -16,3 +16,7 @@ $(STATIC): $(LIBRARY_DOORS) $(LIBRARY)
 	$(call SAY,link $@)$(LD) -r -o $(@D)/beamwork.o $(LIBRARY_DOORS) $(LIBRARY)
 	@objcopy --wildcard --keep-global-symbol='bw_*' $(@D)/beamwork.o
 	@rm -f $@ && $(AR) rcs $@ $(@D)/beamwork.o
+
+.PHONY: abi
+abi: $(SHARED) ## is the C interface still the committed one? ACCEPT=1: it is the new one
+	@harness/library/abi.sh $(SHARED) $(if $(ACCEPT),accept)
