@@ -141,7 +141,7 @@ fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)
 	@harness/tools/fuzz.sh $(BUILD)
 
 .PHONY: valgrind
-valgrind: all ## a small selection of verify under valgrind
+valgrind: all ## a small selection of verify, and a thousand cycles of the library, under valgrind
 	@harness/tools/valgrind.sh $(BUILD)
 
 layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) ## check that includes point down only and no files call each other in circles

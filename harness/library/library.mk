@@ -20,3 +20,9 @@ $(STATIC): $(LIBRARY_DOORS) $(LIBRARY)
 .PHONY: abi
 abi: $(SHARED) ## is the C interface still the committed one? ACCEPT=1: it is the new one
 	@harness/library/abi.sh $(SHARED) $(if $(ACCEPT),accept)
+
+# Made and freed a thousand times, for valgrind.
+CYCLES := $(BUILD)/harness/library/test/cycles
+valgrind: $(CYCLES)
+$(CYCLES): $(CYCLES).o $(LIBRARY)
+	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

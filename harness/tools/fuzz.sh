@@ -43,6 +43,7 @@ fuzz parameters 300000 500
 fuzz table 300000 3000
 fuzz scene 200000 4000
 fuzz import 200000 2000
+fuzz library 30000 4000
 fuzz truths 4000 64
 fuzz results 10000 64
 leaks=0 # the C library's argp keeps what it holds when the program ends

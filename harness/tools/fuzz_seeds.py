@@ -38,7 +38,8 @@ def parameters():
 def truths(scratch):
     """The packed truths of one small case with two findings."""
     (scratch / "tables").mkdir()
-    for name in ("defaults.csv", "tables/wagner_torsion.csv", "tables/roll_up.csv"):
+    for name in ("defaults.csv", "glossary.csv", "accepted.csv", "tables/wagner_torsion.csv",
+                 "tables/roll_up.csv"):
         shutil.copy(ROOT / "reference" / name, scratch / name)
     for name in ("findings.csv", "extreme_findings.csv"):
         lines = (ROOT / "reference" / name).read_text(encoding="utf-8").splitlines()
@@ -67,6 +68,17 @@ def scenes():
             yield path.read_bytes()
 
 
+def library():
+    """Behind the number of a call, its texts."""
+    for seed in ("\0cases", "\0beamw:mass=lumped", "\1long=0.2", "\2beamw:newton=dense\n",
+                 '\2collocation:stages=5\n{"keep_all": true, "threads": 2, "shapes": 3}',
+                 '\3{"steps": 4, "keep_all": false}', "\4beamw collocation\n1,2,4",
+                 '\4all\n{"jobs": 1}'):
+        yield seed
+    for scene in scenes():
+        yield b"\5" + scene
+
+
 def imports():
     """Behind the number of its form: a CSV of two programs, the map and the columns of others."""
     head = ("# beamwork-import: 1\n# program: other 1.0\n# case: sheet_cantilever; warping=0\n"
@@ -83,6 +95,7 @@ def imports():
 
 def main(program, folder):
     save(folder / "scene", scenes())
+    save(folder / "library", library())
     save(folder / "import", imports())
     save(folder / "parameters", parameters())
     save(folder / "words", WORDS)

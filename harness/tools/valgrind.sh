@@ -1,5 +1,5 @@
 #!/bin/sh
-# A small selection of 'verify' under valgrind, worker processes included: no invalid or uninitialised access, nothing lost.
+# A small selection of 'verify' under valgrind, worker processes included, and the C library: no invalid or uninitialised access, nothing lost.
 # usage: valgrind.sh BUILD
 set -u
 build=$1
@@ -13,6 +13,10 @@ for selection in "elastica/default" "c_column/default and beamw_consistent" "war
         "$build/beamwork" verify --time-limit 0 -j 2 -k "$selection" -o "$logs/r.h5") || { bad=1; echo "$printed" | tail -n 5; }
     cells=$((cells + $(echo "$printed" | sed -nE 's/^([0-9]+) cells[,;].*/\1/p')))
 done
+# The library: a thousand scenes and solutions made and freed.
+printed=$(OPENBLAS_CORETYPE=Nehalem BEAMWORK_TRUTHS="$build/truths.h5" valgrind --quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=9 \
+    --log-file="$logs/%p.log" "$build/harness/library/test/cycles" 1000) || bad=1
+echo "$printed"
 found=$(cat "$logs"/*.log | grep -cE '^==[0-9]+== (Invalid|Conditional|Use of|Syscall|[0-9,]+ bytes in [0-9,]+ blocks are definitely)')
 [ "$found" = 0 ] || cat "$logs"/*.log | head -n 60
 echo "valgrind: $cells cells, $found errors"
