@@ -3,6 +3,7 @@
  * that is JSON; what is made is JSON, or a scene that reads back; both are UTF-8. */
 #include <jansson.h>
 
+#include "harness/catalogue/registry.h"
 #include "harness/fuzz/fuzz.h"
 #include "harness/library/beamwork.h"
 
@@ -30,11 +31,11 @@ static int is_json(const char *text)
 }
 
 /* made: what the call should have made. */
-static void must_tell(bw_status status, const void *made, char *why)
+static void must_tell(bw_status got, const void *made, char *why)
 {
-    fuzz_must((status == BW_OK) == (why == NULL), "a failure has a reason, and nothing else has");
-    fuzz_must(status != BW_OK || made != NULL, "a call that is well makes something");
-    fuzz_must(status != BW_REFUSED || made == NULL, "what is refused makes nothing");
+    fuzz_must((got == BW_OK) == (why == NULL), "a failure has a reason, and nothing else has");
+    fuzz_must(got != BW_OK || made != NULL, "a call that is well makes something");
+    fuzz_must(got != BW_REFUSED || made == NULL, "what is refused makes nothing");
     fuzz_must(why == NULL || is_utf8(why), "a reason is UTF-8");
     fuzz_must(why == NULL || (why[0] == '{' ? is_json(why) : strchr(why, '\n') == NULL),
               "and a line, or a list of mistakes");
@@ -60,8 +61,8 @@ static void try_solve(const char *formulation, const char *options)
     char *why = NULL, *json = NULL;
     bw_scene *s = own_scene();
     bw_result *r = NULL;
-    const bw_status status = bw_solve(s, formulation, 1, options, &r, &why);
-    must_tell(status, r, why);
+    const bw_status got = bw_solve(s, formulation, 1, options, &r, &why);
+    must_tell(got, r, why);
     if (r != NULL)
         fuzz_must(bw_result_json(r, &json, NULL) == BW_OK, "a result has a document");
     must_be_json(json);
@@ -72,8 +73,8 @@ static void try_solve(const char *formulation, const char *options)
 static void try_list(const char *name)
 {
     char *why = NULL, *json = NULL;
-    const bw_status status = bw_list(name, &json, &why);
-    must_tell(status, json, why);
+    const bw_status got = bw_list(name, &json, &why);
+    must_tell(got, json, why);
     must_be_json(json);
 }
 
@@ -81,8 +82,8 @@ static void try_set(const char *assignment)
 {
     char *why = NULL, *json = NULL;
     bw_scene *s = own_scene();
-    const bw_status status = bw_scene_set(s, assignment, &why);
-    must_tell(status, status == BW_OK ? s : NULL, why);
+    const bw_status got = bw_scene_set(s, assignment, &why);
+    must_tell(got, got == BW_OK ? s : NULL, why);
     fuzz_must(bw_scene_json(s, &json, NULL) == BW_OK, "a scene has a document");
     must_be_json(json);
     bw_scene_free(s);
@@ -93,13 +94,13 @@ static void try_converge(const char *formulations, const char *meshes)
 {
     char *why = NULL, *json = NULL;
     bw_scene *s = own_scene();
-    bw_status status =
+    bw_status got =
         bw_converge(s, formulations, meshes, "{\"select\": \"nothing_is_called_so\"}", &json, &why);
-    fuzz_must(status == BW_REFUSED, "it is refused");
-    must_tell(status, json, why);
-    status = bw_verify(s, formulations, "nothing_is_called_so", meshes, NULL, &json, &why);
-    fuzz_must(status == BW_REFUSED, "it is refused");
-    must_tell(status, json, why);
+    fuzz_must(got == BW_REFUSED, "it is refused");
+    must_tell(got, json, why);
+    got = bw_verify(s, formulations, "nothing_is_called_so", meshes, NULL, &json, &why);
+    fuzz_must(got == BW_REFUSED, "it is refused");
+    must_tell(got, json, why);
     bw_scene_free(s);
 }
 
@@ -107,8 +108,8 @@ static void try_scene(const char *bytes, size_t size)
 {
     char *why = NULL, *yaml = NULL, *json = NULL;
     bw_scene *s = NULL, *again = NULL;
-    const bw_status status = bw_scene_read(bytes, size, NULL, &s, &why);
-    must_tell(status, s, why);
+    const bw_status got = bw_scene_read(bytes, size, NULL, &s, &why);
+    must_tell(got, s, why);
     if (s == NULL)
         return;
     if (bw_scene_json(s, &json, NULL) == BW_OK)
@@ -140,7 +141,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         try_solve(first, second);
         break;
     case 3:
-        try_solve("beamw", first);
+        try_solve(registry_formulations[0]->name, first);
         break;
     case 4:
         try_converge(first, second);
