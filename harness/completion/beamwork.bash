@@ -46,7 +46,7 @@ _beamwork() {
             ;;
         esac
     done < <("$program" help --complete "${words[@]:1}" 2>/dev/null)
-    if [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *= ]]; then
+    if [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *[=:] ]]; then
         compopt -o nospace 2>/dev/null
     fi
     if [[ -n $files$folders ]]; then

@@ -103,9 +103,10 @@ static void offer_words(const offer *o, const reading *r)
     names_words(&word, said);
 }
 
-/* Upper case: what it is called; else the word itself. */
+/* Upper case: what it is called; else the word itself, of "exec:COMMAND" up to the colon. */
 static void offer_part(const offer *o, const reading *r, const char *part)
 {
+    char word[40];
     if (strcmp(part, "CASE") == 0)
         names_cases(o);
     else if (strcmp(part, "FORMULATION") == 0)
@@ -116,8 +117,11 @@ static void offer_part(const offer *o, const reading *r, const char *part)
         offer_folders(o);
     else if (strncmp(part, "FILE", 4) == 0 || strcmp(part, "OLD") == 0 || strcmp(part, "NEW") == 0)
         offer_files(o);
-    else if (part[0] >= 'a' && part[0] <= 'z')
-        offer_text(o, part, "");
+    else if (part[0] >= 'a' && part[0] <= 'z') {
+        const int all = (int)strcspn(part, ":");
+        snprintf(word, sizeof word, "%.*s", all + (part[all] == ':'), part);
+        offer_text(o, word, "");
+    }
 }
 
 /* "[cases|formulations|CASE]", "FILE...", "text|json|csv". */

@@ -13,7 +13,7 @@ typedef struct offer {
 } offer;
 
 /* A line "WORD<tab>SUMMARY" where the text begins as what was begun: the whole word, the text
- * behind `before`. What ends in '=' goes on. */
+ * behind `before`. What ends in '=' or ':' goes on. */
 void offer_text(const offer *o, const char *text, const char *summary);
 /* Each of "a|b|c". */
 void offer_choices(const offer *o, const char *choices);

@@ -12,7 +12,7 @@ static void write_verbs(FILE *to, const manual_row *verb)
             roff_text(to, verb->text);
             continue;
         }
-        fprintf(to, "%s.Ss To %s\n.Bl -tag -width \"beamwork-converge(1)\" -compact\n",
+        fprintf(to, "%s.Ss To %s\n.Bl -tag -width \"beamwork-element-test(1)\" -compact\n",
                 open ? ".El\n" : "", verb->name);
         open = 1;
     }

@@ -74,8 +74,9 @@ class Completion(ProgramTest):
         self.assertEqual(self.offered("solve", "elastica", "--format=j"), ["--format=json"])
         self.assertEqual(self.offered("export", "elastica", "--to", ""), ["calculix"])
         for words in (("solve", "--scene", ""), ("verify", "-o", ""), ("verify", "--beside="),
-                      ("import", ""), ("compare", "one.h5", ""), ("solve", "-x", "./")):
+                      ("import", ""), ("compare", "one.h5", "")):
             self.assertEqual(set(self.offered(*words)), {":files"}, words)
+        self.assertEqual(self.offered("solve", "-x", "e"), [":files", "exec:"])
         self.assertEqual(self.offered("solve", "elastica", "--matrices", ""), [":folders"])
         self.assertEqual(self.offered("solve", "elastica", "-n", ""), [])
 
