@@ -33,7 +33,9 @@ static double *guard(guarded *g, const char *name, int size)
 
 static int untouched(const double *word)
 {
-    return memcmp(word, &mark, sizeof mark) == 0;
+    uint64_t bits;
+    memcpy(&bits, word, sizeof bits);
+    return bits == mark;
 }
 
 /* Looks at it and frees it. must: 1: it is filled whole. */

@@ -93,7 +93,9 @@ static void check(const specimen *s, claims *c)
         spoil(s, none[k], claims_open(c, "states that are no numbers are told", 0));
         spoil_strains(s, none[k], claims_open(c, "strains that are no numbers are told", 0));
     }
-    for (double size = 1; size < 1e300; size *= 1e30) {
+    static const double far[] = {1, 1e3, 1e10, 1e30, 1e100, 1e200, 1e300};
+    for (size_t k = 0; k < sizeof far / sizeof far[0]; k++) {
+        const double size = far[k];
         claims_doing(c, "strain and stress of a state %g lengths and radians away%s", size,
                      s->words);
         far_away(s, size, claims_open(c, "far states come back", 0));
