@@ -137,5 +137,5 @@ int beam_point(const beam_request *r, double at, double exact, measure *one)
     if (offered)
         measures_point(one, at, value / exact - 1);
     scene_free(&s);
-    return offered;
+    return offered && !measures_hopeless(one);
 }

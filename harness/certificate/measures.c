@@ -21,3 +21,11 @@ void measures_point(measure *one, double at, double error)
     one->at[one->points] = at;
     one->error[one->points++] = error;
 }
+
+int measures_hopeless(const measure *one)
+{
+    for (int i = 0; i < one->points; i++)
+        if (!isnan(one->error[i]))
+            return 0;
+    return one->points >= 3;
+}

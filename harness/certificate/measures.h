@@ -25,5 +25,7 @@ typedef struct measures {
 measure *measures_add(measures *m, const char *name);
 /* One more point of it. */
 void measures_point(measure *one, double at, double error);
+/* 1: three points or more, and none has a value. */
+int measures_hopeless(const measure *one);
 
 #endif
