@@ -6,7 +6,7 @@ enum { STENCIL_MOST = 576 }; /* values of a function */
 
 /* Units between places: what is left out is h^6/140 of the seventh derivative, h^6/560 of the
  * eighth; round-off eps/h and 4 eps/h^2. */
-static const double stencil_first_step = 2e-3, stencil_second_step = 4e-3;
+static const double stencil_first_step = 2e-3, stencil_second_step = 1e-3;
 
 /* values[count] where arguments i and j are moved by si and sj units (i == j: by si + sj); returns
  * 0, or another number where there is none. */
