@@ -88,6 +88,10 @@ static void show_meeting(const duel *d, double level, const bout *m)
         snprintf(line, sizeof line,
                  "undecided between %s and %s: the second takes %.3f to %.3f times as long", winner,
                  loser, low, high);
+    else if (reach_unranked(d->s.series[0].formulation.type)[0] != '\0' ||
+             reach_unranked(d->s.series[1].formulation.type)[0] != '\0')
+        snprintf(line, sizeof line, "no rank: beside %s, %s takes %.2f to %.2f times as long",
+                 winner, loser, low, high);
     else
         snprintf(line, sizeof line, "%s is faster: %s takes %.2f to %.2f times as long", winner,
                  loser, low, high);
@@ -128,6 +132,8 @@ static void show(const duel *d, const bout m[])
                   d->s.series[0].formulation.key, d->s.series[1].formulation.key, line);
     for (int i = 0; i < d->levels; i++)
         show_meeting(d, d->level[i], &m[i]);
+    if (d->levels > 0 && m[0].measured)
+        contestant_unranked(&m[0].one[0], &m[0].one[1]);
     show_defects(d);
 }
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/judge/reach.h"
 #include "harness/tables/paragraph.h"
 #include "harness/timing/rounds.h"
 
@@ -190,6 +191,28 @@ static void show_work(const contestant *a, const contestant *b)
     paragraph_end(&words, at, 2);
 }
 
+/* Why the two are not ranked: "" where they are. */
+static const char *unranked(const contestant *a, const contestant *b)
+{
+    const char *why = reach_unranked(a->request.formulation);
+    return why[0] != '\0' ? why : reach_unranked(b->request.formulation);
+}
+
+static const char *outcome_of(const contestant *a, const contestant *b, const against *v)
+{
+    return unranked(a, b)[0] != '\0' ? "unranked" : against_name(v->outcome);
+}
+
+void contestant_unranked(const contestant *a, const contestant *b)
+{
+    const contestant *both[] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        const char *why = reach_unranked(both[i]->request.formulation);
+        if (why[0] != '\0')
+            printf("%s: %s, its times rank nothing\n", both[i]->name, why);
+    }
+}
+
 void contestant_show(const contestant *a, const contestant *b, const against *v)
 {
     show_one('A', a, v->a);
@@ -197,7 +220,8 @@ void contestant_show(const contestant *a, const contestant *b, const against *v)
     const int at = printf("B takes ");
     paragraph_say(stdout, at, 2,
                   "%.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s",
-                  v->ratio, v->low, v->high, v->pairs, against_name(v->outcome));
+                  v->ratio, v->low, v->high, v->pairs, outcome_of(a, b, v));
+    contestant_unranked(a, b);
     show_work(a, b);
 }
 
@@ -210,5 +234,5 @@ json_t *contestant_json(const contestant *a, const contestant *b, const against 
     return json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name,
                      "seconds_a", v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio",
                      v->ratio, "low", v->low, "high", v->high, "pairs", v->pairs, "outcome",
-                     against_name(v->outcome), "work", work);
+                     outcome_of(a, b, v), "work", work);
 }

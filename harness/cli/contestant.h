@@ -35,5 +35,7 @@ status contestant_compete(contestant *a, contestant *b, against *out, fault *f);
  */
 void contestant_show(const contestant *a, const contestant *b, const against *v);
 json_t *contestant_json(const contestant *a, const contestant *b, const against *v);
+/* A line for each of them whose times rank nothing, and why. */
+void contestant_unranked(const contestant *a, const contestant *b);
 
 #endif

@@ -91,9 +91,9 @@ const char *case_input_truths_path(const command_request *r)
 
 static status add_truths(const command_request *r, truths *t, fault *f)
 {
-    const case_type *type = r->scene != NULL       ? scene_file_case(r->scene)
-                            : r->case_name != NULL ? case_find(r->case_name, f)
-                                                   : NULL;
+    const case_type *type = r->scene != NULL     ? scene_file_case(r->scene)
+                            : r->case_count == 1 ? case_find(r->case_name, f)
+                                                 : NULL;
     if (r->scene != NULL)
         TRY(scene_file_truths_add(r->scene, r->parameter, t, f));
     else

@@ -78,11 +78,18 @@ int reach_asks(const reach_question *q, int series_index)
     return 1;
 }
 
-/* Its time is not that of its equations: they are elsewhere, or differences. */
+const char *reach_unranked(const element_type *type)
+{
+    if (type == NULL)
+        return "";
+    if (process_serves(type))
+        return "in another process";
+    return adapters_words(type)[0] != '\0' ? "by differences" : "";
+}
+
 static int has_no_rank(const formulation *chosen)
 {
-    return chosen->type != NULL &&
-           (adapters_words(chosen->type)[0] != '\0' || process_serves(chosen->type));
+    return reach_unranked(chosen->type)[0] != '\0';
 }
 
 /* Of one series. 0: it is not within the level in all that is asked. */
@@ -139,6 +146,8 @@ int reach_ranking(const reach_question *q, reached out[])
 int reach_ties(const reached list[], int count)
 {
     int ties = 0;
+    if (count > 0 && !isfinite(list[0].cost))
+        return 0;
     while (
         ties < count && list[ties].defect == NULL &&
         (ties == 0 || (isfinite(list[ties].cost) && list[ties].cost <= price_noise * list[0].cost)))

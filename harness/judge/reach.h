@@ -26,6 +26,8 @@ typedef struct reach_question {
     double level; /* relative error */
 } reach_question;
 
+/* Why the work of a type ranks nothing: "by differences", "in another process"; "": it does. */
+const char *reach_unranked(const element_type *type);
 /* Index of the coarsest mesh from which on the error of every mesh is within the level, or -1. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
 /* Is the formulation known to be wrong, or not known to be right, by such a verdict? */
@@ -36,7 +38,7 @@ const char *reach_defect_words(verdict_kind kind);
  * Returns how many; out: room for all series. Other programs, which count nothing, are left out. */
 int reach_ranking(const reach_question *q, reached out[]);
 /* How many of the first ones, none with a defect, differ in cost by less than prices are known: 0
- * where there is none without a defect, 1 where the first one is the cheapest. */
+ * where there is none that ranks without a defect, 1 where the first one is the cheapest. */
 int reach_ties(const reached list[], int count);
 /* Series of the point that the question speaks of, and how: 1 every quantity has a truth of its
  * theory, 0 some have none, -1 it does not run. */

@@ -79,6 +79,35 @@ static int is_reached(const reached list[], int count, int series_index)
     return found;
 }
 
+/* Of those asked that the series has not within the level: the one whose error on the finest mesh
+ * is largest, or that has no value there. */
+static void write_worst(FILE *to, const reach_question *q, int series_index)
+{
+    const series *one = &q->s->series[series_index];
+    const scene *here = &q->s->point[one->point].scene;
+    double most = 0;
+    int worst = -1;
+    for (int i = 0; i < q->verdicts; i++) {
+        const verdict *v = &q->verdict[i];
+        if (v->series != series_index || v->truth == NULL || reach_mesh(q->s, v, q->level) >= 0)
+            continue;
+        const solve_result *r = &one->cell[one->meshes - 1].solve;
+        const double value = v->quantity < r->quantities ? r->quantity[v->quantity].value : NAN;
+        double error = fabs(verdict_error(&here->quantity[v->quantity], value, v->truth->value));
+        error = isfinite(error) ? error : INFINITY;
+        if (worst < 0 || error > most) {
+            most = error;
+            worst = v->quantity;
+        }
+    }
+    if (worst < 0)
+        return;
+    char digits[ROUNDING_TEXT];
+    rounding_digits(100 * most, 2, digits);
+    fprintf(to, " (%s: %s%s)", here->quantity[worst].name, isfinite(most) ? digits : "no value",
+            isfinite(most) ? " %" : "");
+}
+
 /* Those of one kind (reach_asks) that are not in the list. */
 static void write_others(FILE *to, const reach_question *q, const reached list[], int count,
                          int kind, const char *words)
@@ -87,6 +116,8 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
         if (reach_asks(q, i) != kind || is_reached(list, count, i))
             continue;
         fprintf(to, "%s%s", words, q->s->series[i].formulation.key);
+        if (kind == 1)
+            write_worst(to, q, i);
         words = ", ";
     }
 }

@@ -58,6 +58,12 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
         paragraph_say(to, column, 6, " %s", c->solve.reason);
 }
 
+/* Meshes of a series of that point that were run. */
+static int meshes_run(const series *one, int at)
+{
+    return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
+}
+
 static void rows(FILE *to, const sweep *s, const judgement *j, int at)
 {
     fprintf(to, "%*s%7s%7s%9s%9s %8s %8s\n", 2 + NAME + 5, "", "un-", "itera-", "evalu-",
@@ -65,10 +71,13 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
     fprintf(to, "  %-*s%5s%7s%7s%9s%9s %8s %8s %5s %11s\n", NAME, "formulation", "n", "knowns",
             "tions", "ations", "sations", "[ms]", "[ms]", "noise", "error");
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0;
-             k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
-             k++)
+        for (int k = 0; k < meshes_run(&s->series[i], at); k++)
             row(to, s, &s->series[i], first_judged(j, i), k);
+    for (int i = 0; i < s->seriess; i++) {
+        const char *why = reach_unranked(s->series[i].formulation.type);
+        if (meshes_run(&s->series[i], at) > 0 && why[0] != '\0')
+            fprintf(to, "  %s: %s, its times rank nothing\n", s->series[i].formulation.key, why);
+    }
 }
 
 /* Microseconds per iteration in each of its parts; the dense reference where it was timed. */
@@ -95,9 +104,7 @@ static void parts(FILE *to, const sweep *s, int at)
 {
     int iterative = 0;
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0;
-             k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
-             k++)
+        for (int k = 0; k < meshes_run(&s->series[i], at); k++)
             iterative |= s->series[i].cell[k].counters.iterations > 0;
     if (!iterative)
         return;
@@ -106,9 +113,7 @@ static void parts(FILE *to, const sweep *s, int at)
         fprintf(to, " %14s", phase_name((phase)k));
     fputc('\n', to);
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0;
-             k < s->series[i].meshes && s->series[i].point == at && s->series[i].missing[0] == '\0';
-             k++)
+        for (int k = 0; k < meshes_run(&s->series[i], at); k++)
             parts_of(to, &s->series[i], k);
 }
 
@@ -123,17 +128,19 @@ static void way(FILE *to, const sweep *s, const reached *r)
     fprintf(to, "%s, n = %d", one->formulation.key, one->mesh[r->mesh]);
     if (time_of(s, r)->rounds > 0)
         fprintf(to, ", %.4g ms", 1e3 * rounds_least(time_of(s, r)));
+    if (!isfinite(r->cost))
+        fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
 /* Behind those that pass: which of the others was faster in every round all the same. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
-    const char *before = "; dearer by its counts, faster in every round: ";
+    int told = 0;
     for (int i = ties; i < count && list[i].defect == NULL; i++)
-        if (rounds_compare(time_of(s, &list[i]), time_of(s, &list[0])) < 0) {
-            fputs(before, to);
+        if (isfinite(list[i].cost) &&
+            rounds_compare(time_of(s, &list[i]), time_of(s, &list[0])) < 0) {
+            fputs(told++ > 0 ? "; " : "; dearer by its counts, faster in every round: ", to);
             way(to, s, &list[i]);
-            before = "; ";
         }
 }
 
@@ -156,6 +163,18 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
     }
 }
 
+/* Behind those that rank: those that pass and do not. Returns how many pass. */
+static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
+{
+    int i = 0, told = 0;
+    for (; i < count && list[i].defect == NULL; i++)
+        if (!isfinite(list[i].cost)) {
+            fputs(told++ > 0 ? "; " : "; also within it: ", to);
+            way(to, s, &list[i]);
+        }
+    return i;
+}
+
 /* The cheapest by counted work among the formulations of a point, and those within its noise. A
  * text that the caller frees; NULL: out of memory. */
 static char *cheapest(const reach_question *q, reached list[])
@@ -173,9 +192,12 @@ static char *cheapest(const reach_question *q, reached list[])
     if (ties > 0) {
         fputs(ties > 1 ? ": within noise of each other" : "", to);
         faster_ones(to, q->s, list, count, ties);
+        unranked_ones(to, q->s, list, count);
     } else {
-        fputs(count > 0 ? "none that passes" : "none", to);
-        defective_ones(to, q->s, list, count);
+        const int passes = count > 0 && list[0].defect == NULL;
+        fputs(passes ? "none that ranks" : count > 0 ? "none that passes" : "none", to);
+        const int sound = unranked_ones(to, q->s, list, count);
+        defective_ones(to, q->s, list + sound, count - sound);
     }
     fclose(to);
     return text;
@@ -224,19 +246,16 @@ static void write_together(FILE *out, const scene *here, answer a[], int count)
                 before = ", ";
             }
         before = " within ";
-        for (next = level; next < REACH_LEVELS; next++) {
-            if (next > level && !same_text(a->text[next], a->text[level]))
-                break;
-            fprintf(to, "%s%g", before, 100 * reach_level[next]);
-            before = ", ";
-        }
+        for (next = level;
+             next == level || (next < REACH_LEVELS && same_text(a->text[next], a->text[level]));
+             before = ", ")
+            fprintf(to, "%s%g", before, 100 * reach_level[next++]);
         fprintf(to, " %%: %s", a->text[level] != NULL ? a->text[level] : "out of memory");
         paragraph_end(&words, 0, 2);
     }
 }
 
-/* What is cheapest for the quantities of a point, or for the first that has a truth; 0: none has.
- */
+/* What is cheapest for the quantities of a point, or for the first with a truth; 0: none has. */
 static int answers(FILE *to, const sweep *s, const judgement *j, int at, int every, reached list[])
 {
     const scene *here = &s->point[at].scene;

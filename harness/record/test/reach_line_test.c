@@ -128,8 +128,8 @@ static void not_every_quantity(void)
     make(&b, 2 * price_noise);
     add_quantity(&b, "curve", SCENE_CURVE);
     expect(&b, 1e-9,
-           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red, "
-           "blue, green, grey\n");
+           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
+           "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
     add_quantity(&b, "sway", SCENE_LAST);
     add_quantity(&b, "tilt", SCENE_LAST);
     b.s.seriess = 3;
@@ -158,7 +158,8 @@ static void other_models(void)
            "for 1 % in every quantity: red n = 4; without prices of its own: red; of another model "
            "(solid, plate): up to 3.2 % off (load)\n");
     expect(&b, 1e-9,
-           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red\n");
+           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
+           "(load: 0.0098 %)\n");
     b.s.seriess = 4;
     expect(&b, 0.2,
            "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
@@ -173,10 +174,10 @@ int main(void)
     make(&b, 2 * price_noise);
     expect(&b, 0.01,
            "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without prices of its "
-           "own: red, blue, green; not reached by grey\n");
+           "own: red, blue, green; not reached by grey (load: 10 %)\n");
     expect(&b, 1e-9,
-           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red, "
-           "blue, green, grey\n");
+           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
+           "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
     finish(&b);
     make(&b, 1 + (price_noise - 1) / 2);
     expect(&b, 0.2,
@@ -184,7 +185,7 @@ int main(void)
            "prices of its own: grey, red, blue, green\n");
     expect(&b, 0.03,
            "for 3 % in every quantity: red n = 2, blue n = 2: within noise of each other; green n "
-           "= 2; without prices of its own: red, blue, green; not reached by grey\n");
+           "= 2; without prices of its own: red, blue, green; not reached by grey (load: 10 %)\n");
     finish(&b);
     not_every_quantity();
     other_models();
