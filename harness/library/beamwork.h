@@ -58,8 +58,9 @@ BW_API bw_status bw_truths(const char *path, char **why);
 /* What there is, as `beamwork list --format json`. what NULL: all; or "cases", "formulations", or
  * the name of one case or formulation. */
 BW_API bw_status bw_list(const char *what, char **json, char **why);
-/* A formulation from outside, as --element takes it: "./mine.so". It stays for the life of the
- * program. *name (may be NULL): what it is called. */
+/* A formulation from outside, as --element takes it: "./mine.so", "exec:python3 my_beam.py". It
+ * stays for the life of the program. One of another process serves one thread at a time. *name (may
+ * be NULL): what it is called. */
 BW_API bw_status bw_formulation_load(const char *path, char **name, char **why);
 
 /* A built-in case at its defaults. */
