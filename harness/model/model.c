@@ -15,6 +15,7 @@
 #include "harness/model/model_impl.h"
 #include "harness/model/profile.h"
 #include "harness/model/spring.h"
+#include "harness/process/process.h"
 
 static status choose_options(model *m, const double options[], fault *f)
 {
@@ -92,6 +93,9 @@ static status build(model *m, const model_request *request, fault *f)
         TRY(coordinates_note_left_out(m, f, "%s", words));
     if (adapters_words(type)[0] != '\0')
         TRY(coordinates_note_left_out(m, f, "%s", adapters_words(type)));
+    if (process_serves(type))
+        TRY(coordinates_note_left_out(m, f,
+                                      "of the times: what the process of the formulation takes"));
     return allocate(m, f);
 }
 

@@ -97,13 +97,15 @@ class Refused(Speaker):
     def test_says_too_little_or_too_much(self):
         for line, word in (("del said['name']", "'name'"), ("said['name'] = 'A b'", "'name'"),
                            ("said['summary'] = 'a\\nb'", "'summary'"),
-                           ("said['strains'] = 1000", "1 to 24"), ("del said['strains']", "1 to 24"),
+                           ("said['strains'] = 1000", "1 to 24"),
+                           ("del said['strains']", "1 to 24"),
                            ("said['nodes'] = 4", "2 to 3"), ("said['gives'] = 'all'", "'gives'"),
                            ("said['offers'] = ['magic']", "'magic'"),
                            ("said['order'] = dict(statics=[4, 2])", "'order'"),
                            ("said['colour'] = 1", "'colour'"),
                            ("said['options'] = [dict(name='k', default=3, min=0, max=1)]", "'k'"),
-                           ("said['options'] = [dict(name='k', choices=['a'], default='b')]", "'k'"),
+                           ("said['options'] = [dict(name='k', choices=['a'], default='b')]",
+                            "'k'"),
                            ("said['name'] = 'collocation'", "is there already")):
             self.refuse(self.speaker(first=line), word)
 
@@ -188,7 +190,8 @@ class Evaluated(Speaker):
         self.one_line(["wrote 'here I am", "standard error"], "print('here I am', flush=True)")
 
     def test_not_a_number(self):
-        element = self.speaker(at="if what == 2: body = struct.pack('<d', float('nan')) * (right // 8)")
+        element = self.speaker(
+            at="if what == 2: body = right // 8 * struct.pack('<d', float('nan'))")
         done = run("solve", "elastica", "-f", "speaker", "-n", "2", "--element", element)
         self.assertEqual(done.returncode, 1, done)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
@@ -222,13 +225,14 @@ class InPython(Speaker):
     def test_exception(self):
         done = self.solve(self.example("chord = (", "chord = 1 / 0 + ("))
         self.assertEqual(done.returncode, 1, done)
-        self.assertRegex(done.stderr, r"^beamwork: .*timoshenko_py: ZeroDivisionError: .*mine.py:\d+")
+        self.assertRegex(done.stderr,
+                         r"^beamwork: .*timoshenko_py: ZeroDivisionError: .*mine.py:\d+")
         self.assertEqual(len(done.stderr.splitlines()), 1)
 
     def test_refusal(self):
-        done = self.solve(self.example("    c, l = kind.section", "    from beamwork_element import "
-                                       "Refused\n    raise Refused('only steel')\n    c, l = kind."
-                                       "section"))
+        done = self.solve(self.example("    c, l = kind",
+                                       "    from beamwork_element import Refused\n"
+                                       "    raise Refused('only steel')\n    c, l = kind"))
         self.assertEqual(done.returncode, 2, done)
         self.assertIn("timoshenko_py: only steel\n", done.stderr)
 
