@@ -16,6 +16,23 @@ static int has_name(const document_node *n)
     return 0;
 }
 
+/* Length of the loop name that $ or ${ here stands before; 0: none does. */
+static size_t name_at(const char *at, int *braces)
+{
+    *braces = at[0] == '$' && at[1] == '{';
+    const size_t length = *at == '$' ? scope_name_length(at + 1 + *braces) : 0;
+    return *braces && at[2 + length] != '}' ? 0 : length;
+}
+
+int substitute_is_left(const char *text)
+{
+    int braces;
+    for (const char *at = text; *at != '\0'; at++)
+        if (name_at(at, &braces) > 0)
+            return 1;
+    return 0;
+}
+
 /* The text of a name; 0: a mistake was told. */
 static int value_text(const document_node *n, int at, const char *name, size_t length,
                       const scope *names, mistakes *m, char out[64])
@@ -49,10 +66,10 @@ static const char *substitute_text(const document_node *n, const scope *names, a
     char text[LONGEST];
     size_t used = 0;
     for (const char *at = n->text; *at != '\0' && used + 64 < sizeof text;) {
-        const int braces = at[0] == '$' && at[1] == '{';
-        const size_t length = *at == '$' ? scope_name_length(at + 1 + braces) : 0;
+        int braces;
+        const size_t length = name_at(at, &braces);
         char value[64];
-        if (length > 0 && (!braces || at[2 + length] == '}') &&
+        if (length > 0 &&
             value_text(n, (int)(at - n->text), at + 1 + braces, length, names, m, value)) {
             used += (size_t)snprintf(text + used, sizeof text - used, "%s", value);
             at += 1 + length + 2 * (size_t)braces;

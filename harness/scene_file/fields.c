@@ -6,6 +6,7 @@
 #include "harness/catalogue/choice.h"
 #include "harness/language/expression.h"
 #include "harness/language/range.h"
+#include "harness/language/substitute.h"
 #include "harness/scene_file/builder.h"
 
 const char fields_components[] = "ux|uy|uz|rx|ry|rz";
@@ -201,7 +202,7 @@ int fields_entry_of(const fields *f, const document_node *n, builder_list list)
     const int found = find_entry(f, text, list, !port);
     if (found >= 0)
         return found;
-    if (strchr(text, '$') == NULL && !f->b->list[list].incomplete) /* else it is told already */
+    if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is told already */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          "; add it, or mend the name", remedy));
