@@ -121,7 +121,7 @@ static void check_carried(const specimen *s, const node_state x[], double energy
 
 static void check_rest(const specimen *s, double scale, claim *one)
 {
-    double F[N] = {0}, work[N], energy = NAN;
+    double F[N] = {0}, work[N] = {0}, energy = NAN;
     char where[SPECIMEN_WORDS];
     node_state x[ELEMENT_MAX_NODES];
     const unsigned leaves = s->made.given->leaves;
