@@ -56,11 +56,9 @@ class Example(OctaveTest):
                 self.assertLess(abs(mine["limit"] - other["limit"]), 1e-7 * abs(other["limit"]),
                                 (mine["case"], mine["quantity"]))
 
-    def test_contract(self):
-        """Its derivatives, in the rotation chart, are those of its strains."""
-        out = run("element-test", "--element", command(EXAMPLE)).stdout
-        for family in ("features", "derivatives", "energy", "motion", "unsound"):
-            self.assertRegex(out, rf"✔ {family}\s")
+    def test_keeps_the_contract(self):
+        """Its derivatives, in the rotation chart, are those of its strains; and all else."""
+        self.answered("element-test", "--element", command(EXAMPLE))
 
     def test_from_an_empty_folder(self):
         """The module is found beside the script."""
