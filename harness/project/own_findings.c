@@ -188,7 +188,7 @@ static const case_type **all_cases(const case_type *const run[])
     int count = 0;
     while (own_names_case_at(run, count) != NULL)
         count++;
-    const case_type **all = calloc((size_t)count + 1, sizeof *all);
+    const case_type **all = calloc((size_t)count + 1, sizeof(void *));
     for (int i = 0; all != NULL && i < count; i++)
         all[i] = own_names_case_at(run, i);
     return all;
