@@ -5,8 +5,8 @@ LIBDIR ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 SHAREDIR ?= $(PREFIX)/share
 DATADIR := $(SHAREDIR)/beamwork
-# Where Debian's Python looks for modules of that prefix.
-PYTHONDIR ?= $(PREFIX)/lib/python$(if $(filter /usr,$(PREFIX)),3,$(shell $(PYTHON) -I -c 'import sys; print("%d.%d" % sys.version_info[:2])'))/dist-packages
+# Where Debian's Python looks for modules of that prefix; below one's home it looks elsewhere.
+PYTHONDIR ?= $(PREFIX)/lib/python$(if $(filter /usr,$(PREFIX)),3,$(shell $(PYTHON) -I -c 'import sys; print("%d.%d" % sys.version_info[:2])'))/$(if $(filter $(HOME)/.local,$(PREFIX)),site,dist)-packages
 
 # Programs that are not beside their data look there.
 $(BUILD)/prefix: FORCE

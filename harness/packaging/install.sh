@@ -61,3 +61,8 @@ put 644 LICENSE "$SHAREDIR/doc/beamwork/LICENSE"
 
 install -D -m 644 "$list" "$DESTDIR$data/installed"
 echo "installed $(wc -l <"$list") files below ${DESTDIR:-}$PREFIX"
+# What a system folder needs no word for.
+case $PREFIX in /usr | /usr/local) exit ;; esac
+[ -z "${DESTDIR:-}" ] || exit 0
+echo "  programs and pkg-config find it after: export PATH=$BINDIR:\$PATH LD_LIBRARY_PATH=$LIBDIR PKG_CONFIG_PATH=$LIBDIR/pkgconfig"
+case $PYTHONDIR in "$HOME/.local"/*) ;; *) echo "  Python finds its modules after: export PYTHONPATH=$PYTHONDIR" ;; esac

@@ -107,7 +107,7 @@ class Installed(ProgramTest):
                        *self.flags("--cflags", "--libs"), "-o", "column", program="cc")
         said = self.installed(program="./column", LD_LIBRARY_PATH=str(self.root / "lib"))
         self.assertRegex(said, r"^\d\S+ N, error \S+\n$")
-        solved = json.loads(self.installed("solve", "c_column", "--set", "length=1.5", "-f",
+        solved = json.loads(self.installed("solve", "c_column", "--set", "length=3", "-f",
                                            "beamw_consistent", "-n", "16", "--format", "json"))
         value, = (one["value"] for one in solved["quantities"]
                   if one["quantity"] == "buckling_load")
