@@ -26,7 +26,8 @@ void claims_not_made(claims *c, const char *name, const char *why)
     snprintf(one->sentence, sizeof one->sentence, "%s", why);
 }
 
-static void note(claim *one, double departure, const char *format, va_list words)
+__attribute__((format(printf, 3, 0))) static void note(claim *one, double departure,
+                                                       const char *format, va_list words)
 {
     const int worse = isnan(departure) ? !isnan(one->worst) : departure > one->worst;
     one->compared++;
