@@ -14,35 +14,20 @@ static const double allowed = 1e-9; /* of the largest entry of the same strain *
 static const char *const claim_J = "J is the derivative of the strains",
                          *const claim_H = "H is the second derivative";
 
-/* Where differences are taken: coordinate i moved by si, j by sj units. */
-typedef struct place {
-    const specimen *s;
-    const node_state *x;
-} place;
-
-static void moved(const place *at, int i, double si, double sj, node_state out[])
-{
-    double step[N] = {0};
-    step[i] = (si + sj) * chart_unit(i, at->s->request.length);
-    chart_move(at->x, at->s->nodes, step, out);
-}
-
 static int strains_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    (void)j;
-    moved(at, i, si, sj, x);
+    specimen_moved(at, i, si, j, sj, x);
     at->s->type.strain(at->s->data, x, &(strain_output){.e = values});
     return 0;
 }
 
 static int jacobian_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    (void)j;
-    moved(at, i, si, sj, x);
+    specimen_moved(at, i, si, j, sj, x);
     at->s->type.strain(at->s->data, x, &(strain_output){.J = values});
     return 0;
 }
@@ -71,7 +56,7 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
 /* Strain against strain: [strains x n] times units. */
 static void check_J(const specimen *s, const node_state x[], claim *one)
 {
-    const place at = {s, x};
+    const specimen_place at = {s, x};
     const int n = s->coordinates;
     double J[M * N], found[N][M];
     for (int c = 0; c < n; c++)
@@ -116,7 +101,7 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
 static void check_H(const specimen *s, const node_state x[], claim *one)
 {
     double change[N][M * N];
-    const place at = {s, x};
+    const specimen_place at = {s, x};
     const int n = s->coordinates;
     double J[M * N], H[N * N], weight[M] = {0}, size = 0;
     s->type.strain(s->data, x, &(strain_output){.J = J});

@@ -16,37 +16,24 @@ static const char *const claim_F = "F is the gradient of the energy",
                          *const claim_same = "a rigid motion leaves the energy",
                          *const claim_rest = "nothing loads the undeformed element";
 
-typedef struct place {
-    const specimen *s;
-    const node_state *x;
-} place;
-
 static status call(const specimen *s, const node_state x[], force_output *out)
 {
     return s->made.given->force(adapted_own(s->data), x, out);
 }
 
-static void moved(const place *at, int i, double si, int j, double sj, node_state out[])
-{
-    double step[N] = {0};
-    step[i] += si * chart_unit(i, at->s->request.length);
-    step[j] += sj * chart_unit(j, at->s->request.length);
-    chart_move(at->x, at->s->nodes, step, out);
-}
-
 static int energy_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    moved(at, i, si, j, sj, x);
+    specimen_moved(at, i, si, j, sj, x);
     return (int)call(at->s, x, &(force_output){.energy = values});
 }
 
 static int force_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    moved(at, i, si, j, sj, x);
+    specimen_moved(at, i, si, j, sj, x);
     return (int)call(at->s, x, &(force_output){.F = values});
 }
 
@@ -61,7 +48,7 @@ static double works(const specimen *s, const double F[], double out[])
     return largest;
 }
 
-static void check_force(const place *at, const double F[], claim *one)
+static void check_force(const specimen_place *at, const double F[], claim *one)
 {
     const specimen *s = at->s;
     char where[SPECIMEN_WORDS];
@@ -78,7 +65,7 @@ static void check_force(const place *at, const double F[], claim *one)
 }
 
 /* Only the symmetric part of K counts: that of the exponential chart. */
-static void check_stiffness(const place *at, const double K[], claim *one)
+static void check_stiffness(const specimen_place *at, const double K[], claim *one)
 {
     const specimen *s = at->s;
     const int n = s->coordinates;
@@ -144,7 +131,7 @@ static void check(const specimen *s, claims *c)
     const unsigned leaves = s->made.given->leaves;
     double energy = NAN, F[N], K[N * N];
     node_state x[ELEMENT_MAX_NODES];
-    const place at = {s, x};
+    const specimen_place at = {s, x};
     specimen_state(s, 0.05, 11, x);
     claims_doing(c, "force%s", s->words);
     const status outcome =

@@ -15,38 +15,24 @@ enum { N = SPECIMEN_COORDINATES };
 static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7},
                                                .centre = {0.213, -0.147, 0.089}};
 
-typedef struct place {
-    const specimen *s;
-    const node_state *x;
-} place;
-
-static void moved(const place *at, int i, double si, double sj, node_state out[])
-{
-    double step[N] = {0};
-    step[i] = (si + sj) * chart_unit(i, at->s->request.length);
-    chart_move(at->x, at->s->nodes, step, out);
-}
-
 static int potential_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    (void)j;
-    moved(at, i, si, sj, x);
+    specimen_moved(at, i, si, j, sj, x);
     return (int)at->s->type.inertia(at->s->data, x, &turning,
                                     &(inertia_output){.potential = values});
 }
 
 static int force_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const specimen_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    (void)j;
-    moved(at, i, si, sj, x);
+    specimen_moved(at, i, si, j, sj, x);
     return (int)at->s->type.inertia(at->s->data, x, &turning, &(inertia_output){.force = values});
 }
 
-static void check_force(const place *at, const double force[], claim *one)
+static void check_force(const specimen_place *at, const double force[], claim *one)
 {
     const specimen *s = at->s;
     char where[SPECIMEN_WORDS];
@@ -64,7 +50,7 @@ static void check_force(const place *at, const double force[], claim *one)
     }
 }
 
-static void check_stiffness(const place *at, const double stiffness[], claims *c)
+static void check_stiffness(const specimen_place *at, const double stiffness[], claims *c)
 {
     const specimen *s = at->s;
     const int n = s->coordinates;
@@ -148,7 +134,7 @@ static void in_frame(const specimen *s, claims *c)
     double V, F[N], M[N * N], stiffness[N * N], G[N * N];
     inertia_output out = {.M = M, .potential = &V, .force = F, .N = stiffness, .G = G};
     node_state x[ELEMENT_MAX_NODES];
-    const place at = {s, x};
+    const specimen_place at = {s, x};
     specimen_state(s, 0.05, 31, x);
     claims_doing(c, "inertia in a rotating frame%s", s->words);
     const status outcome = s->type.inertia(s->data, x, &turning, &out);

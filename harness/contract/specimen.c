@@ -122,6 +122,14 @@ void specimen_carry(const specimen *s, const double turn[3], const node_state x[
     }
 }
 
+void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[])
+{
+    double step[SPECIMEN_COORDINATES] = {0};
+    step[i] += si * chart_unit(i, at->s->request.length);
+    step[j] += sj * chart_unit(j, at->s->request.length);
+    chart_move(at->x, at->s->nodes, step, out);
+}
+
 void specimen_rest(const specimen *s, double inner[])
 {
     memset(inner, 0, (size_t)s->inner * sizeof *inner);

@@ -52,6 +52,15 @@ void specimen_state(const specimen *s, double size, unsigned seed, node_state x[
 void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
                     node_state out[]);
 
+/* Where differences are taken. */
+typedef struct specimen_place {
+    const specimen *s;
+    const node_state *x;
+} specimen_place;
+
+/* Coordinate i moved by si units of differences, j by sj. */
+void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[]);
+
 /* Inner unknowns at rest [inner]. */
 void specimen_rest(const specimen *s, double inner[]);
 /* Stress with the inner unknowns solved for: Newton on the element's own equations. */
