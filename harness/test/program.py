@@ -13,6 +13,8 @@ import unittest
 
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
+if "BEAMWORK_TRUTHS" in os.environ:  # also for programs that are run in another folder
+    os.environ["BEAMWORK_TRUTHS"] = TRUTHS
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # A shell's background job ignores it, and the program leaves ignored what was ignored.
