@@ -195,7 +195,8 @@ int cli_solve(int count, char **arguments)
         "Solves one case with one formulation and one mesh and shows every quantity with its "
         "error. Without -f a formulation is chosen that offers what the case needs and has no "
         "known defect there; without -n the coarsest of the case's meshes at which no value "
-        "changes by more than 0.1 % from the mesh before: the output says both."
+        "changes by more than 0.1 % from the mesh before, or, where one still does, the finest: "
+        "the output says which, and why."
         "\vbeamwork solve elastica\n"
         "beamwork solve c_column -f beamw -n 8 --set section_data=printed",
         "fnsFoKSPRVtTYL.", count, arguments, solve_request);

@@ -46,7 +46,7 @@ typedef struct bw_scene bw_scene;
 /* One cell: a scene solved with a formulation and a number of elements. */
 typedef struct bw_result bw_result;
 
-BW_API const char *bw_version(void);                 /* "0.12.0" */
+BW_API const char *bw_version(void);                 /* as "0.1.0" */
 BW_API void bw_free_text(char *text);                /* NULL: nothing */
 BW_API const char *bw_status_name(bw_status status); /* "ok", "not_converged", ... */
 
@@ -79,9 +79,11 @@ BW_API bw_status bw_scene_write(const bw_scene *scene, char **yaml, char **why);
 BW_API void bw_scene_free(bw_scene *scene); /* NULL: nothing; its results stay */
 
 /* Solves one cell. formulation: as -f says it ("beamw:mass=lumped"); NULL: chosen as `beamwork
- * solve` does. elements: of each member; 0: likewise. options (NULL: none): a JSON object with any
- * of "keep_all" (true: nothing is left out), "steps" (between stations), "shapes" (most states of a
- * path whose shapes are kept), "threads". After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a
+ * solve` does. elements: of each member; 0: the coarsest of the scene's meshes at which no value
+ * changes by more than 0.1 %, or the finest where one still does. options (NULL: none): a JSON
+ * object with any of "keep_all" (true: nothing is left out), "steps" (between stations, to begin
+ * with: easy ones are made longer), "shapes" (most states of a path whose shapes are kept),
+ * "threads". After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a
  * result all the same, with what could be found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
@@ -91,11 +93,11 @@ BW_API bw_status bw_result_json(const bw_result *result, char **json, char **why
 BW_API const char *bw_result_formulation(const bw_result *result); /* name with its options */
 BW_API int bw_result_elements(const bw_result *result);            /* of each member */
 
-/* Quantities, counted from 0; NULL: there is no such one. */
+/* How many quantities it has; they are counted from 0. */
 BW_API int bw_result_quantities(const bw_result *result);
-/* Its name, ... */
+/* The name of one; NULL: there is no such one. */
 BW_API const char *bw_result_name(const bw_result *result, int quantity);
-/* ... and its SI unit. */
+/* The SI unit of one; NULL: there is no such one. */
 BW_API const char *bw_result_unit(const bw_result *result, int quantity);
 /* [unit of the quantity]; NaN: it has no value, or there is no such quantity. */
 BW_API double bw_result_value(const bw_result *result, const char *quantity);
@@ -105,7 +107,8 @@ BW_API double bw_result_error(const bw_result *result, const char *quantity);
 BW_API size_t bw_result_curve(const bw_result *result, const char *quantity, const double **x,
                               const double **y);
 /* A column of numbers of its load steps, as `beamwork schema` names them ("path", "iterations",
- * "energy", ...); their number, 0: there are none, or no such column. The array is the result's. */
+ * "correction", ...); their number, 0: there are none, or no such column. The array is the
+ * result's. */
 BW_API size_t bw_result_steps(bw_result *result, const char *column, const double **values);
 /* Shapes that were asked for: *points of all centre lines together; *position [states x points x
  * 3] [m]; the number of states, the first of them undeformed. */

@@ -40,7 +40,7 @@ static status prepare(study *s, const char *names, const char *meshes, const cha
     const call_option table[] = {{"error", OPTION_SHARE, &s->level, 0, 0},
                                  {"select", OPTION_WORDS, &s->select, 0, 0},
                                  {"jobs", OPTION_WHOLE, &s->jobs, 1, WORKERS_MOST},
-                                 {"stop", OPTION_WHOLE, &s->stop, 1, INT_MAX},
+                                 {"stop", OPTION_FILE, &s->stop, 1, INT_MAX},
                                  {.name = NULL}};
     TRY(options_read(options, table, &s->kept, f));
     TRY(contestants_parse(names, s->formulation, &s->formulations, f));

@@ -1,5 +1,6 @@
 #include "harness/library/options.h"
 
+#include <fcntl.h>
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
@@ -36,6 +37,13 @@ static status take(const call_option *o, json_t *value, fault *f)
         if (!json_is_integer(value) || !is_within(o, json_integer_value(value)))
             return fault_set(f, STATUS_REFUSED, "option '%s': give a whole number from %d to %d",
                              o->name, o->least, o->most);
+        *(int *)o->to = (int)json_integer_value(value);
+        return STATUS_OK;
+    case OPTION_FILE:
+        if (!json_is_integer(value) || !is_within(o, json_integer_value(value)) ||
+            fcntl((int)json_integer_value(value), F_GETFD) < 0)
+            return fault_set(f, STATUS_REFUSED, "option '%s': give the descriptor of an open file",
+                             o->name);
         *(int *)o->to = (int)json_integer_value(value);
         return STATUS_OK;
     case OPTION_SHARE:

@@ -9,6 +9,7 @@
 typedef enum call_option_kind {
     OPTION_SWITCH, /* true or false, into an int */
     OPTION_WHOLE,  /* least .. most, into an int */
+    OPTION_FILE,   /* descriptor of an open file, into an int */
     OPTION_SHARE,  /* between 0 and 1, into a double */
     OPTION_WORDS   /* into a const char *, which *kept owns */
 } call_option_kind;

@@ -44,7 +44,7 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
                                  {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
                                  {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
                                  {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
-                                 {"stop", OPTION_WHOLE, &r->stop, 1, INT_MAX},
+                                 {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
                                  {.name = NULL}};
     place where;
     TRY(options_read(options, table, &v->kept, f));

@@ -114,9 +114,15 @@ def convergence(shown):
     return table(head, rows, shown.sentence)
 
 
-def verdicts(shown):
+def outcome(shown):
+    """PASS, FAIL or that nothing was judged, and the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
-    title = f"{'PASS' if shown.passed else 'FAIL'}: {counted}"
+    word = "PASS" if shown.passed else "FAIL" if shown.unexpected else "nothing was judged"
+    return f"{word}: {counted}"
+
+
+def verdicts(shown):
+    title = outcome(shown)
     rows = ((r["case"], r["parameters"], r["formulation"], r["quantity"], r["verdict"],
              known(r["limit"], r["limit_uncertainty"]), percent(r["error"]))
             for r in shown.unexpected or shown)

@@ -59,6 +59,9 @@ class Convergence(Records):
         self.level = document.get("level")
         self.sentence = document.get("sentence", "")
 
+    def __repr__(self):
+        return f"<Convergence, {len(self)} records: {self.sentence}>"
+
     def _repr_html_(self):
         return display.convergence(self)
 
@@ -69,7 +72,7 @@ class Verdicts(Records):
     Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit,
     limit_uncertainty, truth, error (relative) and all that `verify --json` writes.
 
-    passed: nothing is unexpected.  unexpected: those records.  counts: {verdict: how many}.
+    passed: something was judged, and nothing is unexpected.  unexpected: those records.  counts: {verdict: how many}.
     document: all as `beamwork verify --json` writes it."""
 
     def __init__(self, document):
@@ -77,7 +80,10 @@ class Verdicts(Records):
         self.document = document
         self.counts = document.get("counts", {})
         self.unexpected = Records(r for r in self if not r.get("as_expected", True))
-        self.passed = bool(document.get("passed", not document.get("unexpected")))
+        self.passed = bool(document.get("judged")) and not document.get("unexpected")
+
+    def __repr__(self):
+        return f"<Verdicts, {display.outcome(self)}>"
 
     def _repr_html_(self):
         return display.verdicts(self)
