@@ -1,9 +1,11 @@
 #include "harness/command/files.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/process/words.h"
 #include "harness/record/output.h"
 #include "harness/record/output_folder.h"
 
@@ -38,6 +40,23 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
                      a->path, b->option, b->path);
 }
 
+/* Objects, and the files that a command names. */
+static status check_element(const named_place *out, const char *element, fault *f)
+{
+    static const char exec[] = "exec:";
+    char **word;
+    if (strncmp(element, exec, sizeof exec - 1) != 0)
+        return check_inputs(out, (const char *const[INPUTS]){element}, f);
+    if (words_split(element + sizeof exec - 1, &word, NULL) != STATUS_OK)
+        return STATUS_OK; /* refused where it is loaded */
+    status outcome = STATUS_OK;
+    for (int i = 0; word[i] != NULL && outcome == STATUS_OK; i++)
+        if (access(word[i], F_OK) == 0)
+            outcome = check_inputs(out, (const char *const[INPUTS]){word[i]}, f);
+    free(word);
+    return outcome;
+}
+
 status files_check(const command_request *r, int whole_file, const char *truths_path, fault *f)
 {
     named_place out[OUTPUTS] = {
@@ -57,6 +76,8 @@ status files_check(const command_request *r, int whole_file, const char *truths_
         TRY(out[i].folder ? output_folder_try(out[i].path, &out[i].where, f)
                           : output_try(out[i].path, out[i].form, &out[i].where, f));
         TRY(check_inputs(&out[i], input, f));
+        for (int k = 0; k < r->elements; k++)
+            TRY(check_element(&out[i], r->element[k], f));
         if (r->reads_files)
             for (int k = 0; k < r->case_count; k++)
                 TRY(check_inputs(&out[i], (const char *const[INPUTS]){r->cases[k]}, f));

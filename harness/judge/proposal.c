@@ -57,7 +57,7 @@ static void write_rule(FILE *to, const sweep *s, const judgement *j, int first, 
     fprintf(to, "\",\"%s\",", verdict_name(v->kind));
     if (largest > 0)
         fprintf(to, "%.2g", 4 * largest / 3);
-    fprintf(to, ",,\"to be found: why is this not a pass?\",\n");
+    fprintf(to, ",,\"" PROPOSAL_CAUSE "\",\n");
 }
 
 int proposal_write(FILE *to, const sweep *s, const judgement *j)

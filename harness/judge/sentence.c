@@ -154,16 +154,17 @@ static known count_known(const judgement *j)
 /* Verdicts of formulations that do not gate, and how many of them would need a finding. */
 static void new_ones(const judgement *j, char *text, size_t size)
 {
-    const char *whose = j->is_new == 1 ? "is of a new formulation, which does not gate"
-                                       : "are of new formulations, which do not gate";
     if (j->proposed == 0)
-        snprintf(text, size, "%d %s: none needs a finding", j->is_new, whose);
+        snprintf(text, size, "%d %s: none needs a finding", j->is_new,
+                 j->is_new == 1 ? "is of a new formulation, which does not gate"
+                                : "are of new formulations, which do not gate");
     else
         snprintf(text, size,
-                 "%d %s: %d of these %s no pass and would need a finding (--propose FILE writes %s "
-                 "down)",
-                 j->is_new, whose, j->proposed, j->proposed == 1 ? "is" : "are",
-                 j->proposed == 1 ? "it" : "them");
+                 "not gated: %d of %d %s %s no pass and would need a finding (--propose FILE "
+                 "writes %s down)",
+                 j->proposed, j->is_new,
+                 j->is_new == 1 ? "verdict of a new formulation" : "verdicts of new formulations",
+                 j->proposed == 1 ? "is" : "are", j->proposed == 1 ? "it" : "them");
 }
 
 /* What is no pass and was expected, for somebody who did not expect it. */
@@ -207,6 +208,8 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
     if (bad)
         snprintf(text, size, "%s: %s.", word, more);
     else
-        snprintf(text, size, "%s: %severy verdict is as expected%s%s.", word,
-                 s->unfinished > 0 ? "until then " : "", more[0] != '\0' ? "; " : "", more);
+        snprintf(text, size, "%s: %s%s%s%s.", word, s->unfinished > 0 ? "until then " : "",
+                 j->proposed > 0 ? "nothing that gates differs from what is expected"
+                                 : "every verdict is as expected",
+                 more[0] != '\0' ? "; " : "", more);
 }

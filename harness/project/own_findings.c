@@ -8,6 +8,7 @@
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/judge/proposal.h"
 #include "harness/judge/verdict.h"
 #include "harness/language/line.h"
 #include "harness/project/own_names.h"
@@ -159,15 +160,30 @@ static void check_name(reader *r)
                   name, r->t->rule[i].from != NULL ? r->t->rule[i].from : "the ledger");
 }
 
+/* A rule that says neither why nor how that is known explains nothing. */
+static void check_grounds(reader *r)
+{
+    if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
+        WRONG(r, CAUSE,
+              "finding %.60s has no cause yet; write there why it is not a pass, or "
+              "correct the element and take the row out",
+              r->row->field[RULE]);
+    else if (r->row->field[PROOF][0] == '\0')
+        WRONG(r, PROOF,
+              "finding %.60s has no proof; write there what shows its cause: a "
+              "derivation, a publication, a run",
+              r->row->field[RULE]);
+}
+
 static void check(reader *r, double *largest)
 {
-    static const int needed[] = {RULE, FORMULATIONS, CASES, QUANTITIES, VERDICTS, CAUSE};
-    static const char *const names[] = {"rule",       "formulations", "cases",
-                                        "quantities", "verdicts",     "cause"};
+    static const int needed[] = {RULE, FORMULATIONS, CASES, QUANTITIES, VERDICTS};
+    static const char *const names[] = {"rule", "formulations", "cases", "quantities", "verdicts"};
     const char *text = r->row->field[LARGEST_ERROR];
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->row->field[needed[i]][0] == '\0')
             WRONG(r, needed[i], "a finding needs %s", names[i]);
+    check_grounds(r);
     if (!r->good)
         return;
     *largest = NAN;

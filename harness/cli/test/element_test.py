@@ -1,5 +1,6 @@
 """Formulations from outside: the first example beside the others, and files that mean harm."""
 import json
+from pathlib import Path
 
 from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
 from harness.test.program import environment, run
@@ -42,9 +43,39 @@ class Example(Loaded):
         needed = self.folder / "needed.csv"
         out = self.answered("verify", "--element", wrong, "-f", "timoshenko", "-k",
                             "tapered_cantilever/default", "--propose", needed).stdout
-        self.assertIn("new formulations, which do not gate", " ".join(out.split()))
+        self.assertRegex(" ".join(out.split()), r"not gated: \d+ of \d+ verdicts? of")
         self.assertIn("deflection_z", needed.read_text(encoding="utf-8"))
         self.assertIn("wrong limit", needed.read_text(encoding="utf-8"))
+
+
+class Kept(Loaded):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.object = compile_shared(EXAMPLE, cls.class_folder() / "timoshenko.so")
+
+    def test_outputs_do_not_replace_what_is_loaded(self):
+        """Neither the object nor a file that a command names, whatever the output is called."""
+        mine = self.folder / "mine.so"
+        mine.write_bytes(Path(self.object).read_bytes())
+        script = self.folder / "my beam.py"
+        script.write_text("there", encoding="ascii")
+        link = self.folder / "link.so"
+        link.symlink_to(mine)
+        before = mine.read_bytes()
+        small = ("verify", "-f", "beamw", "-k", "warping_torsion/default", "--element", mine)
+        for option in ("-o", "--json", "--junit", "--markdown", "--propose"):
+            for place in (mine, link):
+                self.refused(2, (option, "which is read"), *small, option, place)
+        for verb in (("solve", "elastica", "-f", "timoshenko", "-n", "2"),
+                     ("converge", "elastica", "-f", "timoshenko", "-n", "2,4"), ("element-test",)):
+            self.refused(2, "which is read", *verb, "--element", mine, "-o", mine)
+        example = EXAMPLES / "timoshenko.py"
+        command = f"exec:/usr/bin/python3 '{example}' '{script}'"
+        self.refused(2, "which is read", "solve", "elastica", "-f", "timoshenko_py", "-n", "2",
+                     "--element", command, "-o", script)
+        self.assertEqual(mine.read_bytes(), before)
+        self.assertEqual(script.read_text(encoding="ascii"), "there")
 
 
 class Refused(Loaded):

@@ -50,7 +50,10 @@ class NotAccepted(ProgramTest):
     def test_a_new_one_is_told_and_does_not_gate(self):
         out = " ".join(self.verified("new").split())
         self.assertIn("(new)", out)
-        self.assertRegex(out, r"\d+ are of new formulations, which do not gate: \d+ of these")
+        for text in (out, " ".join(self.verified("new", "-q").split())):
+            self.assertRegex(text, r"nothing that gates differs from what is expected; not gated: "
+                             r"\d+ of \d+ verdicts of new formulations")
+            self.assertNotIn("every verdict is as expected", text)
 
     def test_its_rules_are_proposed(self):
         needed = self.folder / "needed.csv"

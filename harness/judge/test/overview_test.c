@@ -162,12 +162,17 @@ static void single_ones(void)
     says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: "
              "none needs a finding.");
     r.j.proposed = 1;
-    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: 1 "
-             "of these is no pass and would need a finding (--propose FILE writes it down).");
+    says(&r, "PASS: nothing that gates differs from what is expected; not gated: 1 of 2 verdicts "
+             "of new formulations is no pass and would need a finding (--propose FILE writes it "
+             "down).");
     r.j.proposed = 2;
-    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: 2 "
-             "of these are no pass and would need a finding (--propose FILE writes them down).");
-    r.j.is_new = 1;
+    says(&r, "PASS: nothing that gates differs from what is expected; not gated: 2 of 2 verdicts "
+             "of new formulations are no pass and would need a finding (--propose FILE writes them "
+             "down).");
+    r.j.is_new = r.j.proposed = 1;
+    says(&r, "PASS: nothing that gates differs from what is expected; not gated: 1 of 1 verdict of "
+             "a new formulation is no pass and would need a finding (--propose FILE writes it "
+             "down).");
     r.j.proposed = 0;
     says(&r, "PASS: every verdict is as expected; 1 is of a new formulation, which does not gate: "
              "none needs a finding.");
