@@ -14,9 +14,11 @@ Derivatives of strains are complex steps: strain must take complex arrays and be
 norm, conj, comparison of values; rotation_vector and sinc below are). With gives="e" it is called
 with real arrays only and beamwork takes differences. Raise Refused(why) for what cannot be done.
 """
+import difflib
 import functools
 import json
 import os
+import sys
 import traceback
 from types import SimpleNamespace
 
@@ -27,11 +29,34 @@ FEATURES = ("warping", "shear", "eccentric shear centre", "trapeze", "wagner mom
             "rotary inertia", "initial curvature", "coupled section")
 SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z wagner_torque D:9 "
            "F:9 axes_angle centroid:2 matrices stiffness:36 mass:36 rectangle width height")
+FUNCTIONS = ("prepare", "strain", "stress", "force")
+KEYS = ("name summary source family offers gives strains nodes order limits shear_theories "
+        "options").split()
 TINY, STEP = 1e-20, 2e-3  # of complex steps and of differences of their results
 
 
 class Refused(Exception):
     """Its text reaches the user."""
+
+
+def checked(value, name, count, each, why, numbers="biuf"):
+    """What a function returned as an array[count, *each] (count 0: [*each]), or Refused."""
+    def words(shape):
+        all_of = ["N" if count and (i, v) == (0, count) else str(v) for i, v in enumerate(shape)]
+        return f"({', '.join(all_of)})" if shape else "one number"
+
+    try:
+        found = np.asarray(value)
+    except ValueError:
+        raise Refused(f"{name}: an array is due, its rows differ in length") from None
+    if value is None or found.dtype.kind not in numbers:
+        what = "None" if value is None else f"numbers of type {found.dtype}"
+        raise Refused(f"{name} returned {what}, real numbers of real states are due")
+    shape = (count, *each) if count else each
+    if found.shape != shape:
+        with_N = f", here N = {count}" if count else ""
+        raise Refused(f"{name} returned {words(found.shape)}, {why} {words(shape)}{with_N}")
+    return found
 
 
 def cross_matrix(v):
@@ -72,19 +97,24 @@ def steps(n, second):
     return real, imag
 
 
-def derivatives(kind, strain, x, s):
-    """J [N, m, 7 n]; or, where s [N, m] is given, H [N, 7 n, 7 n] of s times the strains."""
-    (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
+def moved(kind, x, real, imag):
+    """States r, u, R, a [N P, n, ...] of elements x[N, n, 16] after P increments [P, n, 7]."""
     unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # increments as numbers of order one
     move, (psi, e) = (real + 1j * TINY * imag) * unit, (real[..., 3:6], imag[..., 3:6])
     t, spin = np.linalg.norm(psi, axis=-1)[..., None, None] / np.pi, cross_matrix(psi)
     turn = np.eye(3) + spin * np.sinc(t) + spin @ spin * np.sinc(t / 2)**2 / 2
-    turn = turn + 1j * TINY * cross_matrix(e) @ turn
-    at = x[:, None]
-    rate = strain(kind, *(v.reshape(-1, *v.shape[2:]) for v in (
-        at[..., 0:3] + move[..., :3], at[..., 3:6] + move[..., :3],
-        turn @ at[..., 6:15].reshape(N, 1, n, 3, 3), at[..., 15] + move[..., 6])))
-    rate, unit = rate.imag.reshape(N, len(real), -1) / TINY, np.tile(unit, n)
+    turn, at = turn + 1j * TINY * cross_matrix(e) @ turn, x[:, None]
+    turned = turn @ at[..., 6:15].reshape(len(x), 1, -1, 3, 3)
+    return [v.reshape(-1, *v.shape[2:]) for v in (
+        at[..., 0:3] + move[..., :3], at[..., 3:6] + move[..., :3], turned,
+        at[..., 15] + move[..., 6])]
+
+
+def derivatives(kind, strain, x, s):
+    """J [N, m, 7 n]; or, where s [N, m] is given, H [N, 7 n, 7 n] of s times the strains."""
+    (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
+    unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
+    rate = strain(kind, *moved(kind, x, real, imag)).imag.reshape(N, len(real), -1) / TINY
     if s is None:
         return rate.swapaxes(1, 2) / unit
     f = np.einsum("npm,nm->np", rate, s).reshape(N, 4, -1)
@@ -93,6 +123,20 @@ def derivatives(kind, strain, x, s):
     H[:, i, j] = (8 * (f[:, 0] - f[:, 1]) - f[:, 2] + f[:, 3]) / (12 * STEP) / (unit[i] * unit[j])
     H[:, j, i] = H[:, i, j]
     return H
+
+
+def is_analytic(kind, strain, x):
+    """Complex steps of strain agree with differences, a bit beside an element x[1, n, 16]."""
+    n = x.shape[1]
+    away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
+    state = [v.real for v in moved(kind, x, away, 0 * away)]
+    x = np.concatenate([v.reshape(1, n, -1) for v in state], -1)
+    real = STEP * np.kron([[1], [-1], [2], [-2]], np.eye(7 * n)).reshape(-1, n, 7)
+    e = strain(kind, *(v.real for v in moved(kind, x, real, 0 * real))).reshape(4, 7 * n, -1)
+    by_differences = (8 * (e[0] - e[1]) - e[2] + e[3]).T / (12 * STEP)
+    unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
+    by_steps = derivatives(kind, strain, x, None)[0] * unit
+    return not (abs(by_steps - by_differences) > 1e-6 * abs(by_differences).max()).any()
 
 
 def described(body, said):
@@ -109,45 +153,101 @@ def described(body, said):
     return int(number), kind
 
 
-def answers(what, mask, kind, body, size, functions):
+def three(name, found, mask, parts, N, c, why):
+    """Those that a mask asks for of energy[N], a vector [N, c] and a matrix [N, c, c]."""
+    if not isinstance(found, (tuple, list)) or len(found) != 3:
+        raise Refused(f"{name} must return three: energy, {parts[0]}, {parts[1]}")
+    all_three = [None if v is None and not mask >> i & 1 else
+                 checked(v, f"{name}, for {part},", N, (c,) * i, f"{why} wants" if i else "wants")
+                 for i, (v, part) in enumerate(zip(found, ("energy", *parts)))]
+    return [v for i, v in enumerate(all_three) if mask >> i & 1]
+
+
+def answers(what, mask, kind, body, said, functions):
     """The arrays that a mask asks for, of elements of one kind, body[N, ...] as in the request."""
+    N, n, m = len(body), said.get("nodes", 2), said.get("strains", 0)
     if what == 3:
-        all_three = functions["stress"](kind, body)
-        return [v for i, v in enumerate(all_three) if mask >> i & 1]
-    x = body[:, :16 * size].reshape(len(body), size, 16)
-    state = x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15]
+        found = functions["stress"](kind, body)
+        return three("stress", found, mask, ("sigma", "C"), N, m, f"strains={m}")
+    x = body[:, :16 * n].reshape(N, n, 16)
+    state = x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(N, n, 3, 3), x[..., 15]
     if what == 4:
-        return [v for i, v in enumerate(functions["force"](kind, *state)) if mask >> i & 1]
-    strain = functions["strain"]
+        found = functions["force"](kind, *state)
+        return three("force", found, mask, "FK", N, 7 * n, f"nodes={n}")
+
+    def strain(kind, *state):
+        numbers = "biufc" if np.iscomplexobj(state[0]) else "biuf"
+        return checked(functions["strain"](kind, *state), "strain", len(state[0]), (m,),
+                       f"strains={m} wants", numbers)
+
+    if mask & 6 and not functions.get("analytic") and np.isfinite(x[0]).all():
+        functions["analytic"] = is_analytic(kind, strain, x[:1])
+        if not functions["analytic"]:
+            raise Refused("derivatives are complex steps, and strain is not analytic (abs, norm, "
+                          "a comparison, .real?): mend it, or say gives='e'")
     of = (lambda: strain(kind, *state), lambda: derivatives(kind, strain, x, None),
-          lambda: derivatives(kind, strain, x, body[:, 16 * size:]))
+          lambda: derivatives(kind, strain, x, body[:, 16 * n:]))
     return [f() for i, f in enumerate(of) if mask >> i & 1]
+
+
+def prepared(body, kinds, said, functions):
+    """The body of an answer to a request to prepare a kind."""
+    number, kind = described(body, said)
+    kinds[number], C = kind, functions["prepare"](kind)
+    if "force" not in functions and C is None and "stress" not in functions:
+        raise Refused("prepare returned None: give a constant C, or serve the function stress")
+    m = said.get("strains", 0)
+    return [] if C is None else [checked(C, "prepare", 0, (m, m), f"strains={m} wants")]
 
 
 def answer(what, mask, count, body, kinds, said, functions):
     """The body of an answer."""
     if what == 1:
-        number, kind = described(body, said)
-        kinds[number], C = kind, functions["prepare"](kind)
-        return [] if C is None else [C]
+        return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
-    nodes, strains = said.get("nodes", 2), said.get("strains", 0)
-    parts = np.split(rest, [16 * nodes * count]) if what != 3 else [rest]
+    parts = np.split(rest, [16 * said.get("nodes", 2) * count]) if what != 3 else [rest]
     each = np.hstack([part.reshape(count, -1) for part in parts if part.size])
     out = None
     for number in np.unique(numbers):
         of = numbers == number
-        found = answers(what, mask, kinds[number], each[of], nodes, functions)
+        found = answers(what, mask, kinds[number], each[of], said, functions)
         out = [np.empty((count, *v.shape[1:])) for v in found] if out is None else out
         for whole, part in zip(out, found):
             whole[of] = part
     return out
 
 
-def serve(prepare, strain=None, stress=None, force=None, **said):
-    """Answers until beamwork has no more requests. said: keys of the protocol's first line."""
-    said = {"beamwork": 1, "gives": "tangent" if force else "e,J,H", **said}
-    functions, kinds = {"prepare": prepare, "strain": strain, "stress": stress, "force": force}, {}
+def told(error):
+    """One line for the user: what happened, and the last line of the author's files."""
+    if isinstance(error, Refused):
+        return str(error)
+    own = [f for f in traceback.extract_tb(error.__traceback__)
+           if f.filename != __file__ and not f.filename.startswith(os.path.dirname(np.__file__))]
+    where = f" ({os.path.basename(own[-1].filename)}:{own[-1].lineno})" if own else ""
+    return f"{type(error).__name__}: {str(error)[:120]}{where}"
+
+
+def taken(functions, words):
+    """The functions by their names, and the keys of the first line; ends where a word is none."""
+    functions, said = dict(zip(FUNCTIONS, functions)), {}
+    for word, value in words.items():
+        if word in KEYS:
+            said[word] = value
+        elif word in FUNCTIONS and callable(value or serve):
+            functions[word] = value
+        else:
+            near = difflib.get_close_matches(word, KEYS, 1)
+            sys.exit(f"serve(): {word}={value!r} is no {'function' if word in FUNCTIONS else 'key'}"
+                     + (f", did you mean {near[0]}?" if near else f"; keys: {', '.join(KEYS)}"))
+    functions = {name: f for name, f in functions.items() if f is not None}
+    return functions, {"beamwork": 1, "gives": "tangent" if "force" in functions else "e,J,H",
+                       **said}
+
+
+def serve(*functions, **words):
+    """Answers until beamwork has no more requests: serve(prepare, strain, stress, force=..., ...),
+    words: keys of the protocol's first line; a function that is not needed is left out."""
+    (functions, said), kinds = taken(functions, words), {}
     requests, to = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # print goes to standard error
     to.write(json.dumps(said).encode() + b"\n")
@@ -156,12 +256,10 @@ def serve(prepare, strain=None, stress=None, force=None, **said):
         what, mask, count, size = (int(v) for v in np.frombuffer(head, "<i8", offset=8))
         body = requests.read(size)
         try:
-            arrays, outcome = answer(what, mask, count, body, kinds, said, functions), 0
+            with np.errstate(all="ignore"):  # states that are no numbers come too
+                arrays, outcome = answer(what, mask, count, body, kinds, said, functions), 0
             out = b"".join(np.asarray(v, "<f8").tobytes() for v in arrays)
-        except Exception as error:  # pylint: disable=broad-except
-            last = traceback.extract_tb(error.__traceback__)[-1]
-            where = "" if isinstance(error, Refused) else f" ({last.filename}:{last.lineno})"
-            name = "" if isinstance(error, Refused) else f"{type(error).__name__}: "
-            outcome, out = 3, f"{name}{error}{where}".encode()[:300]
+        except (Exception, SystemExit) as error:  # pylint: disable=broad-except
+            outcome, out = 3, told(error).encode()[:300]
         to.write(b"beamwork" + np.array([outcome, len(out)], "<i8").tobytes() + out)
         to.flush()

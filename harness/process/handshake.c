@@ -77,21 +77,33 @@ static unsigned bit_of(const word_bit list[], const char *word)
     return list == NULL ? feature_named(word) : 0;
 }
 
+static status no_such_word(const reading *r, const char *key, const word_bit known[],
+                           const char *word)
+{
+    char words[260] = "";
+    size_t at = 0;
+    if (known == NULL)
+        feature_words(~0u, words, sizeof words);
+    for (; known != NULL && known->word != NULL && at < sizeof words; known++)
+        at += (size_t)snprintf(words + at, sizeof words - at, "%s%s", at > 0 ? ", " : "",
+                               known->word);
+    return fault_set(r->f, STATUS_REFUSED,
+                     "%.60s: '%s' of its first line has no word '%.40s'; give %s", r->who, key,
+                     word != NULL ? word : "that is no text", words);
+}
+
 /* The sum of the bits of a list of words; known NULL: words of feature.h. */
 static status words_of(const reading *r, const char *key, const word_bit known[], unsigned *out)
 {
     const json_t *list = json_object_get(r->said, key);
-    char what[160];
     *out = 0;
     if (list != NULL && !json_is_array(list))
         return refuse(r, key, "give a list of words");
     for (size_t i = 0; i < json_array_size(list); i++) {
         const char *word = json_string_value(json_array_get(list, i));
         const unsigned bit = word != NULL ? bit_of(known, word) : 0;
-        snprintf(what, sizeof what, "'%.40s' is no word that it can have (harness/process)",
-                 word != NULL ? word : "what is no text");
         if (bit == 0)
-            return refuse(r, key, what);
+            return no_such_word(r, key, known, word);
         *out |= bit;
     }
     return STATUS_OK;

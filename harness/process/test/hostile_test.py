@@ -242,7 +242,72 @@ class InPython(Speaker):
         self.assertEqual(done.returncode, 0, done)
         self.assertIn("hello", done.stderr)
 
-    def test_wrong_shape(self):
-        done = self.solve(self.example("strains=6", "strains=5"))
-        self.assertEqual(done.returncode, 1, done)
-        self.assertRegex(done.stderr, r"timoshenko_py: an answer has 288 bytes where 200 were")
+    def told(self, before, after, *words, code=1):
+        """The example with that change fails and says so."""
+        done = self.solve(self.example(before, after))
+        self.assertEqual(done.returncode, code, done)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        return done
+
+    def test_wrong_shapes(self):
+        """A sentence with both shapes, and no line of the module or of numpy."""
+        back = "return np.hstack([e - [kind.length, 0, 0], kind.length * psi])"
+        due = "strains=6 wants (N, 6)"
+        for after, words in ((f"{back}[:, :5]", ("strain returned (N, 5)", due)),
+                             (f"{back}.T", ("strain returned (6, ", due)),
+                             (f"{back}[0]", ("strain returned (6)", due)),
+                             ("return 0.0", ("strain returned one number", due)),
+                             (f"{back}[:1]", ("strain returned (1, 6)", due)),
+                             ("return None", ("strain returned None",)),
+                             ("return 'long'", ("strain returned numbers of type <U4",)),
+                             ("return [[1], [1, 2]]", ("strain: an array is due",)),
+                             (f"{back} + 0j", ("complex128", "real numbers of real states"))):
+            done = self.told(back, after, "timoshenko_py: ", *words)
+            self.assertNotIn(".py:", done.stderr)
+        self.told("strains=6", "strains=5", "prepare returned (6, 6), strains=5 wants (5, 5)",
+                  code=2)
+
+    def stress(self, back):
+        """What is told of the example with this stress in place of a constant stiffness."""
+        text = (ROOT / "elements/examples/timoshenko.py").read_text(encoding="utf-8")
+        text = text.replace("    return np.diag(", "    kind.C = np.diag(").replace(
+            "serve(prepare, strain,", f"def stress(kind, e):\n"
+            f"    s = e @ kind.C\n    w = (s * e).sum(1) / 2\n    {back}\n\n\n"
+            "serve(prepare, strain, stress,")
+        (self.folder / "mine.py").write_text(text, encoding="utf-8")
+        return self.solve(f"exec:'{sys.executable}' '{self.folder / 'mine.py'}'")
+
+    def test_wrong_stresses(self):
+        right = "np.broadcast_to(kind.C, (len(e), 6, 6))"
+        self.assertEqual(self.stress(f"return w, s, {right}").returncode, 0)
+        for back, words in ((f"return w.sum(), s, {right}", "for energy, returned one number"),
+                            (f"return w[:, None], s, {right}", "for energy, returned (N, 1)"),
+                            (f"return w, s[:1], {right}", "for sigma, returned (1, 6)"),
+                            ("return w, s, kind.C", "for C, returned (6, 6)"),
+                            ("return w", "stress must return three: energy, sigma, C")):
+            done = self.stress(back)
+            self.assertEqual(done.returncode, 1, done)
+            self.assertIn(words, done.stderr)
+
+    def test_ends_itself(self):
+        self.told("    chord = (", "    raise SystemExit('enough')\n    chord = (",
+                  "SystemExit: enough (mine.py:")
+
+    def test_a_word_that_is_none(self):
+        self.told("strains=6", "strain=6", "strain=6 is no function, did you mean strains?",
+                  code=2)
+        self.told("summary=", "sumary=", "is no key, did you mean summary?", code=2)
+        self.told('offers=["shear"', 'offers=["sheer"', "'sheer'", "trapeze, wagner moments",
+                  code=2)
+
+    def test_not_analytic(self):
+        """Also where value and derivative are right in the undeformed state."""
+        self.told("np.sqrt((psi * psi).sum(1))", "np.linalg.norm(psi, axis=1)",
+                  "strain is not analytic", "gives='e'")
+
+    def test_no_words_of_numpy(self):
+        """States that are no numbers are asked too; what comes of them is no warning."""
+        element = self.example("chord = (", "np.float64(0) / np.zeros(1)\n    chord = (")
+        done = self.solve(element)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done)
