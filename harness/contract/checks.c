@@ -9,6 +9,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"force", "force and stiffness derive from the energy", checks_force},
     {"motion", "rigid motion, order of the nodes and units change nothing", checks_motion},
     {"stateless", "the same call gives the same bits, whatever went before", checks_stateless},
+    {"many", "many elements at once give what each gives alone", checks_many},
     {"bounds", "outputs are filled whole, and nothing beside them is touched", checks_bounds},
     {"unsound", "what is no number is told, not swallowed", checks_unsound},
     {"mass", "mass matrix: symmetric, positive, mass and moments of the beam", checks_mass},

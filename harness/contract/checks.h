@@ -15,6 +15,7 @@ checks_run checks_energy;      /* stress, stiffness and geometric stiffness come
 checks_run checks_force;       /* of types by force: force and stiffness come from the energy */
 checks_run checks_motion;      /* rigid motion, order of the nodes, units */
 checks_run checks_stateless;   /* the same call gives the same, whatever went before */
+checks_run checks_many;        /* many at once give what each gives alone */
 checks_run checks_bounds;      /* outputs are filled, and nothing beside them is touched */
 checks_run checks_unsound;     /* what is no number is told, and not swallowed */
 checks_run checks_mass;        /* mass matrix: symmetric, positive, of the beam's mass */
@@ -25,7 +26,7 @@ typedef struct checks_family {
     checks_run *run;
 } checks_family;
 
-enum { CHECKS_FAMILIES = 11 };
+enum { CHECKS_FAMILIES = 12 };
 extern const checks_family checks_families[CHECKS_FAMILIES];
 
 #endif

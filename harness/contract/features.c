@@ -6,6 +6,7 @@
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/contract/checks.h"
+#include "harness/contract/effects.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 
@@ -132,4 +133,5 @@ void checks_features(const formulation *chosen, claims *out)
     single_features(chosen, out);
     features_of_cases(chosen, out);
     feature_subsets(chosen, out);
+    effects_check(chosen, out);
 }

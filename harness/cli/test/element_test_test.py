@@ -77,6 +77,9 @@ FAULTS = {
         ("const double l = request->length;",
          "const double l = request->length * (request->length > 1 ? 1.1 : 1);"),
         "in units of 0.001 m", "is a bare number compared with a length?"),
+    "ignored shear": (
+        ("request->features & FEATURE_SHEAR ? ", "request->features & 0 ? "),
+        "offers shear, but nothing changes with it", "do not offer it"),
     "theory": (
         ("    .shear_theories = SHEAR_HARINGX,\n", ""),
         "shear_theories: it offers shear and names no theory of it"),

@@ -159,6 +159,53 @@ static status no_reason(const element_request *request, element_data *out, fault
     return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
 }
 
+/* Of many elements at once, the energy of one for all. */
+static void one_energy(int count, const element_data *const data[], const double *const e[],
+                       const double *const inner[], stress_output out[], status outcome[])
+{
+    for (int k = 0; k < count; k++) {
+        outcome[k] = base->stress(data[k], e[k], inner[k], &out[k]);
+        if (out[k].energy != NULL)
+            *out[k].energy = *out[0].energy;
+    }
+}
+
+static void one_strain(int count, const element_data *const data[], const node_state x[],
+                       strain_output out[])
+{
+    for (int k = 0; k < count; k++) {
+        base->strain(data[k], x + (size_t)(2 * k), &out[k]);
+        if (k > 0 && out[k].e != NULL)
+            out[k].e[0] = out[0].e[0];
+    }
+}
+
+/* The features that are asked for, but some. */
+static status without(const element_request *request, unsigned features, element_data *out,
+                      fault *f)
+{
+    element_request less = *request;
+    less.features &= ~features;
+    return base->prepare(&less, out, f);
+}
+
+static status no_wagner(const element_request *request, element_data *out, fault *f)
+{
+    return without(request, FEATURE_WAGNER_MOMENTS, out, f);
+}
+
+static status no_shear(const element_request *request, element_data *out, fault *f)
+{
+    return without(request, FEATURE_SHEAR | FEATURE_ENGESSER | FEATURE_HARINGX, out, f);
+}
+
+static void no_amplitudes(const element_data *d, const node_state x[], strain_output *out)
+{
+    node_state flat[2] = {x[0], x[1]};
+    flat[0].a = flat[1].a = 0;
+    base->strain(d, flat, out);
+}
+
 static int one_order_less(const double options[])
 {
     (void)options;
@@ -250,6 +297,12 @@ static void the_rest(void)
     PLANT(prepare, stiff_in_units, "motion", "in units of", "instead of");
     PLANT(prepare, no_reason, "features", "it is refused: no reason is given",
           "asked for no feature");
+    PLANT(prepare, no_wagner, "features", "offers wagner moments, but nothing changes",
+          "do not offer it");
+    PLANT(prepare, no_shear, "features", "offers shear, but nothing changes", "do not offer it");
+    PLANT(strain, no_amplitudes, "features", "offers warping", "nothing depends on the warping");
+    PLANT(strain_many, one_strain, "many", "many at once gives other strains", "of 5");
+    PLANT(stress_many, one_energy, "many", "many at once gives other energies", "of 5");
     PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
     element_type t = changed("collocation");
     t.update = lazy;

@@ -1,0 +1,32 @@
+"""`element-test` of a formulation in another process, which answers for many elements at once."""
+import json
+import sys
+
+from harness.test.program import ROOT, ProgramTest, environment
+
+EXAMPLES = ROOT / "elements" / "examples"
+
+
+class ManyAtOnce(ProgramTest):
+    """The value of one element for all is told, and nothing where each has its own."""
+
+    def test_one_value_for_all(self):
+        text = (EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")
+        result = "    return np.hstack([e - [kind.length, 0, 0], kind.length * psi])"
+        self.assertIn(result, text)
+        one = "    e = np.hstack([e - [kind.length, 0, 0], kind.length * psi])\n"
+        for end, code in (("    return e", 0),
+                          ("    e[1:, 2] = e[0, 2] if not np.iscomplexobj(e) else e[1:, 2]\n"
+                           "    return e", 1)):
+            (self.folder / "mine.py").write_text(text.replace(result, one + end),
+                                                 encoding="utf-8")
+            out = self.answered("element-test", "--element",
+                                f"exec:'{sys.executable}' '{self.folder / 'mine.py'}'",
+                                "--format", "json", code=code,
+                                env=environment(PYTHONPATH=str(EXAMPLES))).stdout
+            (found, ) = json.loads(out)["certificates"]
+            said = [c["sentence"] for p in found["parts"] for c in p["claims"]
+                    if c["outcome"] == "broken"]
+            self.assertEqual(len(said), code, said)
+            self.assertTrue(all("many at once gives other strains than one by one: element" in s
+                                and "strain 3: " in s for s in said), said)
