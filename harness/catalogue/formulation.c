@@ -83,6 +83,21 @@ unsigned formulation_bears_on(const formulation *chosen)
     return features;
 }
 
+/* Whoever loads one and misses its name is told what it is called. */
+static status unknown(const char *name, fault *f)
+{
+    char loaded[200] = "";
+    fault why = {""};
+    for (int i = 0; formulations_at(i) != NULL; i++)
+        if (formulations_is_loaded(formulations_at(i))) {
+            const size_t used = strlen(loaded);
+            snprintf(loaded + used, sizeof loaded - used, "%s%s",
+                     used == 0 ? "; --element loaded " : ", ", formulations_at(i)->name);
+        }
+    const status outcome = choice_unknown("formulation", name, formulation_name, &why);
+    return fault_set(f, outcome, "%.300s%s", why.text, loaded);
+}
+
 status formulation_parse(const char *text, formulation *out, fault *f)
 {
     char name[FORMULATION_KEY];
@@ -92,7 +107,7 @@ status formulation_parse(const char *text, formulation *out, fault *f)
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const element_type *type = formulation_find(name);
     if (type == NULL)
-        return choice_unknown("formulation", name, formulation_name, f);
+        return unknown(name, f);
     formulation_default(type, out);
     if (text[length] == '\0')
         return STATUS_OK;

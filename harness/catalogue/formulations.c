@@ -63,9 +63,24 @@ void formulations_accept_all(void)
     all_are_accepted = 1;
 }
 
+/* Words that stand where the name of a formulation may stand. */
+static int is_reserved(const char *name)
+{
+    static const char *const words[] = {"all", "cases", "formulations"};
+    int found = 0;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        found |= strcmp(name, words[i]) == 0;
+    return found;
+}
+
 status formulations_add(const element_type *t, fault *f)
 {
     int count = 0;
+    if (is_reserved(t->name))
+        return fault_set(f, STATUS_REFUSED,
+                         "no formulation can be called '%s', which is a word of the command line; "
+                         "give it another name",
+                         t->name);
     if (formulations_named(t->name, strlen(t->name)) != NULL)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s is there already; give it a name of its own", t->name);

@@ -20,7 +20,8 @@ int formulations_is_new(const element_type *t);
 void formulations_accept(const char *name);
 /* From now on all gate, by findings of one's own. */
 void formulations_accept_all(void);
-/* Adds one; refuses a name that is there. The type stays the caller's. */
+/* Adds one; refuses a name that is there, and words that mean more than one (all). The type stays
+ * the caller's. */
 status formulations_add(const element_type *t, fault *f);
 
 #endif

@@ -99,6 +99,18 @@ int select_matches(const char *expression, const char *text)
     return s.bad || *s.at != '\0' ? -1 : holds;
 }
 
+int select_covers(const char *expression, const char *part)
+{
+    if (expression == NULL)
+        return 1;
+    for (const char *at = expression; *at != '\0'; at += word_length(at)) {
+        at += strspn(at, " \t()");
+        if (word_length(at) == 3 && strncmp(at, "not", 3) == 0)
+            return 0;
+    }
+    return select_matches(expression, part) == 1;
+}
+
 static int joins(const char *word)
 {
     return strcmp(word, "and") == 0 || strcmp(word, "or") == 0 || strcmp(word, "not") == 0;

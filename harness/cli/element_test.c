@@ -29,6 +29,18 @@ static status write_file(const command_request *r, const char *path, const char 
     return output_finish(&file, write_format(r, format, file.stream, c, f), f);
 }
 
+/* A file, or a command, in the place of a name; NULL: none. */
+static const char *file_among(const command_request *r)
+{
+    for (int i = 0; i < r->case_count; i++) {
+        const size_t length = strlen(r->cases[i]);
+        if (strncmp(r->cases[i], "exec:", 5) == 0 || strchr(r->cases[i], '/') != NULL ||
+            (length > 3 && strcmp(r->cases[i] + length - 3, ".so") == 0))
+            return r->cases[i];
+    }
+    return NULL;
+}
+
 /* Those that are named; else those that were loaded. */
 static void choose(command_request *r)
 {
@@ -62,6 +74,13 @@ static status run(const command_request *r, found *c, fault *f)
 static int answer(command_request *r)
 {
     fault f = {""};
+    const char *file = file_among(r);
+    if (file != NULL) {
+        fault_set(&f, STATUS_REFUSED,
+                  "element-test: '%.150s' is no name of a formulation; --element '%.150s' loads it",
+                  file, file);
+        return message_fail(STATUS_REFUSED, f.text);
+    }
     choose(r);
     found c = {.count = r->formulations};
     const status outcome = run(r, &c, &f);

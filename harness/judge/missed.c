@@ -39,6 +39,7 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
+/* All points and quantities of them: a selection speaks of cases alone. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;
@@ -46,7 +47,10 @@ static int cases_are_run(const sweep *s, const char *word)
         if (fnmatch(word, registry_cases[i]->name, 0) == 0)
             all &= is_run(s, registry_cases[i], NULL);
     for (int i = 0; i < s->points; i++)
-        found |= fnmatch(word, s->point[i].type->name, 0) == 0;
+        if (fnmatch(word, s->point[i].type->name, 0) == 0) {
+            all &= select_covers(s->select, s->point[i].type->name);
+            found = 1;
+        }
     return all && found;
 }
 
@@ -59,7 +63,7 @@ static int all_is_run(const sweep *s, const rule *r)
     for (const char *at = r->cases; (at = rules_next_word(at, word)) != NULL;)
         if (!cases_are_run(s, word))
             return 0;
-    return s->select == NULL && s->unfinished == 0;
+    return s->unfinished == 0;
 }
 
 int missed_rules(const sweep *s, truths *t, int whole)

@@ -188,6 +188,19 @@ static void write_model_error(FILE *to, const reach_question *q, const reached l
             q->s->point[q->point].scene.quantity[most->quantity].name);
 }
 
+/* Where no formulation runs there is no number: why. Returns 0 where one runs. */
+static int write_nothing_runs(FILE *to, const sweep *s)
+{
+    const char *before = "nothing was run: ";
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].missing[0] == '\0')
+            return 0;
+    for (int i = 0; i < s->seriess; i++, before = "; ")
+        fprintf(to, "%s%s does not offer %s", before, s->series[i].formulation.key,
+                s->series[i].missing);
+    return s->seriess > 0;
+}
+
 static void write_answer(FILE *to, const reach_question *q, reached list[])
 {
     const int count = reach_ranking(q, list), known = write_asked(to, q);
@@ -212,7 +225,7 @@ void reach_line_write(FILE *to, const sweep *s, const truths *t, double level)
     verdict *all = reach_verdicts(s, t, &q.verdicts);
     reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
     q.verdict = all;
-    if (all != NULL && list != NULL && s->points > 0)
+    if (all != NULL && list != NULL && s->points > 0 && !write_nothing_runs(to, s))
         write_answer(to, &q, list);
     fputc('\n', to);
     free(all);

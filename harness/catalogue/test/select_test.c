@@ -139,6 +139,28 @@ static status all_met(const char *expression, fault *f)
     return select_all_met(expression, &met, f);
 }
 
+/* Of every text with the name of a case in it. */
+static void covered(void)
+{
+    const struct {
+        const char *expression;
+        int covers;
+    } all[] = {{NULL, 1},
+               {"c_column", 1},
+               {"elastica or (c_column)", 1},
+               {"c_", 1},
+               {"c_column/default", 0},
+               {"c_column and beamw", 0},
+               {"c_column not beamw", 0},
+               {"c_column or not(beamw)", 0},
+               {"elastica", 0},
+               {"(c_column", 0},
+               {"", 0}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        gsl_test_int(select_covers(all[i].expression, "c_column"), all[i].covers, "'%s' covers",
+                     all[i].expression != NULL ? all[i].expression : "all");
+}
+
 static void unknown_words(void)
 {
     const struct {
@@ -167,5 +189,6 @@ int main(void)
     random_expressions();
     lengths();
     unknown_words();
+    covered();
     return gsl_test_summary();
 }

@@ -25,6 +25,13 @@ def answer(text):
 
 class Forms(unittest.TestCase):
 
+    def test_nothing_runs(self):
+        """A formulation that does not offer what a scene needs is told with the cause."""
+        done = run("converge", "shear_column", "-f", "beamw_vlasov")
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(" ".join(done.stdout.split()),
+                         "nothing was run: beamw_vlasov does not offer shear")
+
     def test_json_and_csv_agree(self):
         series = json.loads(converge("json"))["series"]
         self.assertEqual([s["formulation"] for s in series],

@@ -83,6 +83,19 @@ class Refused(Loaded):
     def refuse(self, path, *words):
         self.refused(2, words, "solve", *CASE, "-n", "2", "--element", path)
 
+    def test_words_of_the_command_line_are_no_names(self):
+        for word in ("all", "cases", "formulations"):
+            self.refuse(self.example(('"timoshenko"', f'"{word}"')), f"'{word}'", "another name")
+
+    def test_a_file_in_the_place_of_a_name(self):
+        for file in ("./mine.so", "mine.so", "exec:python3 x.py"):
+            self.refused(2, f"--element '{file}' loads it", "element-test", file)
+
+    def test_a_wrong_name_of_what_is_loaded(self):
+        self.refused(2, ("unknown formulation 'min'", "--element loaded timoshenko"), "solve",
+                     "elastica", "-f", "min", "--element", self.example())
+        self.assertNotIn("loaded", run("solve", "elastica", "-f", "min").stderr)
+
     def test_no_shared_object(self):
         self.refuse(self.folder / "none.so", "none.so", "is it a shared object?")
         text = self.folder / "text.so"

@@ -111,6 +111,18 @@ class Findings(Own):
             other = self.write("o.csv", RULES, rule.replace(*change))  # others may show it
             self.answered(*run, "--findings", other)
 
+    def test_a_rule_nobody_shows_of_a_selected_case(self):
+        """A case that is selected by its name alone is run as a whole."""
+        path = self.write("f.csv", RULES,
+                          "old,timoshenko,tapered_cantilever,,*,undecided,0.1,,once,paper")
+        for select, code in (("tapered_cantilever", 1), ("elastica or tapered_cantilever", 1),
+                             ("tapered_cantilever/default", 0), ("elastica/default", 0),
+                             ("tapered_cantilever and not deflection_y", 0)):
+            with self.subTest(select=select):
+                out = self.verified("right", "--findings", path, what=("-k", select),
+                                    code=code).stdout
+                self.assertEqual("finding old (" in " ".join(out.split()), code == 1)
+
     def test_several(self):
         files = [self.write("empty.csv", RULES), self.explained(self.proposed("wrong"))]
         for first, second in (files, files[::-1]):
