@@ -101,20 +101,33 @@ static void other_element(const specimen *s, const account *before, const node_s
     specimen_free(&other);
 }
 
-static void in_its_place(const specimen *s, const account *before, const node_state x[], claim *one)
+/* 0: it cannot be made again, and that is told. */
+static int in_its_place(const specimen *s, const account *before, const node_state x[], claim *one)
 {
     element_request request = s->request;
     account after;
+    fault f = {""};
+    char *kept = malloc(s->size);
+    if (kept == NULL)
+        return 0;
+    memcpy(kept, s->data, s->size);
     request.length = longer;
     memset(s->data, 0, s->size);
     if (s->type.data_size(&request) == s->size &&
         s->type.prepare(&request, s->data, NULL) == STATUS_OK)
         tell(s, x, &after);
     memset(s->data, 0, s->size);
-    if (s->type.prepare(&s->request, s->data, NULL) != STATUS_OK)
-        return;
-    tell(s, x, &after);
-    same(before, &after, "another element stood in its memory", s, one);
+    const int again = s->type.prepare(&s->request, s->data, &f) == STATUS_OK;
+    if (!again) {
+        memcpy(s->data, kept, s->size);
+        claims_asks(one, 0, "prepare: the same element is refused when it is made again: %s%s",
+                    f.text, s->words);
+    } else {
+        tell(s, x, &after);
+        same(before, &after, "another element stood in its memory", s, one);
+    }
+    free(kept);
+    return again;
 }
 
 /* Each output alone is what it is together with the others. */
@@ -208,7 +221,8 @@ static void check(const specimen *s, claims *c)
     same(&before, &after, "calls of another state", s, one);
     claims_doing(c, "another element between%s", s->words);
     other_element(s, &before, x, &first, one);
-    in_its_place(s, &before, x, one);
+    if (!in_its_place(s, &before, x, one))
+        return;
     claims_doing(c, "outputs one by one%s", s->words);
     alone(s, &before, x, claims_open(c, "outputs do not depend on each other", 0));
     if (s->inner > 0)

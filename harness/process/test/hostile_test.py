@@ -311,3 +311,30 @@ class InPython(Speaker):
         element = self.example("chord = (", "np.float64(0) / np.zeros(1)\n    chord = (")
         done = self.solve(element)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done)
+
+    def contract(self, before, after):
+        path = str(ROOT / "elements" / "examples")
+        done = run("element-test", "timoshenko_py", "--element", self.example(before, after),
+                   env={**os.environ, "PYTHONPATH": path})
+        self.assertEqual(done.returncode, 1, done)
+        return " ".join(done.stdout.partition("measured:")[0].split())
+
+    def test_one_cause_in_the_contract(self):
+        """What fails always is told as the cause of each family, and as nothing else."""
+        out = self.contract("chord = (", "chord = 1 / 0 + (")
+        self.assertRegex(out, r"derivatives of the strains \(1 compared\) ✘ formulation "
+                              r"timoshenko_py: ZeroDivisionError: division by zero "
+                              r"\(mine.py:\d+\); the rest is not checked")
+        self.assertNotIn("nan", out)
+        self.assertNotIn("crashed", out)
+
+    def test_fails_for_some(self):
+        """An element that cannot be made again is told; what stood there before is used."""
+        out = self.contract(
+            "    chord = (", "    longer = prepare.__dict__.setdefault('longer', set())\n"
+            "    if kind.length > 0.4:\n        longer.add(id(kind))\n"
+            "    if kind.length > 0.4 and len(longer) > 1:\n        raise ValueError('too long')\n"
+            "    chord = (")
+        self.assertIn("refused when it is made again: formulation timoshenko_py: ValueError: too "
+                      "long (mine.py:", out)
+        self.assertNotIn("crashed", out)
