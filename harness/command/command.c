@@ -16,6 +16,7 @@
 #include "harness/command/option_table.h"
 #include "harness/process/process.h"
 #include "harness/request/meshes.h"
+#include "harness/truth/data_place.h"
 
 static void refuse(const char *text)
 {
@@ -61,6 +62,8 @@ static void name_element(command_request *r, const char *path)
 static void load_elements(const command_request *r)
 {
     process_limit(r->time_limit);
+    if (r->elements > 0)
+        data_place_modules();
     for (int i = 0; i < r->elements; i++) {
         const element_type *type;
         fault f;

@@ -72,3 +72,23 @@ void data_place_truths(char path[PATH_MAX])
     else
         data_place("truths.h5", path);
 }
+
+void data_place_modules(void)
+{
+    char path[PATH_MAX];
+    const char *given = getenv("PYTHONPATH");
+    if (!data_place("elements/examples/beamwork_element.py", path) &&
+        !data_place("examples/elements/beamwork_element.py", path))
+        return;
+    *strrchr(path, '/') = '\0';
+    if (given != NULL && strstr(given, path) != NULL)
+        return;
+    const size_t room = (given != NULL ? strlen(given) : 0) + strlen(path) + 2;
+    char *both = malloc(room);
+    if (both == NULL)
+        return;
+    snprintf(both, room, "%s%s%s", given != NULL ? given : "",
+             given != NULL && given[0] != '\0' ? ":" : "", path);
+    setenv("PYTHONPATH", both, 1);
+    free(both);
+}

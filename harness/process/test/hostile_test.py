@@ -338,3 +338,12 @@ class InPython(Speaker):
         self.assertIn("refused when it is made again: formulation timoshenko_py: ValueError: too "
                       "long (mine.py:", out)
         self.assertNotIn("crashed", out)
+
+    def test_finds_the_module(self):
+        """From an empty folder, also behind a PYTHONPATH of the user's."""
+        element = self.example("strains=6", "strains=6")
+        for given in ({}, {"PYTHONPATH": ""}, {"PYTHONPATH": "/no/such"}):
+            clean = {name: v for name, v in os.environ.items() if name != "PYTHONPATH"}
+            done = run("solve", "elastica", "-f", "timoshenko_py", "-n", "2", "--element", element,
+                       cwd=self.folder, env={**clean, **given})
+            self.assertEqual(done.returncode, 0, done)
