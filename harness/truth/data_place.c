@@ -90,5 +90,6 @@ void data_place_modules(void)
     snprintf(both, room, "%s%s%s", given != NULL ? given : "",
              given != NULL && given[0] != '\0' ? ":" : "", path);
     setenv("PYTHONPATH", both, 1);
+    setenv("PYTHONDONTWRITEBYTECODE", "1", 0); /* nothing is written into an installed copy */
     free(both);
 }

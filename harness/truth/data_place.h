@@ -11,7 +11,7 @@ int data_place(const char *name, char path[PATH_MAX]);
 /* The packed truths: BEAMWORK_TRUTHS, or data_place. */
 void data_place_truths(char path[PATH_MAX]);
 /* Processes that are started from now on find beamwork_element.py behind all that PYTHONPATH names:
- * its folder, where there is one, is appended to it. */
+ * its folder, where there is one, is appended to it, and Python leaves no compiled files. */
 void data_place_modules(void);
 
 #endif

@@ -167,6 +167,19 @@ class Installed(ProgramTest):
                               program="/usr/bin/python3", PYTHONPATH=str(module))
         self.assertGreater(abs(float(text)), 0)
 
+    def test_formulation_in_python(self):
+        """It finds its module, and what the manual names is there; no compiled file is left."""
+        shutil.copy(self.data / "examples" / "elements" / "timoshenko.py", self.folder / "mine.py")
+        text = self.installed("solve", "elastica", "-f", "timoshenko_py", "-n", "2", "--element",
+                              "exec:/usr/bin/python3 mine.py")
+        self.assertIn("w_over_L", text)
+        self.assertEqual(list(self.place.rglob("*.pyc")), [])
+        page = (self.root / "share" / "man" / "man7" / "beamwork-element.7").read_text("utf-8")
+        for name in re.findall(r"\.Pa (share/\S+)", page):
+            self.assertTrue((self.root / name).exists(), name)
+        self.assertIn("doc/beamwork/harness/process/README.md", page)
+        self.assertTrue((self.root / "share" / "doc" / "beamwork" / "CONTRIBUTING.md").exists())
+
     def test_report(self):
         program = str(self.root / "bin" / "beamwork-report")
         self.installed("verify", "-k", "elastica/default and collocation", "-o", "r.h5")
