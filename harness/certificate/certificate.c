@@ -106,7 +106,8 @@ static void bury(tester *t, int time_limit)
     c->doing[sizeof c->doing - 1] = '\0';
     if (c->complete && WIFEXITED(how) && WEXITSTATUS(how) == 0)
         return;
-    child_ended(how, t->late, time_limit, words, sizeof words);
+    if (child_ended(how, t->late, time_limit, words, sizeof words))
+        t->of->late = certificate_part_name(t->part);
     claims_asks(claims_open(c, "every call comes back", 0), 0, "%s: %.250s", words,
                 c->doing[0] != '\0' ? c->doing : "before the first call");
 }
@@ -117,6 +118,14 @@ static void stop_late(tester *t, int time_limit)
         return;
     t->late = 1;
     kill(t->process, SIGKILL);
+}
+
+/* After one that did not come back in time the others are not waited for. */
+static void pass_over(certificate *of, int part)
+{
+    char why[CLAIM_SENTENCE];
+    snprintf(why, sizeof why, "not checked: '%s' hit the time limit", of->late);
+    claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
 /* Waits until one ends, and takes what has. Returns how many ended. */
@@ -156,7 +165,10 @@ static status run_all(const certificate_request *r, certificate *all, tester tea
     int next = 0, running = 0;
     while (next < tasks || running > 0) {
         const int free_one = idle(team, jobs);
-        if (next < tasks && free_one >= 0) {
+        if (next < tasks && all[next / CERTIFICATE_PARTS].late != NULL) {
+            pass_over(&all[next / CERTIFICATE_PARTS], next % CERTIFICATE_PARTS);
+            next++;
+        } else if (next < tasks && free_one >= 0) {
             TRY(start(&team[free_one], &all[next / CERTIFICATE_PARTS], next % CERTIFICATE_PARTS,
                       r->time_limit, f));
             next++;

@@ -18,6 +18,8 @@ typedef struct certificate_part {
 typedef struct certificate {
     formulation chosen;
     certificate_part part[CERTIFICATE_PARTS];
+    const char
+        *late; /* the part that hit the time limit; NULL: none. What follows is not checked */
 } certificate;
 
 typedef struct certificate_request {

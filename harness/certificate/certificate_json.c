@@ -23,11 +23,11 @@ static json_t *claim_of(const claim *one)
 
 static json_t *measure_of(const measure *one)
 {
-    return json_pack("{s:s,s:o,s:o,s:o,s:i,s:i,s:b,s:s}", "name", one->name, "at",
+    return json_pack("{s:s,s:o,s:o,s:o,s:i,s:i,s:b,s:b,s:s}", "name", one->name, "at",
                      json_record_numbers(one->points, one->at), "error",
                      json_record_numbers(one->points, one->error), "order", number(one->order),
-                     "least", one->least, "highest", one->highest, "locks", one->locks, "words",
-                     one->words);
+                     "least", one->least, "highest", one->highest, "locks", one->locks,
+                     "wrong_limit", one->astray, "words", one->words);
 }
 
 static json_t *part_of(const certificate *c, int part)

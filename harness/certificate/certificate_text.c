@@ -52,7 +52,10 @@ static void write_family(FILE *to, screen look, const certificate *c, int part, 
     const claim_outcome outcome = outcome_of(own);
     put_mark(to, look, outcome);
     fprintf(to, "%-*s", NAME, certificate_part_name(part));
-    if (outcome == CLAIM_NOT_CLAIMED)
+    if (outcome == CLAIM_NOT_CLAIMED && c->late != NULL && own->count == 1 &&
+        strncmp(own->claim[0].sentence, "not checked", 11) == 0)
+        paragraph_write(to, INDENT, INDENT, own->claim[0].sentence);
+    else if (outcome == CLAIM_NOT_CLAIMED)
         paragraph_say(to, INDENT, INDENT, "not claimed: %s",
                       own->count > 0 ? own->claim[0].sentence : "nothing to look at");
     else
@@ -98,7 +101,7 @@ static void write_measure(FILE *to, const measure *one, int verbose)
     if (!isnan(one->order))
         fprintf(to, "  %.1f (%d-%d)", one->order, one->least, one->highest);
     fputs(one->locks ? "  locks\n" : "\n", to);
-    if (verbose && one->words[0] != '\0')
+    if (verbose && !one->astray && one->words[0] != '\0')
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
@@ -113,8 +116,16 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
     for (int i = 0; i < first->points; i++)
         fprintf(to, part == CHECKS_FAMILIES + 1 ? " %*.0e" : " %*.0f", COLUMN - 1, first->at[i]);
     fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order" : "");
+    if (own->measures.count == 0 && own->claims.count == 1 && c->late != NULL)
+        paragraph_write(to, fprintf(to, "    "), 4, own->claims.claim[0].sentence);
     for (int i = 0; i < own->measures.count; i++)
         write_measure(to, &own->measures.measure[i], verbose);
+    if (own->measures.words[0] != '\0')
+        paragraph_write(to, fprintf(to, "    "), 6, own->measures.words);
+    for (int i = 0; i < own->measures.count && own->measures.words[0] == '\0'; i++)
+        if (own->measures.measure[i].astray)
+            paragraph_say(to, fprintf(to, "    "), 6, "%s: %s", own->measures.measure[i].name,
+                          own->measures.measure[i].words);
     write_claims(to, look, &own->claims, verbose);
 }
 
@@ -130,6 +141,9 @@ static void write_verdict(FILE *to, screen look, const certificate *c)
         fprintf(to, ", %d claims", kept);
     fprintf(to, " on %d numbers; %d not claimed\n", certificate_compared(c),
             certificate_counted(c, CLAIM_NOT_CLAIMED));
+    const int astray = measures_astray(&c->part[CHECKS_FAMILIES].measures);
+    if (astray > 0)
+        fprintf(to, "measured: %d state%s with a wrong limit\n", astray, astray > 1 ? "s" : "");
 }
 
 static void write_one(FILE *to, screen look, const certificate *c, int verbose, int quiet)
@@ -163,6 +177,8 @@ void certificate_text(FILE *to, screen look, const certificate *all, int count, 
             fputc('\n', to);
         if (!quiet || !certificate_holds(&all[i]))
             write_one(to, look, &all[i], verbose, quiet);
+        else if (count == 1)
+            fprintf(to, "%s: KEPT\n", all[i].chosen.key);
         broken += !certificate_holds(&all[i]);
         numbers += certificate_compared(&all[i]);
     }

@@ -73,9 +73,17 @@ static int telling(const measure *one)
 static void hold_against_declared(const question *q, int last, const measure *one, claims *c)
 {
     static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
-    claim *claimed = claims_open(c, "orders are at least those declared", 0.3);
+    char name[CLAIM_NAME];
+    snprintf(name, sizeof name, "order of %s", q->name);
+    claim *claimed = claims_open(c, name, 0.3);
     if (last == 0 && fabs(one->error[one->points - 1]) <= noise)
         claims_asks(claimed, 1, "%s", "");
+    else if (last > 1 && one->order < 0.1 && one->least > 0)
+        claims_asks(claimed, 0,
+                    "order: its errors do not fall: %.2g, %.2g, %.2g with %g, %g and %g elements "
+                    "(%s): the limit is wrong; mend the element, or its section's constants",
+                    fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
+                    one->at[last - 2], one->at[last - 1], one->at[last], q->name);
     else if (last > 0)
         claims_departs(
             claimed, one->least - one->order,

@@ -22,6 +22,14 @@ void measures_point(measure *one, double at, double error)
     one->error[one->points++] = error;
 }
 
+int measures_astray(const measures *m)
+{
+    int count = 0;
+    for (int i = 0; i < m->count; i++)
+        count += m->measure[i].astray;
+    return count;
+}
+
 int measures_hopeless(const measure *one)
 {
     for (int i = 0; i < one->points; i++)

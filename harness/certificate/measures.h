@@ -13,18 +13,22 @@ typedef struct measure {
     double order;                 /* of the errors; NAN: not asked for, or none is seen */
     int least, highest;           /* orders that the type declares; 0: not asked for */
     int locks;                    /* 1: the errors grow where it becomes thin */
-    char words[MEASURE_WORDS];    /* why there is nothing, or what it comes to */
+    int astray; /* 1: the error of a linear state is that of one element with every mesh */
+    char words[MEASURE_WORDS]; /* why there is nothing, or what it comes to */
 } measure;
 
 typedef struct measures {
     int count;
     measure measure[MEASURES_MOST];
+    char words[MEASURE_WORDS]; /* what all of them have in common; "": nothing */
 } measures;
 
 /* The next one, empty. */
 measure *measures_add(measures *m, const char *name);
 /* One more point of it. */
 void measures_point(measure *one, double at, double error);
+/* Those whose limit is wrong. */
+int measures_astray(const measures *m);
 /* 1: three points or more, and none has a value. */
 int measures_hopeless(const measure *one);
 

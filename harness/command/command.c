@@ -288,7 +288,7 @@ void command_parse(const char *verb, const char *arguments_doc, const char *doc,
     const struct argp parser = {
         .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
     memset(out, 0, sizeof *out);
-    out->time_limit = 120;
+    out->time_limit = strcmp(verb, "element-test") == 0 ? 60 : 120;
     out->refusal = EXIT_REFUSED;
     out->format = "text";
     out->most_arguments = most_arguments(keys);

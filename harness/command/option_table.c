@@ -23,7 +23,9 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, select)},
     {"jobs", 'j', "N", "processes (default: one for each processor)", 0},
     {"time-limit", 'L', "SECONDS",
-     "of one cell (default 120, 0: none); a cell that exceeds it is a failure of that name", 0},
+     "of one cell (default 120; element-test: 60, of one part; 0: none); a cell that exceeds it is "
+     "a failure of that name",
+     0},
     {"json", 'J', "FILE", "verdicts as JSON", offsetof(command_request, json)},
     {"junit", 'U', "FILE", "verdicts as JUnit XML", offsetof(command_request, junit)},
     {"threshold", 'c', "NAME=R[,NAME=R]",
