@@ -191,7 +191,9 @@ class Planted(Tested):
 
     def test_each_is_told(self):
         self.assertGreaterEqual(len(FAULTS), 20)
-        self.told("timoshenko.c", FAULTS)
+        with_sanitizers = "fsanitize" in run("--version").stdout  # they end the process themselves
+        self.told("timoshenko.c", {name: fault for name, fault in FAULTS.items()
+                                   if not (with_sanitizers and name == "beyond data")})
 
     def test_each_of_a_force_is_told(self):
         self.told("corotational.c", FORCE_FAULTS)
