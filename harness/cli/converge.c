@@ -4,6 +4,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/command/errors.h"
+#include "harness/command/named.h"
 #include "harness/judge/families.h"
 #include "harness/record/csv.h"
 #include "harness/record/json.h"
@@ -104,7 +105,7 @@ static int converge_request(command_request *r)
     if (type == NULL)
         return r->refusal;
     if (r->formulations == 0)
-        command_add_formulation(r, "all");
+        named_add(r, "all");
     const status outcome = converge(r, type, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0, solved = has_solution(&s);
     sweep_free(&s);

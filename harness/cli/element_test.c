@@ -5,6 +5,7 @@
 #include "harness/certificate/certificate_json.h"
 #include "harness/certificate/certificate_text.h"
 #include "harness/cli/cli.h"
+#include "harness/command/named.h"
 #include "harness/record/output.h"
 
 typedef struct found {
@@ -45,10 +46,10 @@ static const char *file_among(const command_request *r)
 static void choose(command_request *r)
 {
     for (int i = 0; i < r->case_count; i++)
-        command_add_formulation(r, r->cases[i]);
+        named_add(r, r->cases[i]);
     for (int i = 0; r->formulations == 0 && formulations_at(i) != NULL; i++)
         if (formulations_is_new(formulations_at(i)))
-            command_add_formulation(r, formulations_at(i)->name);
+            named_add(r, formulations_at(i)->name);
 }
 
 /* With what cli_element_test frees. */

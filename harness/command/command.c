@@ -7,21 +7,13 @@
 #include <unistd.h>
 
 #include "harness/algebra/team.h"
-#include "harness/catalogue/formulation_list.h"
-#include "harness/catalogue/plugin.h"
 #include "harness/command/case_input.h"
 #include "harness/command/help.h"
 #include "harness/command/message.h"
+#include "harness/command/named.h"
 #include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
-#include "harness/process/process.h"
 #include "harness/request/meshes.h"
-#include "harness/truth/data_place.h"
-
-static void refuse(const char *text)
-{
-    exit(message_fail(STATUS_REFUSED, text));
-}
 
 static int whole_number(const char *text, const char *what, long least, long most)
 {
@@ -31,7 +23,7 @@ static int whole_number(const char *text, const char *what, long least, long mos
     if (end == text || *end != '\0' || errno != 0 || value < least || value > most) {
         snprintf(message, sizeof message, "%s '%.40s': give a whole number from %ld to %ld", what,
                  text, least, most);
-        refuse(message);
+        message_refuse(message);
     }
     return (int)value;
 }
@@ -40,51 +32,7 @@ static void add_meshes(command_request *r, const char *list)
 {
     fault f;
     if (meshes_parse(list, COMMAND_MAX_MESHES, r->mesh, &r->meshes, &f) != STATUS_OK)
-        refuse(f.text);
-}
-
-void command_add_formulation(command_request *r, const char *text)
-{
-    fault f;
-    if (formulation_list_add(text, COMMAND_MAX_FORMULATIONS, r->formulation, &r->formulations,
-                             &f) != STATUS_OK)
-        refuse(f.text);
-}
-
-static void name_element(command_request *r, const char *path)
-{
-    if (r->elements == FORMULATIONS_MOST_LOADED)
-        refuse("too many --element; give at most 16");
-    r->element[r->elements++] = path;
-}
-
-/* When the time limit is known, which holds for a process that says what it is. */
-static void load_elements(const command_request *r)
-{
-    process_limit(r->time_limit);
-    if (r->elements > 0)
-        data_place_modules();
-    for (int i = 0; i < r->elements; i++) {
-        const element_type *type;
-        fault f;
-        if (plugin_load(r->element[i], &type, &f) != STATUS_OK ||
-            formulations_add(type, &f) != STATUS_OK)
-            refuse(f.text);
-    }
-}
-
-/* When all options are known: those that --element loads can be named before it. */
-static void add_formulations(command_request *r)
-{
-    for (int i = 0; i < r->named_formulations; i++)
-        command_add_formulation(r, r->named_formulation[i]);
-}
-
-static void name_formulation(command_request *r, const char *text)
-{
-    if (r->named_formulations == COMMAND_MAX_FORMULATIONS)
-        refuse("too many formulations");
-    r->named_formulation[r->named_formulations++] = text;
+        message_refuse(f.text);
 }
 
 static void add_assignment(command_request *r, const char *text)
@@ -92,12 +40,12 @@ static void add_assignment(command_request *r, const char *text)
     const size_t name = strcspn(text, "=");
     char message[160];
     if (r->assignments == CASE_MAX_PARAMETERS)
-        refuse("too many parameters");
+        message_refuse("too many parameters");
     for (int i = 0; i < r->assignments; i++)
         if (strcspn(r->assignment[i], "=") == name && strncmp(r->assignment[i], text, name) == 0) {
             snprintf(message, sizeof message, "--set %.*s is given twice; give it one value",
                      (int)(name < 60 ? name : 60), text);
-            refuse(message);
+            message_refuse(message);
         }
     r->assignment[r->assignments++] = text;
 }
@@ -115,7 +63,7 @@ static void refuse_again(command_request *r, int key, const struct argp_state *s
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
             snprintf(message, sizeof message, "--%s is given twice; give it one value", o->name);
-            refuse(message);
+            message_refuse(message);
         }
     r->given[r->given_count++] = (char)key;
 }
@@ -139,7 +87,7 @@ static void show_help(const struct argp_state *state)
 static void add_case(command_request *r, const char *name)
 {
     if (r->case_count == r->most_arguments)
-        refuse("too many arguments; 'beamwork --help' shows the usage");
+        message_refuse("too many arguments; 'beamwork --help' shows the usage");
     r->cases[r->case_count++] = name;
     r->case_name = r->cases[0];
     r->second = r->cases[1];
@@ -149,11 +97,11 @@ static void add_case(command_request *r, const char *name)
 static void add_path(const char *path, int most, const char *list[], int *count)
 {
     if (*count == most)
-        refuse(most == 1 ? "--scene is given twice; give it one value"
-                         : "too many files of one option; give a folder, join tables");
+        message_refuse(most == 1 ? "--scene is given twice; give it one value"
+                                 : "too many files of one option; give a folder, join tables");
     for (int i = 0; i < *count; i++)
         if (strcmp(list[i], path) == 0)
-            refuse("an option is given twice with one path; give it once");
+            message_refuse("an option is given twice with one path; give it once");
     list[(*count)++] = path;
 }
 
@@ -164,7 +112,8 @@ static void add_truths(command_request *r, const char *path)
     if (r->takes_tables && length > 4 && strcmp(path + length - 4, ".csv") == 0)
         add_path(path, COMMAND_MAX_CASES, r->own_truths, &r->own_truths_count);
     else if (r->truths != NULL)
-        refuse("--truths is given twice with packed truths; give one, and tables (.csv) beside");
+        message_refuse(
+            "--truths is given twice with packed truths; give one, and tables (.csv) beside");
     else
         r->truths = path;
 }
@@ -200,14 +149,13 @@ static error_t take(int key, char *value, struct argp_state *state)
         add_case(r, value);
         return 0;
     case 'f':
-        name_formulation(r, value);
+        named_formulation(r, value);
         return 0;
     case 'x':
-        name_element(r, value);
+        named_element(r, value);
         return 0;
     case ARGP_KEY_END:
-        load_elements(r);
-        add_formulations(r);
+        named_load(r);
         return 0;
     case 'n':
         add_meshes(r, value);
@@ -229,7 +177,7 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'F':
         if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)
-            refuse("--format: give text, json or csv");
+            message_refuse("--format: give text, json or csv");
         r->format = value;
         return 0;
     case 'S':
@@ -283,7 +231,7 @@ void command_parse(const char *verb, const char *arguments_doc, const char *doc,
                                                o->doc,      always ? -1 : 0};
     }
     if (option_check(verb, chosen, count, arguments, &f) != STATUS_OK)
-        refuse(f.text);
+        message_refuse(f.text);
     chosen[n] = (struct argp_option){.key = '?', .flags = OPTION_HIDDEN | OPTION_ALIAS};
     const struct argp parser = {
         .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};

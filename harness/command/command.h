@@ -70,8 +70,6 @@ typedef struct command_request {
  * Errors are printed and end the program with EXIT_REFUSED. */
 void command_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
                    int count, char **arguments, command_request *out);
-/* One more -f, or "all"; ends the program as command_parse does. */
-void command_add_formulation(command_request *r, const char *text);
 /* What a verb does with its request; its exit code. */
 typedef int command_answer(command_request *r);
 /* command_parse, the answer, case_input_close. */

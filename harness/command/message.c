@@ -1,6 +1,7 @@
 #include "harness/command/message.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "harness/command/command.h"
 
@@ -34,4 +35,9 @@ int message_fail(status s, const char *text)
         break;
     }
     return EXIT_FAULT;
+}
+
+void message_refuse(const char *text)
+{
+    exit(message_fail(STATUS_REFUSED, text));
 }

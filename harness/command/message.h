@@ -9,6 +9,8 @@
 int message_finish(int code);
 /* One line on stderr; the exit code that belongs to a status. */
 int message_fail(status s, const char *text);
+/* The line, and the end of the program: what was asked for makes no sense. */
+_Noreturn void message_refuse(const char *text);
 /* EXIT_AS_EXPECTED, or message_fail with what is wrong. */
 int message_exit(status s, const fault *f);
 
