@@ -1,0 +1,78 @@
+/* A number of several elements at once, one in each lane: with LANES defined before this header, in
+ * files that are compiled once for one element and once for several.  All operations are those of
+ * each lane in the order of the source: the same bits in every number of lanes.  An address of
+ * reals in lanes is no array of doubles: real_put and real_lane go in and out. */
+#ifndef BEAMWORK_REAL_H
+#define BEAMWORK_REAL_H
+
+#include <math.h>
+
+#ifndef LANES
+#define LANES 1
+#endif
+
+#if LANES == 1
+
+typedef double real;
+/* The same number in all lanes. */
+static inline real real_of(double v)
+{
+    return v;
+}
+static inline double real_lane(const real *a, int lane)
+{
+    (void)lane;
+    return *a;
+}
+static inline void real_put(real *a, int lane, double v)
+{
+    (void)lane;
+    *a = v;
+}
+static inline real real_sqrt(real a)
+{
+    return sqrt(a);
+}
+
+#else
+
+typedef double real __attribute__((vector_size(LANES * sizeof(double))));
+/* The same number in all lanes. */
+static inline real real_of(double v)
+{
+    return v - (real){0};
+}
+static inline double real_lane(const real *a, int lane)
+{
+    return (*a)[lane];
+}
+static inline void real_put(real *a, int lane, double v)
+{
+    (*a)[lane] = v;
+}
+static inline real real_sqrt(real a)
+{
+    for (int lane = 0; lane < LANES; lane++)
+        a[lane] = sqrt(a[lane]);
+    return a;
+}
+
+#endif
+
+/* Functions of libm lane by lane: what one element gets. */
+static inline real real_atan2(real y, real x)
+{
+    real angle = y;
+    for (int lane = 0; lane < LANES; lane++)
+        real_put(&angle, lane, atan2(real_lane(&y, lane), real_lane(&x, lane)));
+    return angle;
+}
+static inline void real_sincos(real a, real *sine, real *cosine)
+{
+    for (int lane = 0; lane < LANES; lane++) {
+        real_put(sine, lane, sin(real_lane(&a, lane)));
+        real_put(cosine, lane, cos(real_lane(&a, lane)));
+    }
+}
+
+#endif
