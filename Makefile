@@ -31,6 +31,11 @@ LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
 TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o)
+# What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
+WIDE := elements/math/congruence.c $(sort $(wildcard elements/*/lanes.c))
+ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
+OBJECTS += $(WIDE:%.c=$(BUILD)/%.avx2.o)
+endif
 TESTS := $(TEST_SOURCES:%.c=$(BUILD)/%)
 KIT := $(KIT_SOURCES:%.c=$(BUILD)/%.o)
 
@@ -193,6 +198,12 @@ endif
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
+
+# Vectors stay inside these files: how they are passed does not matter.
+$(WIDE:%.c=$(BUILD)/%.o): private BASE_CFLAGS += -Wno-psabi
+$(BUILD)/%.avx2.o: %.c
+	@mkdir -p $(@D)
+	$(call SAY,compile $< for AVX2)$(CC) $(BASE_CFLAGS) -mavx2 -DREAL_AVX2 $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
 $(PRICES:.c=.o): harness/timing/price.h
 $(REGISTRY:.c=.o) $(PRICES:.c=.o): $(BUILD)/%.o: $(BUILD)/%.c

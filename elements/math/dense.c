@@ -4,6 +4,9 @@
 #include <float.h>
 #include <string.h>
 
+#include "elements/math/congruence.h"
+#include "elements/math/real.h"
+
 enum { WIDEST = 14 };
 
 /* out += sum_l times c[l stride] row l of rows, row length n, in this order; sums of a width that
@@ -105,6 +108,10 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
 void dense_add_congruence(int m, int n, const double *restrict J, const double *restrict S,
                           double *restrict K, double *restrict work)
 {
+    if (m <= CONGRUENCE_WIDEST && n <= CONGRUENCE_WIDEST) {
+        REAL_CHOSEN(congruence_add)(m, n, J, S, K);
+        return;
+    }
     dense_mul(m, m, n, S, J, work);
     dense_add_transpose_mul(n, m, n, J, work, K);
 }

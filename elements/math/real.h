@@ -1,7 +1,10 @@
 /* A number of several elements at once, one in each lane: with LANES defined before this header, in
  * files that are compiled once for one element and once for several.  All operations are those of
  * each lane in the order of the source: the same bits in every number of lanes.  An address of
- * reals in lanes is no array of doubles: real_put and real_lane go in and out. */
+ * reals in lanes is no array of doubles: real_put and real_lane go in and out.
+ *
+ * The Makefile compiles some files a second time for processors with AVX2, with REAL_AVX2 defined:
+ * REAL_NAMED gives what they export its name, and who calls it takes REAL_CHOSEN. */
 #ifndef BEAMWORK_REAL_H
 #define BEAMWORK_REAL_H
 
@@ -9,6 +12,17 @@
 
 #ifndef LANES
 #define LANES 1
+#endif
+
+#ifdef REAL_AVX2
+#define REAL_NAMED(name) name##_avx2
+#else
+#define REAL_NAMED(name) name##_plain
+#endif
+#ifdef __x86_64__
+#define REAL_CHOSEN(name) (__builtin_cpu_supports("avx2") ? name##_avx2 : name##_plain)
+#else
+#define REAL_CHOSEN(name) name##_plain
 #endif
 
 #if LANES == 1
