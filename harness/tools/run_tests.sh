@@ -1,21 +1,9 @@
 #!/bin/sh
-# Runs every test program given and every Python test, and ends in one line: N passed, M failed[, K skipped].
-# A skipped test is named with what it needs: "SKIP name: needs chromium".
-# usage: run_tests.sh LOGDIR program... [-- python_test_dir...]
+# Runs every test program given and every folder of Python tests, as many at once as there are processors, and ends in
+# one line: N passed, M failed[, K skipped].  A skipped test is named with what it needs: "SKIP name: needs chromium".
+# usage: run_tests.sh LOGDIR PROGRAM|FOLDER...
 set -u
-logs=$1
-shift
-mkdir -p "$logs"
-passed=0 failed=0 skipped=0
-tally() { # name log exit-status
-    p=$(grep -c '^PASS' "$2") f=$(grep -c '^FAIL' "$2") k=$(grep -c '^SKIP' "$2")
-    if [ "$3" != 0 ] && [ "$f" = 0 ]; then f=1; echo "FAIL $1 ended with status $3"; tail -n 5 "$2"; fi
-    if [ "$p" = 0 ] && [ "$f" = 0 ] && [ "$k" = 0 ]; then f=1; echo "FAIL $1 checked nothing"; fi
-    passed=$((passed + p)) failed=$((failed + f)) skipped=$((skipped + k))
-    [ "$f" = 0 ] || grep '^FAIL' "$2"
-    [ "$k" = 0 ] || grep '^SKIP' "$2"
-    printf '%-44s %5d passed %3d failed\n' "$1" "$p" "$f"
-}
+
 # Of unittest's output: a test's line is its name, or its name and then its docstring.
 verdicts() {
     awk '/^[A-Za-z_]+ \(/ { name = $2; gsub(/[()]/, "", name) }
@@ -23,24 +11,50 @@ verdicts() {
         / \.\.\. (FAIL|ERROR)$/ { sub(/ \.\.\. (FAIL|ERROR)$/, ""); print "FAIL: " $0 }
         / \.\.\. skipped / { sub(/^.* \.\.\. skipped ./, ""); sub(/.$/, ""); print "SKIP " name ": " $0 }'
 }
-python=0
-for program in "$@"; do
-    if [ "$program" = -- ]; then python=1; continue; fi
-    name=$(basename "$program")
-    log=$logs/$name.log
-    if [ $python = 1 ]; then
-        name=$program
-        log=$logs/$(echo "$program" | tr / _).log
-        /usr/bin/python3 -m unittest discover -v -s "$program" -t . -p '*_test.py' >"$log.raw" 2>&1
+tally() { # name log exit-status
+    p=$(grep -c '^PASS' "$2") f=$(grep -c '^FAIL' "$2") k=$(grep -c '^SKIP' "$2")
+    if [ "$3" != 0 ] && [ "$f" = 0 ]; then f=1; echo "FAIL $1 ended with status $3"; tail -n 5 "$2"; fi
+    if [ "$p" = 0 ] && [ "$f" = 0 ] && [ "$k" = 0 ]; then f=1; echo "FAIL $1 checked nothing"; fi
+    echo "$p $f $k" >"${2%.log}.count"
+    [ "$f" = 0 ] || grep '^FAIL' "$2"
+    [ "$k" = 0 ] || grep '^SKIP' "$2"
+    printf '%-44s %5d passed %3d failed\n' "$1" "$p" "$f"
+}
+one() { # program or folder
+    if [ -d "$1" ]; then
+        name=$1 log=$logs/$(echo "$1" | tr / _).log
+        /usr/bin/python3 -m unittest discover -v -s "$1" -t . -p '*_test.py' >"$log.raw" 2>&1
         status=$?
         verdicts <"$log.raw" >"$log"
         [ $status = 0 ] || tail -n 30 "$log.raw" | sed 's/^/    /' >&2
     else
-        GSL_TEST_VERBOSE=1 "$program" >"$log" 2>&1
+        name=$(basename "$1") log=$logs/$(echo "$1" | tr / _).log
+        GSL_TEST_VERBOSE=1 "$1" >"$log" 2>&1
         status=$?
     fi
-    tally "$name" "$log" $status
+    told=$(tally "$name" "$log" $status) # in one piece
+    echo "$told"
+}
+
+if [ "$1" = --one ]; then
+    logs=$2
+    one "$3"
+    exit 0
+fi
+logs=$1
+shift
+mkdir -p "$logs" && rm -f "$logs"/*.count
+[ $# = 0 ] || printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" sh -c '"$0" --one "$1" "$2"; exit 0' "$0" "$logs"
+passed=0 failed=0 skipped=0 ran=0
+for counts in "$logs"/*.count; do
+    [ -e "$counts" ] || continue
+    read -r p f k <"$counts"
+    passed=$((passed + p)) failed=$((failed + f)) skipped=$((skipped + k)) ran=$((ran + 1))
 done
+if [ $ran != $# ]; then
+    echo "FAIL $ran of $# test programs and folders came to an end"
+    failed=$((failed + 1))
+fi
 [ $skipped = 0 ] && more= || more=", $skipped skipped"
 echo "$passed passed, $failed failed$more"
 [ $failed = 0 ]

@@ -108,7 +108,7 @@ class Runner(Folder):
 
     def run_tests(self, *programs, python=("room", )):
         return subprocess.run(
-            [TOOLS / "run_tests.sh", self.folder / "logs", *programs, "--", *python],
+            [TOOLS / "run_tests.sh", self.folder / "logs", *programs, *python],
             capture_output=True,
             text=True,
             check=False,
@@ -130,7 +130,7 @@ class Runner(Folder):
         self.tests("def test_good(self):", "    pass")
         self.assertEqual(self.run_tests().stdout.splitlines()[-1], "1 passed, 0 failed")
         for wrong in ("echo FAIL: this", "echo PASS: that; exit 3", "exit 0",
-                      "echo PASS: that; kill -9 $$"):
+                      "echo PASS: that; kill -9 $$", "echo PASS: that; kill -9 $PPID"):
             self.script("a_test", wrong)
             done = self.run_tests(self.folder / "a_test")
             self.assertEqual(done.returncode, 1, wrong)
