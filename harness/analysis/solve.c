@@ -104,6 +104,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     static const solve_options defaults = {0};
     analysis_context c = {
         .scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
+    phases_want(model_phases(m), c.options->phases);
     const double start = clock_processor_seconds();
     memset(result, 0, sizeof *result);
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
@@ -113,11 +114,11 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
         return fault_set(f, STATUS_FAULT, "out of memory for a solution");
     }
     result->quantities = s->quantities;
-    model_phases(m)->wanted = c.options->phases;
     run_analyses(&c);
-    memcpy(result->phase, model_phases(m)->seconds, sizeof result->phase);
     result->seconds_setup = c.setup;
     result->seconds_solve = clock_processor_seconds() - start - c.setup;
+    if (c.options->phases)
+        phases_of_whole(model_phases(m), result->seconds_solve, result->phase);
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &result->quantity[i];
         context_set_frame(&c, s->quantity[i].analysis);

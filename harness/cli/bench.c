@@ -57,7 +57,7 @@ static int is_named(const command_request *r)
 
 static status write_out(const command_request *r, const sweep *s, const judgement *j, fault *f)
 {
-    const environment e = environment_now(1);
+    const environment e = environment_now(s->threads > 1 ? s->threads : 1);
     if (r->format[0] == 'c')
         csv_timing(stdout, s, j);
     else

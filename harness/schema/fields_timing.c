@@ -102,6 +102,8 @@ static const schema_field fields_of_parts[] = {
     {"seconds_factorisation", "s", FIELD_DOUBLE, "factorisation",
      TIMES(phase[PHASE_FACTORISATION])},
     {"seconds_solution", "s", FIELD_DOUBLE, "solution", TIMES(phase[PHASE_SOLUTION])},
+    {"seconds_rest", "s", FIELD_DOUBLE, "outside of the iterations: loads, compliance, modes",
+     TIMES(phase[PHASE_REST])},
     {"dense_unknowns", "1", FIELD_INT, "of the published algorithm; 0: not measured",
      TIMES(dense.unknowns)},
     {"dense_iteration", "s", FIELD_DOUBLE, "its fastest iteration", .get = get_dense_iteration},

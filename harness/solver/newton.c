@@ -173,12 +173,11 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     return STATUS_OK;
 }
 
-status newton_direction(newton *n, double path, step_record *record, fault *f)
+static status direction(newton *n, double path, step_record *record, fault *f)
 {
     model *m = n->c->model;
     counters *count = model_counters(m);
     n->energy = NAN;
-    phases_start(model_phases(m));
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     loads_drive(m, n->state, path, n->dx);
     if (n->c->options->newton == SOLVE_DISPLACEMENT) {
@@ -207,8 +206,18 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     return STATUS_OK;
 }
 
+status newton_direction(newton *n, double path, step_record *record, fault *f)
+{
+    phases *p = model_phases(n->c->model);
+    phases_start(p);
+    const status outcome = direction(n, path, record, f);
+    phases_stop(p);
+    return outcome;
+}
+
 status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
 {
+    phases_start(model_phases(n->c->model));
     *correction = advance_state(n->c->model, n->state, n->dx, path);
     phases_stop(model_phases(n->c->model));
     model_counters(n->c->model)->iterations++;

@@ -107,7 +107,7 @@ typedef struct solve_result {
     path_event *event;
     double seconds_setup,
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
-    double phase[PHASES]; /* [s] in the iterations, when asked for */
+    double phase[PHASES]; /* [s] of seconds_solve, when asked for */
     shapes shapes;
     system_matrices systems;
 } solve_result;

@@ -80,7 +80,8 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
     }
 }
 
-/* Microseconds per iteration in each of its parts; the dense reference where it was timed. */
+/* Microseconds per iteration in each of its parts and in the rest of the solution; the dense
+ * reference where it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
     const cell_timing *t = &one->timing[mesh];
@@ -89,7 +90,7 @@ static void parts_of(FILE *to, const series *one, int mesh)
         return;
     subject(to, one, mesh);
     for (int k = 0; k < PHASES; k++)
-        fprintf(to, " %14.4g", 1e6 * t->phase[k] / (double)iterations);
+        fprintf(to, " %13.4g", 1e6 * t->phase[k] / (double)iterations);
     fputc('\n', to);
     if (t->dense.whole.rounds > 0)
         fprintf(to, "    dense %.4g ms", 1e3 * rounds_least(&t->dense.whole));
@@ -110,7 +111,7 @@ static void parts(FILE *to, const sweep *s, int at)
         return;
     fprintf(to, "  %-*s%5s", NAME, "[us] in an iteration", "n");
     for (int k = 0; k < PHASES; k++)
-        fprintf(to, " %14s", phase_name((phase)k));
+        fprintf(to, " %13s", phase_name((phase)k));
     fputc('\n', to);
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < meshes_run(&s->series[i], at); k++)

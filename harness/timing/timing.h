@@ -10,7 +10,8 @@
 typedef struct cell_timing {
     rounds_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;              /* unknowns when nothing is left out */
-    /* [s] in the iterations of one run more, in which the clock is read between their parts */
+    /* [s] of the solution in one run more, in which the clock is read between the parts of the
+     * iterations */
     double phase[PHASES];
     dense_reference dense; /* when asked for */
 } cell_timing;

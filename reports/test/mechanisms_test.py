@@ -23,7 +23,8 @@ class Page(ProgramTest):
         done = self.answered("bench", "spherical_joint", "-f", "sheet_third", "-n", "1", "--dense",
                              "-o", self.folder / "mechanisms_joint.h5")
         parts = re.search(
-            r"\[us\] in an iteration.*\n +sheet_third +1 +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+)\n"
+            r"\[us\] in an iteration.*\n +sheet_third +1 +([\d.]+) +([\d.]+) +([\d.]+)"
+            r" +([\d.]+) +([\d.]+)\n"
             r" +dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times", done.stdout)
         self.assertIsNotNone(parts, done.stdout)
         self.assertTrue(all(float(part) > 0 for part in parts.groups()),
