@@ -18,7 +18,7 @@
 #include "elements/math/quadrature.h"
 #include "elements/shared/moving.h"
 
-enum { N = 14, TP = 3, TQ = 10 };
+enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
 enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
 
 static void functionals_at(const section *c, double l, const beamw_stiffness_fields *s, double x,
@@ -60,144 +60,204 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
         }
 }
 
-/* The element's state, and what the points gather for the second derivatives of the strains. */
+/* The element's state, and what the points gather for the second derivatives. */
 typedef struct configuration {
     double vector[2][3][3]; /* node, direction: unit vectors */
     double mean[3][3];      /* m_k */
-    double e[8], J[8 * N], s[8];
+    double e[8], J[8 * N];
+    double s[8];       /* F . m_k of the functionals: stresses of the strains */
+    double turn[6][8]; /* d(F . m_k)/dtheta of p and q, with them */
     const node_state *x;
     const element_rotating_frame *frame;
     inertia_output *out;
 } configuration;
 
-enum { POSITION = -1, NOTHING = -2 };
+/* The functionals at a point: their values and gradients. */
+typedef struct point_values {
+    double x, mass; /* mass: weight */
+    const double (*field)[8];
+    double value[BEAMW_FIELDS], gradient[BEAMW_FIELDS][N];
+} point_values;
 
-/* y = lin(a vector of the nodes) + sum_k m_k (along[k] . e). */
+/* What is not zero in the gradients of the strains: all modes but twist depend on where q is from
+ * p, two of four bending modes turn with each node. */
+static void gradient_of(const double J[8 * N], const double f[8], double out[N])
+{
+    for (int i = 0; i < 3; i++) {
+        const double *r = J + RQ + i, *p = J + TP + i, *q = J + TQ + i;
+        out[RQ + i] =
+            f[0] * r[0] + f[2] * r[2 * N] + f[3] * r[3 * N] + f[4] * r[4 * N] + f[5] * r[5 * N];
+        out[RP + i] = -out[RQ + i];
+        out[TP + i] = f[1] * p[N] + f[2] * p[2 * N] + f[4] * p[4 * N];
+        out[TQ + i] = f[1] * q[N] + f[3] * q[3 * N] + f[5] * q[5 * N];
+    }
+    out[AP] = f[6] * J[6 * N + AP];
+    out[AQ] = f[7] * J[7 * N + AQ];
+}
+
+static void values_at(const configuration *c, const element_data *d, int g, point_values *out)
+{
+    out->x = d->at[g];
+    out->mass = d->share * 2 * d->weight[g];
+    out->field = d->field[g];
+    for (int k = 0; k < BEAMW_FIELDS; k++) {
+        const double *field = d->field[g][k];
+        out->value[k] = 0;
+        for (int i = 0; i < 8; i++)
+            out->value[k] += field[i] * c->e[i];
+        gradient_of(c->J, field, out->gradient[k]);
+    }
+}
+
+enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
+
+/* y = lin(a vector of the nodes) + sum sign m_k field. */
 typedef struct interpolation {
-    double mass, x;
-    int director;           /* unit vector, or one of the next */
-    const double *along[3]; /* [8] functional, NULL: none */
-    double sign[3];
+    int director; /* unit vector, or one of the above */
+    int terms;
+    struct {
+        int k, field;
+        double sign;
+    } term[TERMS];
 } interpolation;
 
-static void linear_part(const configuration *c, const interpolation *y, moving_vector *v,
-                        double T[3 * N], double fixed[2][3])
+static const interpolation position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
+                           director[3] = {{0, 2, {{1, CHI_Z, 1}, {2, CHI_Y, -1}}},
+                                          {1, 2, {{0, CHI_Z, -1}, {2, CHI_X, 1}}},
+                                          {2, 2, {{0, CHI_Y, 1}, {1, CHI_X, -1}}}},
+                           warping = {NOTHING, 1, {{0, PSI, 1}}};
+
+/* dy/dx but for what turns with the nodes. */
+static void gradient_of_fields(const configuration *c, const point_values *at,
+                               const interpolation *y, double T[3 * N])
 {
-    const double weight[2] = {1 - y->x, y->x};
-    for (int node = 0; node < 2; node++)
-        for (int i = 0; i < 3; i++) {
+    static const double none[N] = {0};
+    const double *g[TERMS] = {at->gradient[y->term[0].field],
+                              y->terms > 1 ? at->gradient[y->term[1].field] : none};
+    for (int i = 0; i < 3; i++) {
+        const double m[TERMS] = {y->term[0].sign * c->mean[y->term[0].k][i],
+                                 y->term[1].sign * c->mean[y->term[1].k][i]};
+        const double p = (1 - at->x) + m[0] * g[0][RP + i], q = at->x + m[0] * g[0][RQ + i];
+        for (int j = 0; j < N; j++)
+            T[N * i + j] = m[0] * g[0][j] + m[1] * g[1][j];
+        if (y->director == POSITION) {
+            T[N * i + RP + i] = p + m[1] * g[1][RP + i];
+            T[N * i + RQ + i] = q + m[1] * g[1][RQ + i];
+        }
+    }
+}
+
+/* Where it is in the frame; and the vectors fixed to the nodes, with their weights. */
+static void place(const configuration *c, const point_values *at, const interpolation *y,
+                  double r[3], double fixed[2][3])
+{
+    const double weight[2] = {1 - at->x, at->x};
+    for (int i = 0; i < 3; i++) {
+        r[i] = 0;
+        for (int node = 0; node < 2; node++) {
+            fixed[node][i] = 0;
             if (y->director >= 0) {
                 fixed[node][i] = weight[node] * c->vector[node][y->director][i];
-                v->y[i] += fixed[node][i];
-            } else if (y->director == POSITION) {
-                T[N * i + NODE_COORDINATES * node + i] = weight[node];
-                v->y[i] +=
-                    weight[node] * (c->x[node].r[i] - (c->frame != NULL ? c->frame->centre[i] : 0));
+                r[i] += fixed[node][i];
+            } else if (y->director == POSITION && c->frame != NULL) {
+                r[i] += weight[node] * (c->x[node].r[i] - c->frame->centre[i]);
             }
         }
-}
-
-/* N -= h g^T + g h^T with h = d(F . m_k)/dx and g = d(functional . e)/dx; F . m_k is the
- * functional's share of the stress. */
-static void add_curvature(configuration *c, const double F[3], int k, double sign,
-                          const double functional[8], const double g[N])
-{
-    const double size = sign * vec3_dot(F, c->mean[k]);
-    for (int i = 0; i < 8; i++)
-        c->s[i] += size * functional[i];
-    for (int node = 0; node < 2; node++) {
-        double h[3];
-        vec3_cross(c->vector[node][k], F, h);
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < N; j++) {
-                const int row = NODE_COORDINATES * node + 3 + i;
-                c->out->N[N * row + j] -= h[i] / 2 * g[j];
-                c->out->N[N * j + row] -= h[i] / 2 * g[j];
-            }
-    }
-}
-
-static void add_interpolated(configuration *c, const interpolation *y)
-{
-    double T[3 * N] = {0}, gradient[3][N] = {{0}}, fixed[2][3] = {{0}}, F[3];
-    moving_vector v = {.mass = y->mass, .at = 0, .columns = N, .T = T};
-    linear_part(c, y, &v, T, fixed);
-    for (int k = 0; k < 3; k++) {
-        if (y->along[k] == NULL)
-            continue;
-        double amplitude = 0;
-        for (int i = 0; i < 8; i++)
-            amplitude += y->sign[k] * y->along[k][i] * c->e[i];
-        dense_add_transpose_mul(N, 8, 1, c->J, y->along[k], gradient[k]);
-        for (int i = 0; i < 3; i++) {
-            v.y[i] += c->mean[k][i] * amplitude;
+        for (int k = 0; k < y->terms; k++) {
+            const double amplitude = y->term[k].sign * at->value[y->term[k].field];
+            r[i] += c->mean[y->term[k].k][i] * amplitude;
             for (int node = 0; node < 2; node++)
-                fixed[node][i] += amplitude / 2 * c->vector[node][k][i];
-        }
-        for (int j = 0; j < N; j++) {
-            gradient[k][j] *= y->sign[k];
-            for (int i = 0; i < 3; i++)
-                T[N * i + j] += c->mean[k][i] * gradient[k][j];
+                fixed[node][i] += amplitude / 2 * c->vector[node][y->term[k].k][i];
         }
     }
+}
+
+/* Of F . m_k (field . e): what its second derivatives are made of. */
+static void gather_curvature(configuration *c, const double F[3], const point_values *at,
+                             const interpolation *y)
+{
+    for (int k = 0; k < y->terms; k++) {
+        const double *field = at->field[y->term[k].field],
+                     size = y->term[k].sign * vec3_dot(F, c->mean[y->term[k].k]);
+        double h[6];
+        for (int node = 0; node < 2; node++)
+            vec3_cross(c->vector[node][y->term[k].k], F, h + 3 * node);
+        for (int j = 0; j < 8; j++) {
+            c->s[j] += size * field[j];
+            for (int i = 0; i < 6; i++)
+                c->turn[i][j] += y->term[k].sign / 2 * h[i] * field[j];
+        }
+    }
+}
+
+static void add_interpolated(configuration *c, const point_values *at, const interpolation *y,
+                             double mass)
+{
+    double T[3 * N], fixed[2][3], F[3];
+    moving_vector v = {.mass = mass, .at = 0, .columns = N, .T = T};
+    place(c, at, y, v.y, fixed);
+    gradient_of_fields(c, at, y, T);
     moving_rotation_gradient(fixed[0], TP, N, T);
     moving_rotation_gradient(fixed[1], TQ, N, T);
     moving_add(&v, c->frame, N, c->out, F);
-    if (c->out->N == NULL)
+    if (c->out->N == NULL || c->frame == NULL)
         return;
     moving_rotation_stiffness(F, fixed[0], TP, N, c->out->N);
     moving_rotation_stiffness(F, fixed[1], TQ, N, c->out->N);
-    for (int k = 0; k < 3; k++)
-        if (y->along[k] != NULL)
-            add_curvature(c, F, k, y->sign[k], y->along[k], gradient[k]);
+    gather_curvature(c, F, at, y);
 }
 
 /* A twist whose rate has a mass and which no rotating frame acts on. */
-static void add_scalar(const configuration *c, double mass, const double row[N])
+static void add_twist(const configuration *c, const point_values *at, double mass)
 {
-    if (c->out->M != NULL)
-        for (int i = 0; i < N; i++)
-            for (int j = 0; j < N; j++)
-                c->out->M[N * i + j] += mass * row[i] * row[j];
+    double row[N];
+    if (c->out->M == NULL)
+        return;
+    memcpy(row, at->gradient[CHI_X], sizeof row);
+    for (int i = 0; i < 3; i++) {
+        row[TP + i] += (1 - at->x) * c->vector[0][0][i];
+        row[TQ + i] += at->x * c->vector[1][0][i];
+    }
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
 static void add_point(configuration *c, const element_data *d, int g)
 {
-    const double weight = d->share * 2 * d->weight[g], x = d->at[g];
-    const double *const chi_x = d->field[g][CHI_X], *const chi_y = d->field[g][CHI_Y],
-                        *const chi_z = d->field[g][CHI_Z];
-    double row[N] = {0}, j[3];
-    add_interpolated(c, &(interpolation){.mass = weight * d->lumped.mass,
-                                         .x = x,
-                                         .director = POSITION,
-                                         .along = {NULL, d->field[g][NU_Y], d->field[g][NU_Z]},
-                                         .sign = {0, 1, 1}});
-    if (!d->lumped.turns) { /* the twist alone */
-        for (int node = 0; node < 2; node++)
-            for (int i = 0; i < 3; i++)
-                row[NODE_COORDINATES * node + 3 + i] =
-                    (node == 0 ? 1 - x : x) * c->vector[node][0][i];
-        dense_add_transpose_mul(N, 8, 1, c->J, chi_x, row);
-        add_scalar(c, weight * d->lumped.rotary[0], row);
+    point_values at;
+    double j[3];
+    values_at(c, d, g, &at);
+    const double weight = at.mass;
+    add_interpolated(c, &at, &position, weight * d->lumped.mass);
+    if (!d->lumped.turns) {
+        add_twist(c, &at, weight * d->lumped.rotary[0]);
         return;
     }
-    const interpolation director[3] = {{.along = {NULL, chi_z, chi_y}, .sign = {0, 1, -1}},
-                                       {.along = {chi_z, NULL, chi_x}, .sign = {-1, 0, 1}},
-                                       {.along = {chi_y, chi_x, NULL}, .sign = {1, -1, 0}}};
     lumped_directors(d->lumped.rotary, j);
-    for (int k = 0; k < 3; k++) {
-        interpolation y = director[k];
-        y.mass = weight * j[k];
-        y.x = x;
-        y.director = k;
-        add_interpolated(c, &y);
-    }
+    for (int k = 0; k < 3; k++)
+        add_interpolated(c, &at, &director[k], weight * j[k]);
     if (d->lumped.warping > 0)
-        add_interpolated(c, &(interpolation){.mass = weight * d->lumped.warping,
-                                             .x = x,
-                                             .director = NOTHING,
-                                             .along = {d->field[g][PSI], NULL, NULL},
-                                             .sign = {1, 0, 0}});
+        add_interpolated(c, &at, &warping, weight * d->lumped.warping);
+}
+
+/* N -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
+ * strains' own second derivatives do. */
+static void add_curvature(const element_data *d, const configuration *c)
+{
+    static const int row[6] = {TP, TP + 1, TP + 2, TQ, TQ + 1, TQ + 2};
+    double H[N * N], *out = c->out->N;
+    for (int i = 0; i < 6; i++) {
+        double product[N] = {0};
+        dense_add_transpose_mul(N, 8, 1, c->J, c->turn[i], product);
+        for (int j = 0; j < N; j++) {
+            out[N * row[i] + j] -= product[j];
+            out[N * j + row[i]] -= product[j];
+        }
+    }
+    beamw_modes_strain(d->l0, c->x, &(strain_output){.s = c->s, .H = H});
+    for (int i = 0; i < N * N; i++)
+        out[i] -= H[i];
 }
 
 static void add_consistent(const element_data *d, const node_state x[2],
@@ -213,12 +273,8 @@ static void add_consistent(const element_data *d, const node_state x[2],
     beamw_modes_strain(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
     for (int g = 0; g < BEAMW_GAUSS; g++)
         add_point(&c, d, g);
-    if (out->N == NULL || frame == NULL)
-        return;
-    double H[N * N];
-    beamw_modes_strain(d->l0, x, &(strain_output){.s = c.s, .H = H});
-    for (int i = 0; i < N * N; i++)
-        out->N[i] -= H[i];
+    if (out->N != NULL && frame != NULL)
+        add_curvature(d, &c);
 }
 
 status beamw_inertia_of(const element_data *d, const node_state x[],
@@ -230,5 +286,6 @@ status beamw_inertia_of(const element_data *d, const node_state x[],
             lumped_add(&d->lumped, 1 - d->share, &x[node], frame, NODE_COORDINATES * node, N, out);
     if (d->share > 0)
         add_consistent(d, x, frame, out);
+    moving_complete(N, out);
     return STATUS_OK;
 }

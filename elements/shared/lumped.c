@@ -170,5 +170,6 @@ status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
     for (int k = 0; k < nodes; k++)
         lumped_add(whole, (nodes == 2 ? two : three)[k], &x[k], frame, NODE_COORDINATES * k, n,
                    out);
+    moving_complete(n, out);
     return STATUS_OK;
 }

@@ -24,7 +24,7 @@ typedef struct lumped_mass {
  * FEATURE_ROTARY_INERTIA only translations and the polar moment of the twist count. */
 lumped_mass lumped_of(const section *c, unsigned features, double length);
 
-/* Adds `share` of it at a node whose coordinates begin at `at` of n. */
+/* Adds `share` of it at a node whose coordinates begin at `at` of n; moving_complete ends it. */
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out);
 

@@ -4,6 +4,8 @@
 
 #include "elements/math/dense.h"
 
+enum { MOST = 14 };
+
 void moving_clear(int n, inertia_output *out)
 {
     const size_t square = (size_t)n * (size_t)n;
@@ -17,12 +19,6 @@ void moving_clear(int n, inertia_output *out)
         *out->potential = 0;
 }
 
-static void column_of(const moving_vector *v, int j, double t[3])
-{
-    for (int i = 0; i < 3; i++)
-        t[i] = v->T[i * v->columns + j];
-}
-
 /* P y = |Omega|^2 y - Omega (Omega . y) = -Omega x (Omega x y). */
 static void project(const double omega[3], const double y[3], double Py[3])
 {
@@ -31,37 +27,97 @@ static void project(const double omega[3], const double y[3], double Py[3])
     vec3_cross(wy, omega, Py);
 }
 
+/* A += factor T^T U, T and U [3 x columns], A in rows of n: the upper half. */
+static inline __attribute__((always_inline)) void add_upper(int columns, double factor,
+                                                            const double *restrict T,
+                                                            const double *restrict U, int n,
+                                                            double *restrict A)
+{
+    for (int i = 0; i < columns; i++) {
+        const double a = T[i], b = T[columns + i], c = T[2 * columns + i];
+        for (int j = i; j < columns; j++)
+            A[i * n + j] += factor * (a * U[j] + b * U[columns + j] + c * U[2 * columns + j]);
+    }
+}
+
+/* The same: sizes of those that are many are known. */
+static void add_product(int columns, double factor, const double *T, const double *U, int n,
+                        double *A)
+{
+    if (columns == MOST && n == MOST)
+        add_upper(MOST, factor, T, U, MOST, A);
+    else if (columns == 3)
+        add_upper(3, factor, T, U, n, A);
+    else
+        add_upper(columns, factor, T, U, n, A);
+}
+
+/* What the frame does to the columns of T: P of each, and Omega x each. */
+static void turn_columns(const moving_vector *v, const double omega[3], double P[3 * MOST],
+                         double coriolis[3 * MOST])
+{
+    const int n = v->columns;
+    for (int j = 0; j < n; j++) {
+        const double t[3] = {v->T[j], v->T[n + j], v->T[2 * n + j]};
+        double Pt[3], wt[3];
+        vec3_cross(omega, t, wt);
+        vec3_cross(wt, omega, Pt);
+        for (int i = 0; i < 3; i++) {
+            P[i * n + j] = Pt[i];
+            coriolis[i * n + j] = wt[i];
+        }
+    }
+}
+
+static void add_in_frame(const moving_vector *v, const element_rotating_frame *frame, int n,
+                         inertia_output *out, double F[3])
+{
+    double P[3 * MOST], coriolis[3 * MOST];
+    const int first = v->at * n + v->at;
+    project(frame->omega, v->y, F);
+    for (int i = 0; i < 3; i++)
+        F[i] *= v->mass;
+    if (out->potential != NULL)
+        *out->potential -= vec3_dot(F, v->y) / 2;
+    if (out->force != NULL)
+        for (int j = 0; j < v->columns; j++)
+            out->force[v->at + j] +=
+                F[0] * v->T[j] + F[1] * v->T[v->columns + j] + F[2] * v->T[2 * v->columns + j];
+    if (out->N == NULL && out->G == NULL)
+        return;
+    turn_columns(v, frame->omega, P, coriolis);
+    if (out->N != NULL)
+        add_product(v->columns, -v->mass, v->T, P, n, out->N + first);
+    if (out->G != NULL)
+        add_product(v->columns, 2 * v->mass, v->T, coriolis, n, out->G + first);
+}
+
 void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
                 inertia_output *out, double F[3])
 {
-    static const double none[3] = {0, 0, 0};
-    const double *omega = frame != NULL ? frame->omega : none;
     F[0] = F[1] = F[2] = 0;
+    if (out->M != NULL)
+        add_product(v->columns, v->mass, v->T, v->T, n, out->M + v->at * n + v->at);
     if (frame != NULL)
-        project(omega, v->y, F);
-    for (int i = 0; i < 3; i++)
-        F[i] *= v->mass;
-    if (out->potential != NULL && frame != NULL)
-        *out->potential -= vec3_dot(F, v->y) / 2;
-    for (int j = 0; j < v->columns; j++) {
-        double t[3], P[3], coriolis[3];
-        column_of(v, j, t);
-        if (out->force != NULL)
-            out->force[v->at + j] += vec3_dot(F, t);
-        project(omega, t, P);
-        vec3_cross(omega, t, coriolis);
-        for (int i = 0; i < v->columns; i++) {
-            const int entry = (v->at + i) * n + v->at + j;
-            double s[3];
-            column_of(v, i, s);
-            if (out->M != NULL)
-                out->M[entry] += v->mass * vec3_dot(s, t);
-            if (out->N != NULL)
-                out->N[entry] -= v->mass * vec3_dot(s, P);
-            if (out->G != NULL)
-                out->G[entry] += 2 * v->mass * vec3_dot(s, coriolis);
-        }
-    }
+        add_in_frame(v, frame, n, out, F);
+}
+
+/* The lower half is that above, times sign. */
+static void mirror(int n, double sign, double *A)
+{
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++)
+            A[i * n + j] = sign * A[j * n + i];
+}
+
+void moving_complete(int n, inertia_output *out)
+{
+    if (out->M != NULL)
+        mirror(n, 1, out->M);
+    if (out->N != NULL)
+        mirror(n, 1, out->N);
+    if (out->G != NULL)
+        mirror(n, -1, out->G);
 }
 
 void moving_rotation_stiffness(const double F[3], const double v[3], int at, int n, double N[])

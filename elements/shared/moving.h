@@ -17,9 +17,12 @@ typedef struct moving_vector {
 /* Zeroes what is wanted; n coordinates. */
 void moving_clear(int n, inertia_output *out);
 /* Adds a mass, but for the second derivatives of y, which are the caller's: N -= F . d2y/dx2 with
- * F[3] the centrifugal force (zero where no frame turns). */
+ * F[3] the centrifugal force (zero where no frame turns). Of matrices the upper half counts until
+ * moving_complete. */
 void moving_add(const moving_vector *v, const element_rotating_frame *frame, int n,
                 inertia_output *out, double F[3]);
+/* Lower halves from the upper ones; once, behind everything that is added. */
+void moving_complete(int n, inertia_output *out);
 /* N -= F . d2v/dtheta2 of a vector v fixed to the node whose rotations begin at coordinate `at`
  * (exponential chart). */
 void moving_rotation_stiffness(const double F[3], const double v[3], int at, int n, double N[]);
