@@ -16,11 +16,10 @@ struct factor_symmetric {
     int *integers;                         /* what the next ten arrays are parts of */
     int *order, *inverse;                  /* [n] P: C(i, j) = A(order[i], order[j]) */
     int *column, *row;                     /* [n + 1], [entries] upper triangle of C */
-    int *place;                            /* [entries] of A: position in C */
+    int *source;                           /* [entries] of C: position in A */
     int *L_column;                         /* [n + 1] */
     int *parent, *in_column, *mark, *path; /* [n] elimination tree and workspace of LDL */
-    double *numbers;                       /* what the next five arrays are parts of */
-    double *value;                         /* [entries] of C */
+    double *numbers;                       /* what the next four arrays are parts of */
     double *D, *work;                      /* [n] */
     double *diagonal, *terms;              /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
     int *L_row;                            /* [L_column[n]] */
@@ -31,7 +30,7 @@ struct factor_symmetric {
 static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
 {
     fs->integers = malloc((6 * n + 2 * (n + 1) + 2 * entries) * sizeof *fs->integers);
-    fs->numbers = malloc((4 * n + entries + 1) * sizeof *fs->numbers);
+    fs->numbers = malloc((4 * n + 1) * sizeof *fs->numbers);
     if (fs->integers == NULL || fs->numbers == NULL)
         return 0;
     int **const lists[] = {&fs->order,     &fs->inverse, &fs->parent,
@@ -42,12 +41,11 @@ static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
     fs->column = next;
     fs->L_column = fs->column + n + 1;
     fs->row = fs->L_column + n + 1;
-    fs->place = fs->row + entries;
+    fs->source = fs->row + entries;
     fs->D = fs->numbers;
     fs->work = fs->D + n;
     fs->terms = fs->work + n;
     fs->diagonal = fs->terms + n;
-    fs->value = fs->diagonal + n;
     return 1;
 }
 
@@ -61,7 +59,7 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-/* Upper triangle of P A P^T and where the entries of A go. */
+/* Upper triangle of P A P^T and where its entries are in A. */
 static void permute(const sparse *a, factor_symmetric *fs)
 {
     const int n = a->n;
@@ -76,9 +74,9 @@ static void permute(const sparse *a, factor_symmetric *fs)
     }
     for (int j = 0; j < n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
-            const int i = fs->inverse[a->row[k]];
-            fs->place[k] = fs->mark[max_int(i, fs->inverse[j])]++;
-            fs->row[fs->place[k]] = min_int(i, fs->inverse[j]);
+            const int i = fs->inverse[a->row[k]], place = fs->mark[max_int(i, fs->inverse[j])]++;
+            fs->source[place] = k;
+            fs->row[place] = min_int(i, fs->inverse[j]);
         }
 }
 
@@ -135,27 +133,51 @@ void factor_symmetric_free(factor_symmetric *fs)
     free(fs);
 }
 
-/* A to C. */
-static void load(factor_symmetric *fs, const sparse *a)
+/* Row k of L by the up-looking algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2),
+ * in the order of sums of SuiteSparse's ldl_numeric, from values that stay in A. Returns D_k. */
+static double factor_row(factor_symmetric *fs, const double a[], int k)
 {
-    for (int j = 0; j < fs->n; j++) {
-        fs->diagonal[fs->inverse[j]] = 0;
-        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
-            fs->value[fs->place[k]] = a->value[k];
-            if (a->row[k] == j)
-                fs->diagonal[fs->inverse[j]] = fabs(a->value[k]);
+    int top = fs->n;
+    double *y = fs->work;
+    y[k] = 0;
+    fs->mark[k] = k;
+    fs->in_column[k] = 0;
+    fs->diagonal[k] = 0;
+    for (int p = fs->column[k]; p < fs->column[k + 1]; p++) {
+        int i = fs->row[p], length = 0;
+        y[i] += a[fs->source[p]];
+        if (i == k)
+            fs->diagonal[k] = fabs(a[fs->source[p]]);
+        for (; fs->mark[i] != k; i = fs->parent[i]) {
+            fs->path[length++] = i;
+            fs->mark[i] = k;
         }
+        while (length > 0)
+            fs->path[--top] = fs->path[--length];
     }
+    double pivot = y[k];
+    y[k] = 0;
+    for (; top < fs->n; top++) {
+        const int i = fs->path[top], end = fs->L_column[i] + fs->in_column[i]++;
+        const double yi = y[i], l = yi / fs->D[i];
+        y[i] = 0;
+        for (int p = fs->L_column[i]; p < end; p++)
+            y[fs->L_row[p]] -= fs->L_value[p] * yi;
+        pivot -= l * yi;
+        fs->L_row[end] = k;
+        fs->L_value[end] = l;
+    }
+    return pivot;
 }
 
 /* Of row and column k of C. */
-static double largest_entry(const factor_symmetric *fs, int k)
+static double largest_entry(const factor_symmetric *fs, const double a[], int k)
 {
     double largest = 0;
     for (int j = k; j < fs->n; j++)
         for (int i = fs->column[j]; i < fs->column[j + 1]; i++)
             if (j == k || fs->row[i] == k)
-                largest = fmax(largest, fabs(fs->value[i]));
+                largest = fmax(largest, fabs(a[fs->source[i]]));
     return largest;
 }
 
@@ -170,7 +192,8 @@ static void sum_terms(factor_symmetric *fs, int negative_pivots)
             fs->terms[fs->L_row[k]] += fs->L_value[k] * fs->L_value[k] * fabs(fs->D[j]);
 }
 
-static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *weakest, double *ratio)
+static status judge_pivots(factor_symmetric *fs, const double a[], factor_counts *counts,
+                           int *weakest, double *ratio)
 {
     const double digits = 16 * DBL_EPSILON;
     double largest = 0, smallest = INFINITY;
@@ -183,7 +206,7 @@ static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *wea
     for (int k = 0; k < fs->n; k++) {
         const double d = fabs(fs->D[k]), terms = fs->terms[k];
         if (!isfinite(d) || d <= digits * terms ||
-            (terms * digits >= fs->diagonal[k] && terms * digits >= largest_entry(fs, k)))
+            (terms * digits >= fs->diagonal[k] && terms * digits >= largest_entry(fs, a, k)))
             return STATUS_SINGULAR;
         if (d < *ratio * terms) {
             *ratio = d / terms;
@@ -199,12 +222,10 @@ static status judge_pivots(factor_symmetric *fs, factor_counts *counts, int *wea
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio)
 {
-    load(fs, a);
-    if (ldl_numeric(fs->n, fs->column, fs->row, fs->value, fs->L_column, fs->parent, fs->in_column,
-                    fs->L_row, fs->L_value, fs->D, fs->work, fs->path, fs->mark, NULL,
-                    NULL) != fs->n)
-        return STATUS_SINGULAR;
-    return judge_pivots(fs, counts, weakest, ratio);
+    for (int k = 0; k < fs->n; k++)
+        if ((fs->D[k] = factor_row(fs, a->value, k)) == 0)
+            return STATUS_SINGULAR;
+    return judge_pivots(fs, a->value, counts, weakest, ratio);
 }
 
 void factor_symmetric_solve(factor_symmetric *fs, double x[])

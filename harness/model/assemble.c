@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
 
 /* Only conservative tangents are stored as a triangle: those of dead moments about fixed axes, of
@@ -143,33 +144,65 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
                             p->matrix.n);
 }
 
+/* Where the stored entries of an element's matrix stand: entry[columns^2]; returns how many. */
+static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry entry[])
+{
+    const sparse *a = &p->matrix;
+    int count = 0;
+    for (int i = 0; i < el->columns; i++)
+        for (int k = 0; k < el->columns; k++) {
+            if (!stored(p, el->index[i], el->index[k]))
+                continue;
+            const int begin = a->column[el->index[k]];
+            int at = begin;
+            while (a->row[at] != el->index[i])
+                at++;
+            entry[count++] = (mesh_entry){(short)(i * el->columns + k), (short)k, at - begin};
+        }
+    return count;
+}
+
+/* The layout that is these entries, or NONE, among the last ones that were made: elements along a
+ * member have the same but for those at its ends. */
+static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
+{
+    const int looked_at = 16;
+    for (int i = p->layouts; i-- > 0 && i >= p->layouts - looked_at;)
+        if (p->layout[i].entries == entries &&
+            memcmp(p->layout[i].entry, entry, (size_t)entries * sizeof *entry) == 0)
+            return i;
+    return NONE;
+}
+
+static status add_layout(mesh_pattern *p, int entries, const mesh_entry entry[], fault *f)
+{
+    mesh_layout one = {entries, malloc(((size_t)entries + 1) * sizeof *entry)};
+    if (one.entry == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the places of matrix entries");
+    memcpy(one.entry, entry, (size_t)entries * sizeof *entry);
+    const status outcome =
+        memory_append(&p->layout, &p->layouts, &one, sizeof one, "the places of matrix entries", f);
+    if (outcome != STATUS_OK)
+        free(one.entry);
+    return outcome;
+}
+
 static status find_places(const model *m, mesh_pattern *p, fault *f)
 {
-    const size_t all = collect(m, p, NULL, NULL);
-    p->start = malloc(((size_t)m->elements + 1) * sizeof *p->start);
-    p->local = malloc((all > 0 ? all : 1) * sizeof *p->local);
-    p->place = malloc((all > 0 ? all : 1) * sizeof *p->place);
-    if (p->start == NULL || p->local == NULL || p->place == NULL)
+    mesh_entry entry[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+    p->element = m->element;
+    p->layout_of = malloc(((size_t)m->elements + 1) * sizeof *p->layout_of);
+    if (p->layout_of == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
                          p->matrix.n);
-    double base;
-    sparse probe = p->matrix;
-    probe.value = &base;
-    int count = 0;
     for (int i = 0; i < m->elements; i++) {
-        p->start[i] = count;
-        const int columns = m->element[i].columns;
-        for (int a = 0; a < columns; a++)
-            for (int b = 0; b < columns; b++)
-                if (stored(p, m->element[i].index[a], m->element[i].index[b])) {
-                    int low = probe.column[m->element[i].index[b]];
-                    while (probe.row[low] != m->element[i].index[a])
-                        low++;
-                    p->local[count] = a * columns + b;
-                    p->place[count++] = low;
-                }
+        const int entries = entries_of(&m->element[i], p, entry);
+        p->layout_of[i] = find_layout(p, entries, entry);
+        if (p->layout_of[i] != NONE)
+            continue;
+        TRY(add_layout(p, entries, entry, f));
+        p->layout_of[i] = p->layouts - 1;
     }
-    p->start[m->elements] = count;
     return STATUS_OK;
 }
 
@@ -177,9 +210,10 @@ void assemble_pattern_free(mesh_pattern *p)
 {
     free(p->matrix.column);
     free(p->matrix.row);
-    free(p->start);
-    free(p->local);
-    free(p->place);
+    for (int i = 0; i < p->layouts; i++)
+        free(p->layout[i].entry);
+    free(p->layout);
+    free(p->layout_of);
     memset(p, 0, sizeof *p);
 }
 
@@ -206,8 +240,12 @@ status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
 
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out)
 {
-    for (int i = p->start[element]; i < p->start[element + 1]; i++)
-        out->value[p->place[i]] += K[p->local[i]];
+    const mesh_layout *layout = &p->layout[p->layout_of[element]];
+    const int *index = p->element[element].index;
+    for (int i = 0; i < layout->entries; i++) {
+        const mesh_entry *e = &layout->entry[i];
+        out->value[out->column[index[e->column]] + e->offset] += K[e->local];
+    }
 }
 
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out)

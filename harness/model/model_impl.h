@@ -62,13 +62,27 @@ typedef struct mesh_kind {
     element_data *data;
 } mesh_kind;
 
+/* An entry of an element's matrix that a pattern stores. */
+typedef struct mesh_entry {
+    short local;  /* row * columns + column of the element's matrix */
+    short column; /* of the element's matrix */
+    int offset;   /* in the pattern: from the begin of its column */
+} mesh_entry;
+
+/* What elements share whose entries stand alike in the columns of a pattern. */
+typedef struct mesh_layout {
+    int entries;
+    mesh_entry *entry; /* [entries] */
+} mesh_layout;
+
 /* Pattern with the places of every element's entries in it. */
 typedef struct mesh_pattern {
     int made;
     sparse matrix;
-    int *start; /* [elements + 1] into the two below */
-    int *local; /* row * coordinates + column of the element's matrix */
-    int *place; /* in matrix.value */
+    int layouts;
+    mesh_layout *layout;
+    int *layout_of;              /* [elements] */
+    const mesh_element *element; /* of the model */
 } mesh_pattern;
 
 /* Strains and stresses evaluated for all elements at once: harness/equations/ahead.h. */
