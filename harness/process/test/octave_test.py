@@ -1,10 +1,10 @@
 """Formulations in Octave, in another process: the example beside the same one in C, what else its
 module offers, and the mistakes of authors."""
-import json
 import shutil
 import unittest
 
-from harness.cli.test.plugin import EXAMPLES, compile_shared
+from harness.cli.test.plugin import EXAMPLES
+from harness.process.test.beside_c import BesideC
 from harness.test.program import ProgramTest, run
 
 EXAMPLE = EXAMPLES / "timoshenko.m"
@@ -32,29 +32,14 @@ class OctaveTest(ProgramTest):
         return command(script)
 
 
-class Example(OctaveTest):
-
-    def verdicts(self, element, name):
-        record = self.folder / "v.json"
-        self.answered("verify", "--element", element, "-f", name, "-k",
-                      " or ".join(f"{case}/default" for case in CASES), "--json", record)
-        return json.loads(record.read_text(encoding="utf-8"))["verdicts"]
+class Example(OctaveTest, BesideC):
 
     def test_short(self):
         self.assertLessEqual(len(EXAMPLE.read_text("utf-8").splitlines()), 70)
 
     def test_judged_like_the_others(self):
         """The verdicts of the same beam in C, and its limits."""
-        there = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
-        there = self.verdicts(there, "timoshenko")
-        here = self.verdicts(command(EXAMPLE), NAME)
-        self.assertEqual({v["case"] for v in here if v["verdict"] == "pass"}, set(CASES))
-        self.assertEqual([(v["case"], v["quantity"], v["verdict"]) for v in here],
-                         [(v["case"], v["quantity"], v["verdict"]) for v in there])
-        for mine, other in zip(here, there):
-            if mine["limit"] is not None:
-                self.assertLess(abs(mine["limit"] - other["limit"]), 1e-7 * abs(other["limit"]),
-                                (mine["case"], mine["quantity"]))
+        self.assertEqual(self.like_timoshenko(command(EXAMPLE), NAME, CASES), set(CASES))
 
     def test_keeps_the_contract(self):
         """Its derivatives, in the rotation chart, are those of its strains; and all else."""

@@ -2,9 +2,9 @@
 the same one in C."""
 import json
 import os
-import subprocess
 import sys
 
+from harness.process.test.beside_c import BesideC
 from harness.test.program import ROOT, ProgramTest
 
 EXAMPLES = ROOT / "elements" / "examples"
@@ -69,36 +69,15 @@ class Energy(ProgramTest):
         self.assertIn("of the times: what the process", " ".join(self.solve().stdout.split()))
 
 
-class Example(ProgramTest):
-
-    @classmethod
-    def setUpClass(cls):
-        cls.object = cls.class_folder() / "timoshenko.so"
-        subprocess.run([os.environ.get("CC", "cc"), "-O2", "-shared", "-fPIC", "-I", ROOT,
-                        EXAMPLES / "timoshenko.c", "-o", cls.object],
-                       check=True)
+class Example(BesideC):
 
     def test_short(self):
         self.assertLessEqual(len((EXAMPLES / "timoshenko.py").read_text("utf-8").splitlines()), 60)
 
-    def verdicts(self, element, name):
-        record = self.folder / "v.json"
-        self.answered("verify", "--element", element, "-f", name, "-k",
-                      " or ".join(f"{case}/default" for case in CASES), "--json", record)
-        return json.loads(record.read_text(encoding="utf-8"))["verdicts"]
-
     def test_judged_like_the_others(self):
         """Ten cases: the verdicts of the same beam in C, and its limits."""
-        here = self.verdicts(PYTHON, "timoshenko_py")
-        there = self.verdicts(self.object, "timoshenko")
-        passed = {v["case"] for v in here if v["verdict"] == "pass"}
+        passed = self.like_timoshenko(PYTHON, "timoshenko_py", CASES)
         self.assertEqual(passed - {"shear_elastica"}, set(CASES))
-        self.assertEqual([(v["case"], v["quantity"], v["verdict"]) for v in here],
-                         [(v["case"], v["quantity"], v["verdict"]) for v in there])
-        for mine, other in zip(here, there):
-            if mine["limit"] is not None:
-                self.assertLess(abs(mine["limit"] - other["limit"]), 1e-7 * abs(other["limit"]),
-                                (mine["case"], mine["quantity"]))
 
     def test_ranks_nothing(self):
         out = self.answered("converge", "tapered_cantilever", "--element", PYTHON, "-f",
