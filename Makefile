@@ -219,8 +219,13 @@ $(BUILD)/identity: FORCE
 $(BUILD)/harness/catalogue/environment.o: $(BUILD)/identity
 $(BUILD)/harness/catalogue/environment.o: DEFINES := -DBEAMWORK_VERSION='"$(VERSION)"' -DBEAMWORK_RELEASED='"$(RELEASED)"' -DBEAMWORK_COMMIT='"$(COMMIT)"' -DBEAMWORK_CFLAGS='"$(CFLAGS)"'
 
-$(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY)
-	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+# HDF5=shared: the program loads the shared library of HDF5, as packages of a distribution should.
+HDF5 ?=
+$(BUILD)/program_libraries: FORCE
+	@mkdir -p $(@D); echo '$(HDF5) $(PROGRAM_LIBS)' | cmp -s - $@ || echo '$(HDF5) $(PROGRAM_LIBS)' >$@
+
+$(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(BUILD)/program_libraries
+	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $(filter %.o %.a,$^) $(LDFLAGS) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
 
 $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

@@ -1,11 +1,12 @@
 """What each command asks of a machine, and how the runner counts: with a machine that has
 nothing, and with tests that are made up."""
 import os
+import pathlib
 import subprocess
 import textwrap
 import unittest
 
-from harness.test.program import ROOT, ProgramTest
+from harness.test.program import PROGRAM, ROOT, ProgramTest, run
 
 TOOLS = ROOT / "harness" / "tools"
 COMMANDS = ("build", "verify", "report", "test", "truths")
@@ -18,6 +19,23 @@ class Folder(ProgramTest):
         path = self.folder / name
         path.write_text("#!/bin/sh\n" + "\n".join(lines) + "\n", encoding="ascii")
         path.chmod(0o755)
+
+
+class Loading(unittest.TestCase):
+
+    def test_few_libraries(self):
+        """Where HDF5 is there as an archive, the program loads none of the thirty libraries that
+        the shared one brings along."""
+        places = run("--libs-only-L", "hdf5", program="pkg-config").stdout.split()
+        if not any(pathlib.Path(place[2:], "libhdf5.a").exists() for place in places):
+            self.skipTest("HDF5 is not installed as an archive")
+        linked = pathlib.Path(PROGRAM).with_name("program_libraries")
+        if linked.read_text(encoding="ascii").startswith("shared"):
+            self.skipTest("built with HDF5=shared")
+        loaded = run(PROGRAM, program="ldd").stdout
+        self.assertIn("liblapack", loaded)
+        for name in ("libhdf5", "libcurl", "libkrb5"):
+            self.assertNotIn(name, loaded)
 
 
 class Dependencies(Folder):
