@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/exact/collocated.h"
 #include "elements/exact/prestress.h"
-#include "elements/math/dense.h"
 #include "elements/shared/lumped.h"
 
-enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
+enum { OPTION_STAGES, FEWEST = 3, USUAL = 5, OUTER = EXACT_STAGES_OUTER };
 
 struct element_data {
     exact_stages stages;
@@ -70,68 +70,16 @@ static void rest(const element_data *d, double inner[])
     memcpy(inner + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof *inner);
 }
 
-/* Eliminates the unknowns: X [unknowns x (OUTER + 1)] = K_zz^-1 (K_ze | r_z). */
-static int eliminate(const exact_stages *s, const exact_stages_derivatives *d, double X[])
-{
-    const int m = s->unknowns, n = m + OUTER;
-    double K[EXACT_STAGES_UNKNOWNS * EXACT_STAGES_UNKNOWNS];
-    int pivot[EXACT_STAGES_UNKNOWNS];
-    for (int i = 0; i < m; i++) {
-        memcpy(&K[i * m], &d->hessian[i * n], (size_t)m * sizeof *K);
-        memcpy(&X[i * (OUTER + 1)], &d->hessian[i * n + m], OUTER * sizeof *X);
-        X[i * (OUTER + 1) + OUTER] = d->gradient[i];
-    }
-    const int failed = dense_lu(m, K, pivot);
-    if (failed == 0)
-        dense_lu_solve(m, OUTER + 1, K, pivot, X);
-    return failed;
-}
-
-static void condense(const exact_stages *s, const exact_stages_derivatives *d, const double X[],
-                     stress_output *out)
-{
-    const int m = s->unknowns, n = m + OUTER;
-    const double l0 = s->line.l0, energy = s->c.energy;
-    double residual = 0, P = d->P;
-    for (int i = 0; i < m; i++) {
-        residual = fmax(residual, fabs(d->gradient[i]));
-        P -= d->gradient[i] * X[i * (OUTER + 1) + OUTER] / 2;
-    }
-    for (int i = 0; i < OUTER; i++) {
-        double sigma = d->gradient[m + i];
-        for (int k = 0; k < m; k++)
-            sigma -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + OUTER];
-        if (out->sigma != NULL)
-            out->sigma[i] = energy / l0 * sigma;
-        if (out->C != NULL)
-            for (int j = 0; j < OUTER; j++) {
-                double C = d->hessian[(m + i) * n + m + j];
-                for (int k = 0; k < m; k++)
-                    C -= d->hessian[(m + i) * n + k] * X[k * (OUTER + 1) + j];
-                out->C[i * OUTER + j] = energy / (l0 * l0) * C;
-            }
-    }
-    if (out->energy != NULL)
-        *out->energy = energy * P;
-    if (out->residual != NULL)
-        *out->residual = residual;
-}
-
 static status stress(const element_data *data, const double e[], const double inner[],
                      stress_output *out)
 {
     const exact_stages *s = &data->stages;
-    double scaled[OUTER], X[EXACT_STAGES_UNKNOWNS * (OUTER + 1)];
-    exact_stages_derivatives d;
-    for (int i = 0; i < OUTER; i++)
-        scaled[i] = e[i] / s->line.l0;
-    exact_stages_evaluate(s, scaled, inner, &d);
-    if (eliminate(s, &d, X) != 0)
-        return STATUS_SINGULAR;
-    condense(s, &d, X, out);
-    if (out->memory != NULL)
-        memcpy(out->memory, X, (size_t)(s->unknowns * (OUTER + 1)) * sizeof *X);
-    return isfinite(d.P) ? STATUS_OK : STATUS_NOT_CONVERGED;
+    status outcome;
+    if (s->stages == USUAL)
+        exact_collocated_stress(USUAL, s, &e, &inner, out, &outcome);
+    else
+        exact_collocated_stress(s->stages, s, &e, &inner, out, &outcome);
+    return outcome;
 }
 
 static void geometric(const element_data *data, const double sigma[], double G[])

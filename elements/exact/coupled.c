@@ -2,27 +2,10 @@
 
 #include <string.h>
 
-#include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "elements/shared/beam_coupled.h"
 
-enum { ALL = 6, HALF = 3 };
-
-double exact_coupled_material(const beam_constants *c, const double kappa[3], const double N[3],
-                              double gradient[6], double M[36])
-{
-    double at[ALL], energy = -N[0] - vec3_dot(c->initial, N);
-    memcpy(at, kappa, HALF * sizeof *at);
-    memcpy(at + HALF, N, HALF * sizeof *at);
-    memcpy(M, c->mixed, ALL * ALL * sizeof *M);
-    dense_mul_vec(ALL, ALL, M, at, gradient);
-    for (int i = 0; i < ALL; i++)
-        energy += gradient[i] * at[i] / 2;
-    gradient[HALF] -= 1;
-    for (int i = 0; i < HALF; i++)
-        gradient[HALF + i] -= c->initial[i];
-    return energy;
-}
+enum { ALL = 6 };
 
 /* F += 1/12 A^T Fkk A with A (N, Q, M) = (0, Qz, -Qy), the slope of the moment. */
 static void add_linear_moment(double F[36])

@@ -5,11 +5,6 @@
 
 #include "elements/shared/beam_constants.h"
 
-/* As exact_stage_material: extremum over gamma of the energy less N . (e_x + gamma), a function of
- * (kappa, N). */
-double exact_coupled_material(const beam_constants *c, const double kappa[3], const double N[3],
-                              double gradient[6], double M[36]);
-
 /* S [strains x strains] [N/m] of Gauss points that each stand for their part.  At one point the
  * moment is linear along the element with the slope M' = -e_x x N, which adds the flexibility int
  * M' . (C^-1) M' to that of the forces: end loads are carried exactly (stiffness.h).  Amplitudes of

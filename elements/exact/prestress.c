@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-#include "elements/exact/sums.h"
+#include "elements/exact/collocated.h"
 #include "elements/math/dense.h"
 
 /* Linear response: change of all variables under sigma, and how the unknowns follow the strains, Z
@@ -18,15 +18,16 @@ static void linear_state(const exact_stages *s, const double sigma[], double cha
 {
     const int m = s->unknowns, n = m + EXACT_STAGES_OUTER;
     double rest[EXACT_STAGES_UNKNOWNS] = {0}, none[EXACT_STAGES_OUTER] = {0},
-           K[EXACT_STAGES_UNKNOWNS * EXACT_STAGES_UNKNOWNS];
-    exact_stages_derivatives d;
+           K[EXACT_STAGES_UNKNOWNS * EXACT_STAGES_UNKNOWNS], A[EXACT_VARIABLES_BLOCKS][9],
+           hessian[EXACT_STAGES_ALL * EXACT_STAGES_ALL];
     int pivot[EXACT_STAGES_ALL];
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
-    exact_stages_evaluate(s, none, rest, &d);
+    exact_collocated_evaluate(s->stages, s, none, rest, A);
+    exact_variables_matrix(s->stages, A, n, hessian);
     for (int i = 0; i < m; i++) {
-        memcpy(&K[i * m], &d.hessian[i * n], (size_t)m * sizeof *K);
+        memcpy(&K[i * m], &hessian[i * n], (size_t)m * sizeof *K);
         for (int j = 0; j < EXACT_STAGES_OUTER; j++)
-            Z[i * EXACT_STAGES_OUTER + j] = -d.hessian[i * n + m + j];
+            Z[i * EXACT_STAGES_OUTER + j] = -hessian[i * n + m + j];
     }
     dense_lu(m, K, pivot); /* the undeformed element is stable */
     dense_lu_solve(m, EXACT_STAGES_OUTER, K, pivot, Z);
@@ -34,61 +35,71 @@ static void linear_state(const exact_stages *s, const double sigma[], double cha
     memcpy(change + m, sigma, EXACT_STAGES_OUTER * sizeof *change);
     if (!s->c.warping)
         for (int i = n - 2; i < n; i++)
-            d.hessian[i * (n + 1)] = 1; /* no amplitudes */
-    dense_lu(n, d.hessian, pivot);
-    dense_lu_solve(n, 1, d.hessian, pivot, change);
+            hessian[i * (n + 1)] = 1; /* no amplitudes */
+    dense_lu(n, hessian, pivot);
+    dense_lu_solve(n, 1, hessian, pivot, change);
+}
+
+/* At point i of the undeformed element: M times the change of (kappa, N) that goes with that of the
+ * variables, but of N the change itself, for the terms it makes stiff in torsion; and that of the
+ * argument of the warping energy. */
+static double moments(const exact_stages *s, int i, const exact_stage *p,
+                      const exact_stage_material *M, const double change[], double moment[3],
+                      double N[3])
+{
+    const double none[3] = {0};
+    double x[3], slope[3], kappa[3];
+    exact_stage_rows D;
+    exact_stage_rows_of(p, none, &D);
+    exact_variables_change(s, i, change, x, slope);
+    for (int k = 0; k < 3; k++) {
+        kappa[k] = vec3_dot(&D.Kx[3 * k], x) + vec3_dot(&D.Ks[3 * k], slope);
+        N[k] = vec3_dot(&D.Nx[3 * k], x) + vec3_dot(&D.NF[3 * k], change);
+    }
+    for (int k = 0; k < 3; k++)
+        moment[k] = vec3_dot(&M->kk[3 * k], kappa) + vec3_dot(&M->kN[3 * k], N);
+    return kappa[0] - s->c.F[6] * N[1] - s->c.F[7] * N[2];
 }
 
 /* Hessian at rest with stresses `factor` times those of the linear state. */
 static void stressed_hessian(const exact_stages *s, const double change[], double factor,
                              double hessian[])
 {
-    const int n = s->unknowns + EXACT_STAGES_OUTER;
-    double force[3], Sz[EXACT_WARPING_MAX] = {0}, dz[EXACT_WARPING_MAX],
-                     ignored[EXACT_STAGES_ALL] = {0};
+    double force[3], Sz[EXACT_WARPING_MAX] = {0}, dz[EXACT_WARPING_MAX], at[EXACT_STAGES_MAX][3],
+                     moment[EXACT_STAGES_MAX][3], N[EXACT_STAGES_MAX][3],
+                     A[EXACT_VARIABLES_BLOCKS][9];
     const double none[3] = {0};
+    const int stages = s->stages;
     exact_stage p[EXACT_STAGES_MAX];
-    double moment[EXACT_STAGES_MAX][6], M[36];
-    exact_sums a;
-    for (int i = 0; i < 3; i++)
+    exact_stage_terms t[EXACT_STAGES_MAX];
+    exact_stage_material M;
+    memcpy(at, s->rest_x[1], sizeof at);
+    for (int i = 0; i < 3; i++) {
         force[i] = factor * change[i];
-    exact_stage_material(&s->c, none, none, 0, moment[0], M);
-    for (int i = 0; i < s->stages; i++) {
-        double x[3], slope[3], D[6][EXACT_STAGE_SPACE], strain[6];
-        exact_stage_at(s->stages + 1, s->N[i], s->dN[i], s->rest_x[0], none, s->rest_kappa[i],
-                       &p[i]);
-        exact_stage_rows(&p[i], none, D);
-        exact_sums_change(s, i, change, x, slope);
-        for (int k = 0; k < 6; k++)
-            strain[k] = vec3_dot(&D[k][EXACT_STAGE_MILENKOVIC], x) +
-                        vec3_dot(&D[k][EXACT_STAGE_SLOPE], slope) +
-                        vec3_dot(&D[k][EXACT_STAGE_FORCE], change);
-        dz[i] = strain[0] - s->c.F[6] * strain[4] - s->c.F[7] * strain[5];
-        dense_mul_vec(6, 6, M, strain, moment[i]);
-        memcpy(moment[i] + 3, strain + 3,
-               3 * sizeof(double)); /* N itself, for the terms it makes stiff in torsion */
+        at[stages - 1][i] = s->line.rest[0][3 + i];
     }
+    exact_stage_energy(&s->c, none, none, 0, &M);
+    exact_sums_geometry(stages, s, at, none, p);
+    for (int i = 0; i < stages; i++)
+        dz[i] = moments(s, i, &p[i], &M, change, moment[i], N[i]);
     if (s->warps) {
-        dz[s->stages] = change[s->unknowns + 6];
-        dz[s->stages + 1] = change[s->unknowns + 7];
-        dense_mul_vec(s->stages + 2, s->stages + 2, s->S, dz, Sz);
+        dz[stages] = change[s->unknowns + 6];
+        dz[stages + 1] = change[s->unknowns + 7];
+        dense_mul_vec(stages + 2, stages + 2, s->S, dz, Sz);
     }
-    memset(&a, 0, sizeof a);
-    memset(hessian, 0, (size_t)(n * n) * sizeof *hessian);
-    if (s->warps)
-        exact_sums_warping(s, (const double[EXACT_STAGES_OUTER]){0}, p, &a, dz);
-    for (int i = 0; i < s->stages; i++) {
-        double gradient[6] = {0, 0, 0, -1, 0, 0}, stiff[36];
-        memcpy(stiff, M, sizeof stiff);
-        for (int k = 0; k < 3; k++)
-            gradient[k] = factor * (moment[i][k] + (k == 0 ? Sz[i] / s->w[i] : 0));
-        stiff[0] += factor * (s->c.trapeze * moment[i][3] + s->c.bend_y * moment[i][1] +
-                              s->c.bend_z * moment[i][2]);
-        exact_stage_at(s->stages + 1, s->N[i], s->dN[i], s->rest_x[0], force, s->rest_kappa[i],
-                       &p[i]);
-        exact_sums_add(s, i, &p[i], force, gradient, stiff, &a);
+    exact_sums_geometry(stages, s, at, force, p);
+    for (int i = 0; i < stages; i++) {
+        exact_stage_material stiff = M;
+        for (int k = 0; k < 3; k++) {
+            stiff.kappa[k] = factor * (moment[i][k] + (k == 0 ? Sz[i] / s->w[i] : 0));
+            stiff.N[k] = k == 0 ? -1 : 0;
+        }
+        stiff.kk[0] += factor * (s->c.trapeze * N[i][0] + s->c.bend_y * moment[i][1] +
+                                 s->c.bend_z * moment[i][2]);
+        exact_stage_terms_of(&s->c, &p[i], force, &stiff, s->w[i], &t[i]);
     }
-    exact_sums_gather(s, &a, ignored, hessian);
+    exact_sums_gather(stages, s, t, A);
+    exact_variables_matrix(stages, A, s->unknowns + EXACT_STAGES_OUTER, hessian);
 }
 
 void exact_prestress_stiffness(const exact_stages *s, const double sigma[], double G[])

@@ -1,5 +1,5 @@
 /* One Gauss point of a collocation element: geometry, energy, and their derivatives with respect to
- * x, x' and F (milenkovic.h). */
+ * x, x' and F (milenkovic.h).  In lanes (real.h). */
 #ifndef BEAMWORK_EXACT_STAGE_H
 #define BEAMWORK_EXACT_STAGE_H
 
@@ -14,25 +14,219 @@ enum {
 }; /* places of x, x' and F */
 
 typedef struct exact_stage {
-    double x[3], slope[3], kappa[3], N[3]; /* kappa: less that of the undeformed state */
+    real x[3], slope[3], kappa[3], N[3]; /* kappa: less that of the undeformed state */
     exact_milenkovic_form orientation, curvature;
 } exact_stage;
 
-/* x [nodes x 3], N and dN [nodes]. */
-void exact_stage_at(int nodes, const double N[], const double dN[], const double x[],
-                    const double force[3], const double rest_kappa[3], exact_stage *p);
+/* Energy of a point as a function of (kappa, N) with its derivatives. */
+typedef struct exact_stage_material {
+    real energy, kappa[3], N[3]; /* gradient */
+    real kk[9], kN[9], NN[9];    /* Hessian */
+} exact_stage_material;
 
-/* Energy of a point as a function of (kappa, N): gradient [6] and Hessian [36]; T: its warping
- * torque. */
-double exact_stage_material(const beam_constants *c, const double kappa[3], const double N[3],
-                            double T, double gradient[6], double M[36]);
+/* Derivatives of the energy of a point with respect to x, x' and F; z: those of the argument of the
+ * warping energy. */
+typedef struct exact_stage_terms {
+    real gradient[EXACT_STAGE_SPACE], z[EXACT_STAGE_SPACE];
+    real xx[9], xs[9], ss[9], xF[9], sF[9], FF[9]; /* s: x' */
+} exact_stage_terms;
 
-/* Derivatives of kappa and N. */
-void exact_stage_rows(const exact_stage *p, const double force[3], double D[6][EXACT_STAGE_SPACE]);
+/* Of x, x' and F. */
+static inline void exact_stage_of(const real force[3], const double rest_kappa[3], exact_stage *p)
+{
+    exact_milenkovic_forms(real3_dot(p->x, p->x), &p->orientation, &p->curvature);
+    exact_milenkovic_vector(&p->curvature, p->x, p->slope, p->kappa);
+    exact_milenkovic_vector(&p->orientation, p->x, force, p->N);
+    for (int j = 0; j < 3; j++)
+        p->kappa[j] -= rest_kappa[j];
+}
 
-/* w (D^T M D + second derivatives of kappa and N contracted with `gradient`). */
-void exact_stage_hessian(const exact_stage *p, const double force[3], const double gradient[6],
-                         const double M[36], double w, double D[6][EXACT_STAGE_SPACE],
-                         double H[EXACT_STAGE_SPACE][EXACT_STAGE_SPACE]);
+/* The argument of the warping energy: kappa_x less the warping shear that Q_y and Q_z make. */
+static inline real exact_stage_twist(const beam_constants *c, const exact_stage *p)
+{
+    return p->kappa[0] - c->F[6] * p->N[1] - c->F[7] * p->N[2];
+}
+
+/* Sections by their matrices: extremum over gamma of the energy less N . (e_x + gamma). */
+static inline void exact_stage_coupled(const beam_constants *c, const real kappa[3],
+                                       const real N[3], exact_stage_material *m)
+{
+    m->energy = -N[0];
+    for (int i = 0; i < 3; i++) {
+        m->kappa[i] = m->N[i] = real_of(0);
+        for (int j = 0; j < 3; j++) {
+            m->kk[3 * i + j] = real_of(c->mixed[6 * i + j]);
+            m->kN[3 * i + j] = real_of(c->mixed[6 * i + 3 + j]);
+            m->NN[3 * i + j] = real_of(c->mixed[6 * (3 + i) + 3 + j]);
+            m->kappa[i] += c->mixed[6 * i + j] * kappa[j] + c->mixed[6 * i + 3 + j] * N[j];
+            m->N[i] += c->mixed[6 * (3 + i) + j] * kappa[j] + c->mixed[6 * (3 + i) + 3 + j] * N[j];
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        m->energy += (m->kappa[i] * kappa[i] + m->N[i] * N[i]) * 0.5 - c->initial[i] * N[i];
+        m->N[i] -= c->initial[i];
+    }
+    m->N[0] -= 1;
+}
+
+/* T: warping torque of the point. */
+static inline void exact_stage_energy(const beam_constants *c, const real kappa[3], const real N[3],
+                                      real T, exact_stage_material *m)
+{
+    if (c->coupled) {
+        exact_stage_coupled(c, kappa, N, m);
+        return;
+    }
+    const real k = kappa[0], kk = k * k, half = kk * 0.5;
+    const real ky = kappa[1] + c->bend_y * half, kz = kappa[2] + c->bend_z * half;
+    const real My = c->EIy * ky, Mz = c->EIz * kz;
+    const real gy = c->F[0] * N[1] + c->F[1] * N[2], gz = c->F[3] * N[1] + c->F[4] * N[2];
+    const real torsion = c->GJ + c->trapeze * N[0] + c->bend_y * My + c->bend_z * Mz;
+    const real eccentric = c->ys * N[2] - c->zs * N[1], axial = N[0] * (1 / c->EA);
+    const real initial = c->initial[0] * N[0] + c->initial[1] * N[1] + c->initial[2] * N[2];
+    m->energy = -N[0] - initial - N[0] * axial * 0.5 - (N[1] * gy + N[2] * gz) * 0.5 +
+                eccentric * k + c->trapeze * N[0] * half + (My * ky + Mz * kz) * 0.5 +
+                c->GJ * half + c->torque * (kk * kk);
+    m->kappa[0] = eccentric + torsion * k + (4 * c->torque) * (kk * k) + T;
+    m->kappa[1] = My;
+    m->kappa[2] = Mz;
+    m->N[0] = -1 - c->initial[0] - axial + c->trapeze * half;
+    m->N[1] = -gy - c->initial[1] - c->zs * k - c->F[6] * T;
+    m->N[2] = -gz - c->initial[2] + c->ys * k - c->F[7] * T;
+    real3_zero(9, m->kk);
+    real3_zero(9, m->kN);
+    real3_zero(9, m->NN);
+    m->kk[0] =
+        torsion +
+        (c->EIy * c->bend_y * c->bend_y + c->EIz * c->bend_z * c->bend_z + 12 * c->torque) * kk;
+    m->kk[1] = m->kk[3] = (c->EIy * c->bend_y) * k;
+    m->kk[2] = m->kk[6] = (c->EIz * c->bend_z) * k;
+    m->kk[4] = real_of(c->EIy);
+    m->kk[8] = real_of(c->EIz);
+    m->kN[0] = c->trapeze * k;
+    m->kN[1] = real_of(-c->zs);
+    m->kN[2] = real_of(c->ys);
+    m->NN[0] = real_of(-1 / c->EA);
+    m->NN[4] = real_of(-c->F[0]);
+    m->NN[5] = m->NN[7] = real_of(-c->F[1]);
+    m->NN[8] = real_of(-c->F[4]);
+}
+
+/* out = kk A; of sections without matrices only the first row and the diagonal of kk are there. */
+static inline void exact_stage_bend(const exact_stage_material *m, int coupled, const real A[9],
+                                    real out[9])
+{
+    if (coupled) {
+        real3_mul(m->kk, A, out);
+        return;
+    }
+    for (int j = 0; j < 3; j++) {
+        out[j] = m->kk[0] * A[j] + m->kk[1] * A[3 + j] + m->kk[2] * A[6 + j];
+        out[3 + j] = m->kk[3] * A[j] + m->kk[4] * A[3 + j];
+        out[6 + j] = m->kk[6] * A[j] + m->kk[8] * A[6 + j];
+    }
+}
+
+/* out = NN A, likewise: axial force and shear forces are apart. */
+static inline void exact_stage_stretch(const exact_stage_material *m, int coupled, const real A[9],
+                                       real out[9])
+{
+    if (coupled) {
+        real3_mul(m->NN, A, out);
+        return;
+    }
+    for (int j = 0; j < 3; j++) {
+        out[j] = m->NN[0] * A[j];
+        out[3 + j] = m->NN[4] * A[3 + j] + m->NN[5] * A[6 + j];
+        out[6 + j] = m->NN[7] * A[3 + j] + m->NN[8] * A[6 + j];
+    }
+}
+
+/* out += kN A, likewise: only torsion is coupled. */
+static inline void exact_stage_add_mixed(const exact_stage_material *m, int coupled,
+                                         const real A[9], real out[9])
+{
+    for (int i = 0; i < (coupled ? 3 : 1); i++)
+        for (int j = 0; j < 3; j++)
+            out[3 * i + j] +=
+                m->kN[3 * i] * A[j] + m->kN[3 * i + 1] * A[3 + j] + m->kN[3 * i + 2] * A[6 + j];
+}
+
+/* out += kN^T A. */
+static inline void exact_stage_add_mixed_transposed(const exact_stage_material *m, int coupled,
+                                                    const real A[9], real out[9])
+{
+    if (coupled) {
+        real3_add_transpose_mul(m->kN, A, out);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            out[3 * i + j] += m->kN[i] * A[j];
+}
+
+/* Derivatives of kappa (rows K) and N (rows B) with respect to x and of kappa to x', of N to F. */
+typedef struct exact_stage_rows {
+    real Kx[9], Ks[9], Nx[9], NF[9];
+} exact_stage_rows;
+
+static inline void exact_stage_rows_of(const exact_stage *p, const real force[3],
+                                       exact_stage_rows *D)
+{
+    exact_milenkovic_gradients(&p->curvature, p->x, p->slope, D->Kx, D->Ks);
+    exact_milenkovic_gradients(&p->orientation, p->x, force, D->Nx, D->NF);
+}
+
+/* w times (D^T M D + second derivatives of kappa and N contracted with the gradient). */
+static inline void exact_stage_terms_of(const beam_constants *c, const exact_stage *p,
+                                        const real force[3], const exact_stage_material *m,
+                                        double w, exact_stage_terms *t)
+{
+    const int coupled = c->coupled;
+    exact_stage_rows D;
+    real A[9], B[9], C[9], E[9], F[9];
+    exact_stage_rows_of(p, force, &D);
+    exact_stage_bend(m, coupled, D.Kx, A);
+    exact_stage_add_mixed(m, coupled, D.Nx, A);
+    exact_stage_stretch(m, coupled, D.Nx, B);
+    exact_stage_add_mixed_transposed(m, coupled, D.Kx, B);
+    exact_stage_bend(m, coupled, D.Ks, C);
+    exact_stage_stretch(m, coupled, D.NF, E);
+    real3_zero(9, F);
+    exact_stage_add_mixed(m, coupled, D.NF, F);
+    real3_zero(9, t->xx);
+    exact_milenkovic_add_hessian(&p->curvature, p->x, m->kappa, p->slope, t->xx, t->xs);
+    exact_milenkovic_add_hessian(&p->orientation, p->x, m->N, force, t->xx, t->xF);
+    real3_zero(9, t->ss);
+    real3_zero(9, t->sF);
+    real3_zero(9, t->FF);
+    real3_add_transpose_mul(D.Kx, A, t->xx);
+    real3_add_transpose_mul(D.Nx, B, t->xx);
+    real3_add_transpose_mul(A, D.Ks, t->xs);
+    real3_add_transpose_mul(B, D.NF, t->xF);
+    real3_add_transpose_mul(D.Ks, C, t->ss);
+    real3_add_transpose_mul(D.Ks, F, t->sF);
+    real3_add_transpose_mul(D.NF, E, t->FF);
+    for (int j = 0; j < 9; j++) {
+        t->xx[j] *= w;
+        t->xs[j] *= w;
+        t->ss[j] *= w;
+        t->xF[j] *= w;
+        t->sF[j] *= w;
+        t->FF[j] *= w;
+    }
+    for (int j = 0; j < 3; j++) {
+        t->gradient[EXACT_STAGE_MILENKOVIC + j] =
+            w * (m->kappa[0] * D.Kx[j] + m->kappa[1] * D.Kx[3 + j] + m->kappa[2] * D.Kx[6 + j] +
+                 m->N[0] * D.Nx[j] + m->N[1] * D.Nx[3 + j] + m->N[2] * D.Nx[6 + j]);
+        t->gradient[EXACT_STAGE_SLOPE + j] =
+            w * (m->kappa[0] * D.Ks[j] + m->kappa[1] * D.Ks[3 + j] + m->kappa[2] * D.Ks[6 + j]);
+        t->gradient[EXACT_STAGE_FORCE + j] =
+            w * (m->N[0] * D.NF[j] + m->N[1] * D.NF[3 + j] + m->N[2] * D.NF[6 + j]);
+        t->z[EXACT_STAGE_MILENKOVIC + j] = D.Kx[j] - c->F[6] * D.Nx[3 + j] - c->F[7] * D.Nx[6 + j];
+        t->z[EXACT_STAGE_SLOPE + j] = D.Ks[j];
+        t->z[EXACT_STAGE_FORCE + j] = -c->F[6] * D.NF[3 + j] - c->F[7] * D.NF[6 + j];
+    }
+}
 
 #endif

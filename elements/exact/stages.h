@@ -27,26 +27,18 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
+/* Of the variables x of the inner nodes, then 2 X: a node at an end has half of it. */
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     beam_constants c;
     exact_strain_line line;
-    double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_NODES],
-        dN[EXACT_STAGES_MAX][EXACT_STAGES_NODES];
+    double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_MAX],
+        dN[EXACT_STAGES_MAX][EXACT_STAGES_MAX]; /* x and x' at the points from the variables */
     double rest_x[EXACT_STAGES_NODES][3], rest_kappa[EXACT_STAGES_MAX][3], rest_v[3];
     int warps; /* 0: no warping energy */
     double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX];
 } exact_stages;
 
-/* Derivatives of P: gradient and Hessian with respect to unknowns, then (v, 2 X, a_p, a_q). */
-typedef struct exact_stages_derivatives {
-    double P, gradient[EXACT_STAGES_ALL], hessian[EXACT_STAGES_ALL * EXACT_STAGES_ALL];
-} exact_stages_derivatives;
-
 status exact_stages_prepare(const element_request *request, int count, exact_stages *out, fault *f);
-
-/* e [8], inner [unknowns]; dimensionless. */
-void exact_stages_evaluate(const exact_stages *s, const double e[], const double inner[],
-                           exact_stages_derivatives *out);
 
 #endif

@@ -1,36 +1,207 @@
-/* What the Gauss points of a collocation element add up to, in terms of x at the nodes, and from
- * there to the element's variables: its unknowns and strains in the order of stages.h. */
+/* What the Gauss points of a collocation element add up to: the Hessian of its energy, bordered by
+ * the gradient, in blocks of 3 x 3 (blocks.h).  In lanes (real.h).
+ *
+ * Blocks: x of the inner nodes (stages - 1), F, then the strains 2 X, v, and last (a_p, a_q, 1):
+ * the column of 1 has the gradient, its last entry twice the energy. */
 #ifndef BEAMWORK_EXACT_SUMS_H
 #define BEAMWORK_EXACT_SUMS_H
 
+#include "elements/exact/blocks.h"
 #include "elements/exact/stage.h"
 #include "elements/exact/stages.h"
 
-typedef struct exact_sums {
-    double g[EXACT_STAGES_NODES][3]; /* gradient */
-    double X[EXACT_STAGES_NODES][EXACT_STAGES_NODES]
-            [9];                     /* second derivatives, second node not before the first */
-    double Y[EXACT_STAGES_NODES][9]; /* with F */
-    double FF[9], gF[3];
-    double z[EXACT_WARPING_MAX],
-        dz[EXACT_WARPING_MAX *
-           EXACT_STAGES_ALL]; /* arguments of the warping energy and their derivatives */
-} exact_sums;
+/* x, x' of all points; at: x of the inner nodes, then 2 X. */
+static inline void exact_sums_geometry(int stages, const exact_stages *s, real at[][3],
+                                       const real force[3], exact_stage p[])
+{
+    for (int i = 0; i < stages; i++) {
+        for (int j = 0; j < 3; j++) {
+            real x = s->N[i][0] * at[0][j], slope = s->dN[i][0] * at[0][j];
+            for (int k = 1; k < stages; k++) {
+                x += s->N[i][k] * at[k][j];
+                slope += s->dN[i][k] * at[k][j];
+            }
+            p[i].x[j] = x;
+            p[i].slope[j] = slope;
+        }
+        exact_stage_of(force, s->rest_kappa[i], &p[i]);
+    }
+}
 
-/* Adds point i with the given derivatives of its energy (exact_stage_material). */
-void exact_sums_add(const exact_stages *s, int i, const exact_stage *p, const double force[3],
-                    const double gradient[6], const double M[36], exact_sums *a);
+/* Gradient Sz of the warping energy with respect to its arguments, the points' twist and both
+ * amplitudes a, and twice the energy. */
+static inline real exact_sums_warping(int stages, const exact_stages *s, const exact_stage p[],
+                                      const real a[2], real Sz[])
+{
+    const int m = stages + 2;
+    real z[EXACT_WARPING_MAX], energy = real_of(0);
+    for (int i = 0; i < stages; i++)
+        z[i] = exact_stage_twist(&s->c, &p[i]);
+    z[stages] = a[0];
+    z[stages + 1] = a[1];
+    for (int i = 0; i < m; i++) {
+        Sz[i] = s->S[i * m] * z[0];
+        for (int j = 1; j < m; j++)
+            Sz[i] += s->S[i * m + j] * z[j];
+        energy += Sz[i] * z[i];
+    }
+    return energy;
+}
 
-/* Arguments of the warping energy and, in Sz, its gradient with respect to them. */
-void exact_sums_warping(const exact_stages *s, const double e[], const exact_stage p[],
-                        exact_sums *a, double Sz[]);
+/* The warping energy S couples the points: t += z S z for x, x' of point i with x of variable l, as
+ * the two products that go with its weights there. */
+static inline void exact_sums_couple(int stages, const exact_stages *s, exact_stage_terms t[],
+                                     real through[][EXACT_STAGES_MAX][3])
+{
+    real z[EXACT_STAGES_MAX][EXACT_STAGES_MAX][3];
+    for (int i = 0; i < stages; i++)
+        for (int l = 0; l < stages; l++)
+            for (int j = 0; j < 3; j++)
+                z[i][l][j] = s->N[i][l] * t[i].z[EXACT_STAGE_MILENKOVIC + j] +
+                             s->dN[i][l] * t[i].z[EXACT_STAGE_SLOPE + j];
+    for (int i = 0; i < stages; i++) {
+        const double *S = &s->S[i * (stages + 2)];
+        real force[3];
+        real3_zero(3, force);
+        for (int h = 0; h < stages; h++)
+            for (int j = 0; j < 3; j++)
+                force[j] += S[h] * t[h].z[EXACT_STAGE_FORCE + j];
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) {
+                t[i].xF[3 * j + k] += t[i].z[EXACT_STAGE_MILENKOVIC + j] * force[k];
+                t[i].sF[3 * j + k] += t[i].z[EXACT_STAGE_SLOPE + j] * force[k];
+                t[i].FF[3 * j + k] += t[i].z[EXACT_STAGE_FORCE + j] * force[k];
+            }
+        for (int l = 0; l < stages; l++)
+            for (int j = 0; j < 3; j++) {
+                through[i][l][j] = S[0] * z[0][l][j];
+                for (int h = 1; h < stages; h++)
+                    through[i][l][j] += S[h] * z[h][l][j];
+            }
+    }
+}
 
-/* To gradient and Hessian in the element's variables, warping energy included. */
-void exact_sums_gather(const exact_stages *s, const exact_sums *a, double gradient[],
-                       double hessian[]);
+/* Column l of the blocks of x and 2 X. */
+static inline void exact_sums_column(int stages, const exact_stages *s, int l,
+                                     const exact_stage_terms t[],
+                                     real through[][EXACT_STAGES_MAX][3], real A[][9])
+{
+    real value[EXACT_STAGES_MAX][9], slope[EXACT_STAGES_MAX][9];
+    for (int i = 0; i < stages; i++) {
+        const double N = s->N[i][l], dN = s->dN[i][l];
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) {
+                value[i][3 * j + k] = t[i].xx[3 * j + k] * N + t[i].xs[3 * j + k] * dN;
+                slope[i][3 * j + k] = t[i].xs[3 * k + j] * N + t[i].ss[3 * j + k] * dN;
+            }
+        if (s->warps)
+            for (int j = 0; j < 3; j++)
+                for (int k = 0; k < 3; k++) {
+                    value[i][3 * j + k] += t[i].z[EXACT_STAGE_MILENKOVIC + j] * through[i][l][k];
+                    slope[i][3 * j + k] += t[i].z[EXACT_STAGE_SLOPE + j] * through[i][l][k];
+                }
+    }
+    const int column = l < stages - 1 ? l : stages;
+    for (int k = 0; k <= l; k++) {
+        real *X = A[exact_blocks_at(k < stages - 1 ? k : stages, column)], sum[9];
+        for (int j = 0; j < 9; j++)
+            sum[j] = s->N[0][k] * value[0][j] + s->dN[0][k] * slope[0][j];
+        for (int i = 1; i < stages; i++)
+            for (int j = 0; j < 9; j++)
+                sum[j] += s->N[i][k] * value[i][j] + s->dN[i][k] * slope[i][j];
+        for (int j = 0; j < 9; j++)
+            X[j] = sum[j];
+    }
+}
 
-/* Change of x and x' at point i that goes with a change of all variables. */
-void exact_sums_change(const exact_stages *s, int i, const double variables[], double x[3],
-                       double slope[3]);
+/* Blocks of x or 2 X, variable k, with F and with (a_p, a_q, 1). */
+static inline void exact_sums_border(int stages, const exact_stages *s, int k,
+                                     const exact_stage_terms t[], real A[][9])
+{
+    const int F = stages - 1, last = stages + 2, row = k < stages - 1 ? k : stages;
+    real Y[9], edge[9], *E = A[exact_blocks_at(row, last)];
+    real3_zero(9, Y);
+    real3_zero(9, edge);
+    for (int i = 0; i < stages; i++) {
+        const double N = s->N[i][k], dN = s->dN[i][k], *S = &s->S[i * (stages + 2) + stages];
+        for (int j = 0; j < 9; j++)
+            Y[j] += N * t[i].xF[j] + dN * t[i].sF[j];
+        for (int j = 0; j < 3; j++) {
+            edge[3 * j + 2] += N * t[i].gradient[EXACT_STAGE_MILENKOVIC + j] +
+                               dN * t[i].gradient[EXACT_STAGE_SLOPE + j];
+            if (!s->warps)
+                continue;
+            const real z =
+                N * t[i].z[EXACT_STAGE_MILENKOVIC + j] + dN * t[i].z[EXACT_STAGE_SLOPE + j];
+            edge[3 * j] += S[0] * z;
+            edge[3 * j + 1] += S[1] * z;
+        }
+    }
+    for (int j = 0; j < 9; j++)
+        E[j] = edge[j];
+    if (row < F)
+        for (int j = 0; j < 9; j++)
+            A[exact_blocks_at(row, F)][j] = Y[j];
+    else
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                A[exact_blocks_at(F, row)][3 * i + j] = Y[3 * j + i];
+}
+
+/* Blocks of F with itself, with v (1) and with (a_p, a_q, 1). */
+static inline void exact_sums_force(int stages, const exact_stages *s, const exact_stage_terms t[],
+                                    real A[][9])
+{
+    const int F = stages - 1, v = stages + 1, last = stages + 2;
+    real *FF = A[exact_blocks_at(F, F)], *Fv = A[exact_blocks_at(F, v)],
+         *FE = A[exact_blocks_at(F, last)];
+    real3_zero(9, FF);
+    real3_zero(9, Fv);
+    real3_zero(9, FE);
+    for (int i = 0; i < stages; i++) {
+        const double *S = &s->S[i * (stages + 2) + stages];
+        for (int j = 0; j < 9; j++)
+            FF[j] += t[i].FF[j];
+        for (int j = 0; j < 3; j++) {
+            FE[3 * j + 2] += t[i].gradient[EXACT_STAGE_FORCE + j];
+            if (!s->warps)
+                continue;
+            FE[3 * j] += S[0] * t[i].z[EXACT_STAGE_FORCE + j];
+            FE[3 * j + 1] += S[1] * t[i].z[EXACT_STAGE_FORCE + j];
+        }
+    }
+    for (int j = 0; j < 3; j++)
+        Fv[4 * j] = real_of(1);
+}
+
+/* All blocks; of the strains' own, what the points and the warping energy make: those of v, and the
+ * column of 1 of v and the amplitudes, stay zero. t is changed. */
+static inline void exact_sums_gather(int stages, const exact_stages *s, exact_stage_terms t[],
+                                     real A[][9])
+{
+    const int F = stages - 1, rho = stages, v = stages + 1, last = stages + 2;
+    real through[EXACT_STAGES_MAX][EXACT_STAGES_MAX][3];
+    if (s->warps)
+        exact_sums_couple(stages, s, t, through);
+    for (int k = 0; k < stages; k++) {
+        exact_sums_column(stages, s, k, t, through, A);
+        exact_sums_border(stages, s, k, t, A);
+    }
+    exact_sums_force(stages, s, t, A);
+    for (int k = 0; k < F; k++)
+        real3_zero(9, A[exact_blocks_at(k, v)]);
+    real3_zero(9, A[exact_blocks_at(rho, v)]);
+    real3_zero(9, A[exact_blocks_at(v, v)]);
+    real3_zero(9, A[exact_blocks_at(v, last)]);
+    real *E = A[exact_blocks_at(last, last)];
+    real3_zero(9, E);
+    if (s->warps)
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++)
+                E[3 * i + j] = real_of(s->S[(stages + i) * (stages + 2) + stages + j]);
+    else if (s->c.warping) /* amplitudes, if there are any, that nothing depends on */
+        for (int i = 0; i < 2; i++)
+            E[4 * i] = real_of(s->c.GJ);
+}
 
 #endif

@@ -1,0 +1,160 @@
+/* Stresses of collocation elements: the energy's derivatives at the unknowns' present values, and
+ * the elimination of the unknowns.  In lanes (real.h). */
+#ifndef BEAMWORK_EXACT_COLLOCATED_H
+#define BEAMWORK_EXACT_COLLOCATED_H
+
+#include <math.h>
+
+#include "elements/exact/sums.h"
+#include "elements/exact/variables.h"
+
+/* X of 2 X, v, (a_p, a_q, 1). */
+typedef struct exact_collocated {
+    real A[EXACT_VARIABLES_BLOCKS][9], V[EXACT_VARIABLES_BLOCKS][9], d[EXACT_STAGES_UNKNOWNS],
+        X[3][EXACT_STAGES_MAX][9];
+} exact_collocated;
+
+/* e [8], inner [unknowns]: dimensionless. */
+static inline __attribute__((always_inline)) void
+exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], const real inner[],
+                          real A[][9])
+{
+    const int F = stages - 1, v = stages + 1, last = stages + 2;
+    real at[EXACT_STAGES_MAX][3], Sz[EXACT_WARPING_MAX], gap[3];
+    exact_stage p[EXACT_STAGES_MAX];
+    exact_stage_terms t[EXACT_STAGES_MAX];
+    for (int j = 0; j < 3; j++) {
+        for (int k = 0; k < stages - 1; k++)
+            at[k][j] = inner[3 * (k + 1) + j];
+        at[stages - 1][j] = s->line.rest[0][3 + j] + e[3 + j];
+        gap[j] = s->rest_v[j] + e[j];
+    }
+    real twice = 2 * real3_dot(inner, gap); /* the energy */
+    exact_sums_geometry(stages, s, at, inner, p);
+    if (s->warps)
+        twice += exact_sums_warping(stages, s, p, &e[6], Sz);
+    for (int i = 0; i < stages; i++) {
+        exact_stage_material m;
+        exact_stage_energy(&s->c, p[i].kappa, p[i].N, s->warps ? Sz[i] / s->w[i] : real_of(0), &m);
+        twice += (2 * s->w[i]) * m.energy;
+        exact_stage_terms_of(&s->c, &p[i], inner, &m, s->w[i], &t[i]);
+    }
+    exact_sums_gather(stages, s, t, A);
+    for (int j = 0; j < 3; j++) {
+        A[exact_blocks_at(F, last)][3 * j + 2] += gap[j];
+        A[exact_blocks_at(v, last)][3 * j + 2] = inner[j];
+    }
+    real *E = A[exact_blocks_at(last, last)];
+    for (int i = 0; i < 2; i++) {
+        if (s->warps)
+            E[3 * i + 2] = Sz[stages + i];
+        else if (s->c.warping) {
+            E[3 * i + 2] = s->c.GJ * e[6 + i];
+            twice += E[3 * i + 2] * e[6 + i];
+        }
+    }
+    E[8] = twice;
+}
+
+/* One lane by the elimination with exchange of rows; 0, or the failing pivot. */
+static inline int exact_collocated_exchange(int stages, int lane, exact_collocated *w)
+{
+    const int blocks = exact_blocks_at(0, stages + 3);
+    double A[EXACT_VARIABLES_BLOCKS][9], S[EXACT_VARIABLES_BLOCKS][9], X[3][EXACT_STAGES_MAX][9];
+    for (int i = 0; i < blocks; i++)
+        for (int j = 0; j < 9; j++)
+            A[i][j] = real_lane(&w->A[i][j], lane);
+    const int failed = exact_variables_eliminate(stages, A, S, X);
+    if (failed != 0)
+        return failed;
+    for (int J = 0; J < 3; J++) {
+        for (int I = 0; I <= J; I++)
+            for (int j = 0; j < 9; j++) {
+                const int at = exact_blocks_at(stages + I, stages + J);
+                real_put(&w->V[at][j], lane, S[at][j]);
+            }
+        for (int i = 0; i < stages; i++)
+            for (int j = 0; j < 9; j++)
+                real_put(&w->X[J][i][j], lane, X[J][i][j]);
+    }
+    return 0;
+}
+
+/* Of the strains i and j, 8: of 1, after elimination. */
+static inline double exact_collocated_entry(int stages, exact_collocated *w, int i, int j, int lane)
+{
+    int row, column;
+    const int I = exact_variables_block(stages, 3 * stages + i, &row),
+              J = exact_variables_block(stages, 3 * stages + j, &column);
+    if (I < J || (I == J && row <= column))
+        return real_lane(&w->V[exact_blocks_at(I, J)][3 * row + column], lane);
+    return real_lane(&w->V[exact_blocks_at(J, I)][3 * column + row], lane);
+}
+
+static inline void exact_collocated_write(int stages, const exact_stages *s, exact_collocated *w,
+                                          int lane, stress_output *out)
+{
+    enum { OUTER = EXACT_STAGES_OUTER };
+    const double unit = s->c.energy, l0 = s->line.l0;
+    if (out->sigma != NULL)
+        for (int i = 0; i < OUTER; i++)
+            out->sigma[i] = unit / l0 * exact_collocated_entry(stages, w, i, OUTER, lane);
+    if (out->C != NULL)
+        for (int i = 0; i < OUTER; i++)
+            for (int j = i; j < OUTER; j++)
+                out->C[i * OUTER + j] = out->C[j * OUTER + i] =
+                    unit / (l0 * l0) * exact_collocated_entry(stages, w, i, j, lane);
+    if (out->energy != NULL)
+        *out->energy = unit * exact_collocated_entry(stages, w, OUTER, OUTER, lane) / 2;
+    if (out->residual != NULL) {
+        *out->residual = 0;
+        for (int i = 0; i < stages; i++)
+            for (int r = 0; r < 3; r++)
+                *out->residual =
+                    fmax(*out->residual,
+                         fabs(real_lane(&w->A[exact_blocks_at(i, stages + 2)][3 * r + 2], lane)));
+    }
+    if (out->memory != NULL)
+        for (int i = 0; i < stages; i++) { /* F, which comes first, is the last block */
+            double *rows = &out->memory[(i < stages - 1 ? i + 1 : 0) * 3 * (OUTER + 1)];
+            for (int r = 0; r < 3; r++)
+                for (int c = 0; c < 3; c++) {
+                    double *row = &rows[r * (OUTER + 1) + c];
+                    row[0] = real_lane(&w->X[1][i][3 * r + c], lane);
+                    row[3] = real_lane(&w->X[0][i][3 * r + c], lane);
+                    row[6] = real_lane(&w->X[2][i][3 * r + c], lane);
+                }
+        }
+}
+
+/* Of LANES elements of one kind with `stages` points; as element_type.stress_many. */
+static inline __attribute__((always_inline)) void
+exact_collocated_stress(int stages, const exact_stages *s, const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    real scaled[EXACT_STAGES_OUTER], unknown[EXACT_STAGES_UNKNOWNS];
+    exact_collocated w;
+    for (int lane = 0; lane < LANES; lane++) {
+        for (int i = 0; i < EXACT_STAGES_OUTER; i++)
+            real_put(&scaled[i], lane, e[lane][i] / s->line.l0);
+        for (int i = 0; i < 3 * stages; i++)
+            real_put(&unknown[i], lane, inner[lane][i]);
+    }
+    exact_collocated_evaluate(stages, s, scaled, unknown, w.A);
+    exact_blocks_eliminate(stages, stages + 3, stages + 1, w.A, w.V, w.d);
+    if (out[0].memory != NULL)
+        for (int J = 0; J < 3; J++)
+            exact_blocks_solve(stages, stages + 1, stages + J, w.V, w.X[J]);
+    for (int lane = 0; lane < LANES; lane++) {
+        if (!exact_blocks_definite(stages, w.A, w.d, lane) &&
+            exact_collocated_exchange(stages, lane, &w) != 0) {
+            outcome[lane] = STATUS_SINGULAR;
+            continue;
+        }
+        exact_collocated_write(stages, s, &w, lane, &out[lane]);
+        const double energy = real_lane(&w.A[exact_blocks_at(stages + 2, stages + 2)][8], lane);
+        outcome[lane] = isfinite(energy) ? STATUS_OK : STATUS_NOT_CONVERGED;
+    }
+}
+
+#endif
