@@ -241,6 +241,9 @@ typedef struct element_type {
     /* Optional: why nothing that was computed since the last question counts, one line; NULL:
      * nothing is wrong. */
     const char *(*trouble)(const element_data *);
+    /* Optional: how many of one kind strain_many and stress_many evaluate in one go (lanes of the
+     * processor): they are asked for so many. 0: as many as there are (another process). */
+    int lanes;
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,

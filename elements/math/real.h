@@ -47,6 +47,17 @@ static inline real real_sqrt(real a)
 {
     return sqrt(a);
 }
+/* What holds in each lane; one element: 0 or 1. */
+typedef int real_truth;
+static inline real_truth real_true(void)
+{
+    return 1;
+}
+static inline int real_holds(real_truth t, int lane)
+{
+    (void)lane;
+    return t;
+}
 
 #else
 
@@ -70,8 +81,26 @@ static inline real real_sqrt(real a)
         a[lane] = sqrt(a[lane]);
     return a;
 }
+typedef long long real_truth __attribute__((vector_size(LANES * sizeof(long long))));
+static inline real_truth real_true(void)
+{
+    return (real_truth){0} == 0;
+}
+static inline int real_holds(real_truth t, int lane)
+{
+    return t[lane] != 0;
+}
 
 #endif
+
+/* Is any lane left in which it holds? */
+static inline int real_any(real_truth t)
+{
+    int any = 0;
+    for (int lane = 0; lane < LANES; lane++)
+        any |= real_holds(t, lane);
+    return any;
+}
 
 /* Functions of libm lane by lane: what one element gets. */
 static inline real real_atan2(real y, real x)
@@ -80,6 +109,13 @@ static inline real real_atan2(real y, real x)
     for (int lane = 0; lane < LANES; lane++)
         real_put(&angle, lane, atan2(real_lane(&y, lane), real_lane(&x, lane)));
     return angle;
+}
+static inline real real_hypot(real a, real b)
+{
+    real length = a;
+    for (int lane = 0; lane < LANES; lane++)
+        real_put(&length, lane, hypot(real_lane(&a, lane), real_lane(&b, lane)));
+    return length;
 }
 static inline void real_sincos(real a, real *sine, real *cosine)
 {

@@ -42,6 +42,12 @@ void sheet_base_strain(const element_data *d, const node_state x[], strain_outpu
     sheet_strains_evaluate(&data_of(d)->table, x, out);
 }
 
+void sheet_base_strain_many(int count, const element_data *const data[], const node_state x[],
+                            strain_output out[])
+{
+    REAL_CHOSEN(sheet_lanes_strain)(count, data, x, out);
+}
+
 status sheet_base_inertia(const element_data *d, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out)
 {

@@ -4,6 +4,7 @@
 #define BEAMWORK_SHEET_BASE_H
 
 #include "elements/shared/lumped.h"
+#include "elements/sheet/lanes.h"
 #include "elements/sheet/strains.h"
 #include "elements/sheet/wagner.h"
 
@@ -33,13 +34,16 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
 
 /* Members of element_type; the data begin with sheet_base_data. */
 void sheet_base_strain(const element_data *d, const node_state x[], strain_output *out);
+void sheet_base_strain_many(int count, const element_data *const data[], const node_state x[],
+                            strain_output out[]);
 status sheet_base_inertia(const element_data *d, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out);
 
 /* In an element_type: what every sheet element has; and those whose strains see no shear. */
 #define SHEET_BASE_TYPE                                                                            \
     .family = "sheet", .abi = ELEMENT_ABI, .limits = SHEET_BASE_LIMITS,                            \
-    .strain = sheet_base_strain, .inertia = sheet_base_inertia
+    .strain = sheet_base_strain, .inertia = sheet_base_inertia, .lanes = LANES_TOGETHER,           \
+    .strain_many = sheet_base_strain_many
 #define SHEET_BASE_WITHOUT_SHEAR                                                                   \
     .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
     .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)"

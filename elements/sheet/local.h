@@ -10,7 +10,8 @@
 #ifndef BEAMWORK_SHEET_LOCAL_H
 #define BEAMWORK_SHEET_LOCAL_H
 
-#include "elements/element.h"
+#include "elements/math/vec3.h"
+#include "elements/shared/lanes.h"
 
 /* u elongation [m]; angles [rad] of N, x twist, y and z bending; W warping amplitudes [rad/m] */
 enum {
@@ -24,40 +25,52 @@ enum {
     SHEET_LOCAL_WQ,
     SHEET_LOCAL_COORDINATES
 };
-enum {
-    SHEET_RATE_V = 0,
-    SHEET_RATE_P = 3,
-    SHEET_RATE_Q = 6,
-    SHEET_RATE_TURNS = 9,
-    SHEET_RATE_WP = 9,
-    SHEET_RATE_WQ,
-    SHEET_RATES
-};
 enum { SHEET_LOCAL_NODAL = 2 * NODE_COORDINATES };
 
 typedef struct sheet_local_state {
-    double q[SHEET_LOCAL_COORDINATES];
-    double F[9]; /* columns n j k */
-    double l;    /* present distance of the nodes [m] */
-    double tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
+    real q[SHEET_LOCAL_COORDINATES];
+    real F[9]; /* columns n j k */
+    real l;    /* present distance of the nodes [m] */
+    real tan_yp, sec_yp, cos_yq, sin_yq, tan_zq, sec_zq;
 } sheet_local_state;
 
-/* chord: initial distance of the nodes [m], from which the elongation is counted. */
-void sheet_local_of(double chord, const node_state x[2], sheet_local_state *out);
-
-/* R[8 x 11]: dq/dt = R rates. */
-void sheet_local_rates(const sheet_local_state *s, double R[SHEET_LOCAL_COORDINATES * SHEET_RATES]);
-
-/* H[11 x 11] += sum_k t_k d2q_k/dt2 as a symmetric form in the rates. */
-void sheet_local_add_second(const sheet_local_state *s,
-                            const double R[SHEET_LOCAL_COORDINATES * SHEET_RATES],
-                            const double t[SHEET_LOCAL_COORDINATES],
-                            double H[SHEET_RATES * SHEET_RATES]);
-
-/* From rates to the coordinates of the nodes: J[m x 14] = A[m x 11] d(rates)/dx, K[14 x 14] = the
- * same for a symmetric form H[11 x 11]. */
-void sheet_local_nodal_gradient(const sheet_local_state *s, int m, const double A[], double J[]);
-void sheet_local_nodal_form(const sheet_local_state *s, const double H[SHEET_RATES * SHEET_RATES],
-                            double K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL]);
+/* chord: initial distance of the nodes [m], from which the elongation is counted.  F^T R^p =
+ * Ry(yp) Rz(zp), whose first row is n seen from p, and F^T R^q = Ry(yq) Rz(zq) Rx(px). */
+static inline void sheet_local_of(double chord, const node_real x[2], sheet_local_state *out)
+{
+    const real *p = x[0].R, *q = x[1].R;
+    real d[3], moved[3], D[3], F[3][3], M[9];
+    for (int i = 0; i < 3; i++) {
+        d[i] = x[1].r[i] - x[0].r[i];
+        moved[i] = x[1].u[i] - x[0].u[i];
+    }
+    mat3_transpose_mul_vec(p, d, D);
+    const real l = real_sqrt(vec3_dot(d, d)), h = real_sqrt(D[0] * D[0] + D[1] * D[1]);
+    for (int i = 0; i < 3; i++) {
+        F[0][i] = d[i] / l;
+        F[1][i] = (p[3 * i + 1] * D[0] - p[3 * i] * D[1]) / h;
+    }
+    vec3_cross(F[0], F[1], F[2]);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            out->F[3 * i + k] = F[k][i];
+    mat3_transpose_mul(out->F, q, M);
+    const real m = real_sqrt(M[0] * M[0] + M[6] * M[6]);
+    out->l = l;
+    out->q[SHEET_LOCAL_U] = vec3_elongation(d, moved, chord);
+    out->q[SHEET_LOCAL_YP] = real_atan2(D[2], h);
+    out->q[SHEET_LOCAL_ZP] = real_atan2(-D[1], D[0]);
+    out->q[SHEET_LOCAL_YQ] = real_atan2(-M[6], M[0]);
+    out->q[SHEET_LOCAL_ZQ] = real_atan2(M[3], m);
+    out->q[SHEET_LOCAL_PX] = real_atan2(-M[5], M[4]);
+    out->q[SHEET_LOCAL_WP] = x[0].a;
+    out->q[SHEET_LOCAL_WQ] = x[1].a;
+    out->tan_yp = D[2] / h;
+    out->sec_yp = l / h;
+    out->cos_yq = M[0] / m;
+    out->sin_yq = -M[6] / m;
+    out->tan_zq = M[3] / m;
+    out->sec_zq = 1 / m;
+}
 
 #endif

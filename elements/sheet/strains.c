@@ -15,6 +15,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
+#include "elements/sheet/deformation.h"
 #include "elements/sheet/fields.h"
 
 enum { N = SHEET_LOCAL_COORDINATES, POINTS = 4 }; /* products of degree 7 at most: exact */
@@ -94,109 +95,10 @@ status sheet_strains_prepare(const element_request *request, double Phi_y, doubl
     return STATUS_OK;
 }
 
-/* E[8 x 8] = de/dq at q, e[8]. */
-static void gradient(const sheet_strains_table *m, const double q[N], double e[SHEET_STRAINS],
-                     double E[SHEET_STRAINS * N])
-{
-    double quadratic[SHEET_STRAINS][N] = {{0}};
-    for (int t = 0; t < m->terms; t++) {
-        const int i = m->term[t].i, j = m->term[t].j, k = m->term[t].k;
-        quadratic[i][j] += m->term[t].c * q[k];
-        if (j != k)
-            quadratic[i][k] += m->term[t].c * q[j];
-    }
-    memcpy(quadratic[6], quadratic[1], sizeof quadratic[1]);
-    memcpy(quadratic[7], quadratic[1], sizeof quadratic[1]);
-    for (int i = 0; i < SHEET_STRAINS; i++) {
-        e[i] = 0;
-        for (int j = 0; j < N; j++) {
-            E[N * i + j] = m->Lambda[N * i + j] + quadratic[i][j];
-            e[i] += (m->Lambda[N * i + j] + quadratic[i][j] / 2) * q[j];
-        }
-    }
-}
-
-/* Q = sum s_i Q_i. */
-static void weighted(const sheet_strains_table *m, const double s[SHEET_STRAINS], double Q[N * N])
-{
-    const double weight[SHEET_STRAINS_LISTED] = {s[0], s[1] + s[6] + s[7], s[2], s[3], s[4], s[5]};
-    memset(Q, 0, N * N * sizeof *Q);
-    for (int t = 0; t < m->terms; t++)
-        Q[N * m->term[t].j + m->term[t].k] += weight[m->term[t].i] * m->term[t].c;
-    for (int j = 0; j < N; j++)
-        for (int k = 0; k < j; k++)
-            Q[N * j + k] = Q[N * k + j];
-}
-
-enum {
-    ANGLES = SHEET_LOCAL_WP - SHEET_LOCAL_PX,
-    FIRST = SHEET_LOCAL_PX * SHEET_RATES
-}; /* rows of R that are not single ones */
-
-/* A[m x 11] = E[m x 8] R. */
-static void chain(int m, const double E[], const double R[N * SHEET_RATES], double A[])
-{
-    for (int i = 0; i < m; i++) {
-        const double *e = E + N * i;
-        double *a = A + SHEET_RATES * i;
-        for (int j = 0; j < SHEET_RATES; j++)
-            a[j] = 0;
-        a[SHEET_RATE_V] = e[SHEET_LOCAL_U];
-        a[SHEET_RATE_WP] = e[SHEET_LOCAL_WP];
-        a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
-        for (int k = 0; k < ANGLES; k++)
-            for (int j = 0; j < SHEET_RATE_TURNS; j++)
-                a[j] += e[SHEET_LOCAL_PX + k] * R[FIRST + SHEET_RATES * k + j];
-    }
-}
-
-/* H[11 x 11] = R^T Q R, Q[8 x 8] without u. */
-static void congruence(const double Q[N * N], const double R[N * SHEET_RATES],
-                       double H[SHEET_RATES * SHEET_RATES])
-{
-    double QR[N * SHEET_RATES];
-    chain(N, Q, R, QR);
-    memset(H, 0, SHEET_RATES * SHEET_RATES * sizeof(double));
-    for (int k = 0; k < ANGLES; k++)
-        for (int i = 0; i < SHEET_RATE_TURNS; i++)
-            for (int j = 0; j < SHEET_RATES; j++)
-                H[SHEET_RATES * i + j] +=
-                    R[FIRST + SHEET_RATES * k + i] * QR[SHEET_RATES * (SHEET_LOCAL_PX + k) + j];
-    memcpy(H + SHEET_RATES * SHEET_RATE_WP, QR + SHEET_RATES * SHEET_LOCAL_WP,
-           2 * SHEET_RATES * sizeof(double));
-}
-
-/* With E = de/dq, R = dq/d(rates) and T the rates of the nodes' coordinates: J = E R T and
- * sum s_i d2e_i/dx2 = T^T [R^T (sum s_i Q_i) R + sum_k t_k q_k''] T, t = E^T s. */
 void sheet_strains_evaluate(const sheet_strains_table *table, const node_state x[2],
                             strain_output *out)
 {
-    double e[SHEET_STRAINS], E[SHEET_STRAINS * N], R[N * SHEET_RATES];
-    sheet_local_state s;
-    sheet_local_of(table->chord, x, &s);
-    s.q[SHEET_LOCAL_WP] += table->torsion;
-    s.q[SHEET_LOCAL_WQ] += table->torsion;
-    gradient(table, s.q, e, E);
-    if (out->e != NULL)
-        for (int i = 0; i < SHEET_STRAINS; i++)
-            out->e[i] = e[i] - table->rest[i];
-    const int second = out->s != NULL && out->H != NULL;
-    if (out->J == NULL && !second)
-        return;
-    sheet_local_rates(&s, R);
-    if (out->J != NULL) {
-        double along[SHEET_STRAINS * SHEET_RATES];
-        chain(SHEET_STRAINS, E, R, along);
-        sheet_local_nodal_gradient(&s, SHEET_STRAINS, along, out->J);
-    }
-    if (second) {
-        double Q[N * N], t[N] = {0}, H[SHEET_RATES * SHEET_RATES];
-        weighted(table, out->s, Q);
-        dense_add_transpose_mul(N, SHEET_STRAINS, 1, E, out->s, t);
-        congruence(Q, R, H);
-        sheet_local_add_second(&s, R, t, H);
-        sheet_local_nodal_form(&s, H, out->H);
-    }
+    sheet_deformation_evaluate(table, x, out);
 }
 
 void sheet_strains_set_rest(const element_request *request, sheet_strains_table *out)

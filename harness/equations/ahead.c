@@ -53,7 +53,7 @@ static int allocate(model *m)
 
 void ahead_strains(model *m, const model_state *s, int what, const double sigma[])
 {
-    if (m->type->strain_many == NULL || m->elements == 0 || !allocate(m))
+    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(m))
         return;
     mesh_ahead *a = m->ahead;
     const int n = m->strains, c = m->coordinates;
@@ -70,7 +70,7 @@ void ahead_strains(model *m, const model_state *s, int what, const double sigma[
 
 void ahead_stresses(model *m, const double e[], const double inner[])
 {
-    if (m->type->stress_many == NULL || m->elements == 0 || !allocate(m))
+    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(m))
         return;
     mesh_ahead *a = m->ahead;
     const int n = m->strains;

@@ -1,6 +1,7 @@
 /* Strains and stresses of all elements evaluated ahead of the loop that wants them, for types that
- * evaluate many elements at once (element_type.strain_many, stress_many). For others, and where
- * there is no memory for it, nothing is done ahead and every element is evaluated in the loop. */
+ * evaluate all elements at once (element_type.strain_many, stress_many, without lanes). For others,
+ * and where there is no memory for it, nothing is done ahead and every element is evaluated in the
+ * loop; those with lanes a few at a time, where chunk.h is used. */
 #ifndef BEAMWORK_MODEL_AHEAD_H
 #define BEAMWORK_MODEL_AHEAD_H
 

@@ -10,12 +10,23 @@
 status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
                           double K[], fault *f);
 
-/* linearise.c: one element's part of model.work between linearise_state and advance_state. */
+/* Of linearise.c and chunk.c: one element's part of model.work between linearise_state and
+ * advance_state. */
 typedef struct model_slot {
     double *J, *C, *sigma, *incompatibility,
         *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
 } model_slot;
-model_slot linearise_slot(const model *m, int element);
+static inline model_slot linearise_slot(const model *m, int element)
+{
+    model_slot w;
+    const int n = m->strains;
+    w.J = m->work + (size_t)element * (size_t)m->work_size;
+    w.C = w.J + n * m->coordinates;
+    w.sigma = w.C + n * n;
+    w.incompatibility = w.sigma + n;
+    w.memory = w.incompatibility + n;
+    return w;
+}
 
 /* loads.c */
 void loads_add(const model *m, const model_state *s, double path,

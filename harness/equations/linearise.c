@@ -4,25 +4,15 @@
 #include "harness/equations/linearise.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/equations/ahead.h"
+#include "harness/equations/chunk.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 #include "harness/model/discrete.h"
-
-model_slot linearise_slot(const model *m, int element)
-{
-    model_slot w;
-    const int n = m->strains;
-    w.J = m->work + (size_t)element * (size_t)m->work_size;
-    w.C = w.J + n * m->coordinates;
-    w.sigma = w.C + n * n;
-    w.incompatibility = w.sigma + n;
-    w.memory = w.incompatibility + n;
-    return w;
-}
 
 /* e, sigma of an element from D(x): displacement-only Newton. */
 static status compatible_element(model *m, model_state *s, int i)
@@ -54,28 +44,6 @@ status linearise_make_compatible(model *m, model_state *s, fault *f)
     return outcome;
 }
 
-/* Fills the slot; H: sum sigma_i H_i of the element in the state of its nodes x. */
-static status evaluate(model *m, const model_state *s, int i, const node_state x[], model_slot *w,
-                       double H[])
-{
-    const double *e = &s->e[(size_t)i * (size_t)m->strains];
-    double deformed[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
-    ahead_strain(m, i, x,
-                 &(strain_output){.e = deformed,
-                                  .J = w->J,
-                                  .s = H != NULL ? &s->sigma[(size_t)i * (size_t)m->strains] : NULL,
-                                  .H = H});
-    const status outcome = ahead_stress(
-        m, i, e, &s->inner[(size_t)i * (size_t)m->inner],
-        &(stress_output){.sigma = w->sigma, .C = w->C, .memory = m->memory > 0 ? w->memory : NULL});
-    for (int k = 0; k < m->strains; k++)
-        w->incompatibility[k] = deformed[k] - e[k];
-    dense_mul_vec(m->strains, m->strains, w->C, w->incompatibility, more);
-    for (int k = 0; k < m->strains; k++)
-        w->sigma[k] += more[k];
-    return outcome;
-}
-
 static double incompatibility_of(const model *m, const model_slot *w, double length)
 {
     double largest = 0;
@@ -84,24 +52,24 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* Internal less centrifugal forces of the element and, where wanted, their tangent; both in model
- * coordinates. */
-static status element_equations(model *m, const model_state *s, int i, int tangent, double path,
-                                double force[], double K[], double *incompatibility, fault *f)
+/* Internal less centrifugal forces of an element that was evaluated and, where wanted, their
+ * tangent (K has H); both in model coordinates. */
+static status element_equations(model *m, const model_state *s, const chunk_element *of,
+                                int tangent, double path, element_part *part)
 {
+    const int i = of->index;
     const mesh_element *el = &m->element[i];
-    model_slot w = linearise_slot(m, i);
+    const model_slot w = linearise_slot(m, i);
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
-    node_state x[ELEMENT_MAX_NODES];
-    kinematics_gather(m, s, el, x);
-    const status outcome = evaluate(m, s, i, x, &w, tangent ? K : NULL);
-    if (outcome != STATUS_OK)
-        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
-                         el->member, m->type->name);
+    double *force = part->force, *K = part->K;
+    if (of->outcome != STATUS_OK)
+        return fault_set(&part->why, of->outcome,
+                         "element %d of member %d: outside what %s can evaluate", i, el->member,
+                         m->type->name);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     if (m->rotates) {
-        TRY(rotating_frame_add(m, x, i, path, force, tangent ? K : NULL, f));
+        TRY(rotating_frame_add(m, of->x, i, path, force, tangent ? K : NULL, &part->why));
         memcpy(present, force, (size_t)m->coordinates * sizeof *force);
     }
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
@@ -113,7 +81,7 @@ static status element_equations(model *m, const model_state *s, int i, int tange
         eliminate_matrix(m, s, el, present, K);
     }
     eliminate_forces(m, s, el, force);
-    *incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
+    part->incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
     return STATUS_OK;
 }
 
@@ -156,17 +124,42 @@ typedef struct shared_loop {
     double path;
 } shared_loop;
 
-static void element_part_of(const shared_loop *loop, int i, element_part *out)
+/* The parts of elements [first, end), at most CHUNK_WINDOW, into part[0], ... */
+static void fill_window(const shared_loop *loop, int first, int end, element_part part[])
 {
-    out->outcome = element_equations(loop->m, loop->s, i, loop->tangent, loop->path, out->force,
-                                     out->K, &out->incompatibility, &out->why);
+    unsigned char done[CHUNK_WINDOW] = {0};
+    int index[CHUNK_MOST], count;
+    while ((count = chunk_next(loop->m, first, end, done, index)) > 0) {
+        chunk_element element[CHUNK_MOST];
+        for (int k = 0; k < count; k++) {
+            element[k].index = index[k];
+            element[k].H = loop->tangent ? part[index[k] - first].K : NULL;
+        }
+        chunk_evaluate(loop->m, loop->s, count, element);
+        for (int k = 0; k < count; k++) {
+            element_part *p = &part[index[k] - first];
+            p->outcome =
+                element_equations(loop->m, loop->s, &element[k], loop->tangent, loop->path, p);
+        }
+    }
 }
 
 static void fill_parts(void *context, int first, int end)
 {
     const shared_loop *loop = context;
-    for (int i = first; i < end; i++)
-        element_part_of(loop, i, &loop->m->part[i]);
+    for (int i = first; i < end; i += CHUNK_WINDOW)
+        fill_window(loop, i, i + CHUNK_WINDOW < end ? i + CHUNK_WINDOW : end, &loop->m->part[i]);
+}
+
+/* Parts that are kept at a time without a team, at m->window; one where there is no memory. */
+static int window_of(model *m)
+{
+    const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW;
+    if (chunk_size(m) == 1)
+        return 1;
+    if (m->window == NULL)
+        m->window = malloc((size_t)wanted * sizeof *m->window);
+    return m->window != NULL ? wanted : 1;
 }
 
 /* The element's equations into those of the model, but for K. */
@@ -196,12 +189,13 @@ static status add_discrete(model *m, const model_state *s, model_linearisation *
 
 static status linearise_elements(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
-    element_part own, *part = &own;
+    element_part own, *part = m->part;
     const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
                               lin->path};
     const mesh_pattern *p =
         lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
     const int together = m->team != NULL && !m->rotates; /* inertia counts its evaluations */
+    const int window = together ? m->elements : window_of(m);
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -211,18 +205,19 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
         sparse_zero(lin->K);
     if (together)
         team_run(m->team, m->elements, fill_parts, (void *)&loop);
+    else
+        part = window > 1 ? m->window : &own;
     for (int i = 0; i < m->elements; i++) {
-        if (together)
-            part = &m->part[i];
-        else
-            element_part_of(&loop, i, part);
+        if (!together && i % window == 0)
+            fill_window(&loop, i, i + window < m->elements ? i + window : m->elements, part);
+        element_part *one = &part[i % window];
         m->counters.strain_evaluations++;
         m->counters.stress_evaluations++;
-        if (part->outcome != STATUS_OK)
-            return fault_set(f, part->outcome, "%s", part->why.text);
-        add_part(m, &m->element[i], part, lin);
+        if (one->outcome != STATUS_OK)
+            return fault_set(f, one->outcome, "%s", one->why.text);
+        add_part(m, &m->element[i], one, lin);
         if (p != NULL)
-            assemble_matrix(p, i, part->K, lin->K);
+            assemble_matrix(p, i, one->K, lin->K);
         phases_lap(&m->phases, PHASE_ASSEMBLY);
     }
     TRY(add_discrete(m, s, lin, f));

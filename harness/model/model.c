@@ -148,6 +148,7 @@ void model_free(model *m)
     free(m->undeformed);
     free(m->ahead);
     free(m->part);
+    free(m->window);
     team_free(m->team);
     kinematics_state_free(m->rest);
     free(m);

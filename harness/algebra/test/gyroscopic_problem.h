@@ -99,10 +99,10 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
         const double size = hypot(re[i], im[i]);
         if (!(size > 1e-7 * fabs(beta[i])))
             continue;
-        const double real = beta[i] * re[i] / (size * size),
+        const double real_part = beta[i] * re[i] / (size * size),
                      imaginary = -beta[i] * im[i] / (size * size);
-        *growth = fmax(*growth, real);
-        if (imaginary > 0 && fabs(real) < 1e-6 * imaginary)
+        *growth = fmax(*growth, real_part);
+        if (imaginary > 0 && fabs(real_part) < 1e-6 * imaginary)
             frequency[count++] = imaginary;
     }
     qsort(frequency, (size_t)count, sizeof *frequency, gyroscopic_problem_ascending);

@@ -150,8 +150,8 @@ static status counted_inertia(const element_data *d, const node_state x[],
 
 /* A real cell: the counters are what the elements count. Strains that reactions are read from
  * are not counted. */
-static void real(const char *name, int elements, const char *formulation_name,
-                 const char *parameters, solve_newton newton, int reactions)
+static void actual(const char *name, int elements, const char *formulation_name,
+                   const char *parameters, solve_newton newton, int reactions)
 {
     cell_result cell;
     formulation chosen;
@@ -197,17 +197,17 @@ int main(void)
         counts(kind[i]);
     steps();
     for (int newton = 0; newton < SOLVE_NEWTONS; newton++) {
-        real("elastica", 3, "beamw_consistent", "", newton, 0);
-        real("bend_45", 3, "geometrically_exact", "", newton, 0);
-        real("sheet_cantilever", 3, "sheet_third", "", newton, 1);
+        actual("elastica", 3, "beamw_consistent", "", newton, 0);
+        actual("bend_45", 3, "geometrically_exact", "", newton, 0);
+        actual("sheet_cantilever", 3, "sheet_third", "", newton, 1);
     }
-    real("c_column", 3, "beamw_consistent", "", SOLVE_MIXED, 0);
-    real("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0);
-    real("rotating_cantilever", 3, "geometrically_exact", "", SOLVE_MIXED, 1);
-    real("snap_through", 3, "collocation", "", SOLVE_MIXED, 0);
-    real("shear_elastica", 1, "beamw_consistent", "", SOLVE_MIXED, 0);
-    real("roll_up", 4, "sheet_third", "", SOLVE_MIXED, 0);
-    real("c_cantilever", 3, "beamw_vlasov", "w=1.0;step=0.1", SOLVE_MIXED, 0);
-    real("hexapod", 3, "sheet_third", "steps=3", SOLVE_MIXED, 1);
+    actual("c_column", 3, "beamw_consistent", "", SOLVE_MIXED, 0);
+    actual("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0);
+    actual("rotating_cantilever", 3, "geometrically_exact", "", SOLVE_MIXED, 1);
+    actual("snap_through", 3, "collocation", "", SOLVE_MIXED, 0);
+    actual("shear_elastica", 1, "beamw_consistent", "", SOLVE_MIXED, 0);
+    actual("roll_up", 4, "sheet_third", "", SOLVE_MIXED, 0);
+    actual("c_cantilever", 3, "beamw_vlasov", "w=1.0;step=0.1", SOLVE_MIXED, 0);
+    actual("hexapod", 3, "sheet_third", "steps=3", SOLVE_MIXED, 1);
     return gsl_test_summary();
 }

@@ -1,0 +1,12 @@
+/* Strains and stresses of several sheet elements at once, the bits of one element at a time; of
+ * each two, the second for processors with AVX2 (elements/math/real.h). Members of element_type. */
+#ifndef BEAMWORK_SHEET_LANES_H
+#define BEAMWORK_SHEET_LANES_H
+
+#include "elements/element.h"
+
+typedef void sheet_lanes_strains(int count, const element_data *const data[], const node_state x[],
+                                 strain_output out[]);
+sheet_lanes_strains sheet_lanes_strain_plain, sheet_lanes_strain_avx2;
+
+#endif

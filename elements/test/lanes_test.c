@@ -1,0 +1,176 @@
+/* Many elements at once have the bits of one at a time, with and without AVX2: of two kinds in
+ * runs of any length, each in a state of its own. */
+#include <gsl/gsl_test.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/sheet/lanes.h"
+#include "elements/test/nodes.h"
+#include "elements/test/sections.h"
+
+extern const element_type element_sheet_second, element_sheet_second_consistent,
+    element_sheet_third, element_sheet_third_printed;
+
+typedef void strains_function(int count, const element_data *const data[], const node_state x[],
+                              strain_output out[]);
+typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
+                               const double *const inner[], stress_output out[], status outcome[]);
+
+/* What a family exports beside the functions that its types choose for the processor. */
+static const struct {
+    const element_type *type;
+    strains_function *strain;
+    stresses_function *stress;
+} family[] = {
+    {&element_sheet_second, sheet_lanes_strain_plain, NULL},
+    {&element_sheet_second_consistent, sheet_lanes_strain_plain, NULL},
+    {&element_sheet_third, sheet_lanes_strain_plain, NULL},
+    {&element_sheet_third_printed, sheet_lanes_strain_plain, NULL},
+};
+
+enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
+
+/* All that one element gives, and what of it is asked for. */
+typedef struct answers {
+    double e[S], J[S * X], H[X * X], energy, sigma[S], C[S * S];
+    status outcome;
+} answers;
+
+typedef struct batch {
+    const element_type *type;
+    const char *name;
+    int nodes, strains;
+    element_data *kind[2];
+    const element_data *data[MANY];
+    node_state x[MANY * ELEMENT_MAX_NODES];
+    double weight[MANY][S];
+    answers alone[MANY];
+} batch;
+
+static const double length[2] = {0.13, 0.31}; /* [m] */
+
+static element_data *prepare(const element_type *type, int kind, unsigned features)
+{
+    section_spec spec = section_spec_rectangle(198.7e9, 76.3e9, 0.05, 0.0007);
+    const section c = sections_computed(&spec);
+    const element_request request = {.section = &c,
+                                     .length = length[kind],
+                                     .features = features,
+                                     .curvature = {0, kind * 0.2, 0.3},
+                                     .strain = {0, 0, kind * 1e-3}};
+    fault f;
+    element_data *d = calloc(1, type->data_size(&request));
+    gsl_test(d == NULL || type->prepare(&request, d, &f) != STATUS_OK, "%s: prepared", type->name);
+    return d;
+}
+
+/* The strains wanted: e, J and H by the bits of what. */
+static strain_output strain_of(const batch *b, int k, answers *a, int what)
+{
+    return (strain_output){.e = what & 1 ? a->e : NULL,
+                           .J = what & 2 ? a->J : NULL,
+                           .s = what & 4 ? b->weight[k] : NULL,
+                           .H = what & 4 ? a->H : NULL};
+}
+
+static stress_output stress_of(answers *a, int what)
+{
+    return (stress_output){.energy = what & 1 ? &a->energy : NULL,
+                           .sigma = what & 2 ? a->sigma : NULL,
+                           .C = what & 4 ? a->C : NULL};
+}
+
+/* Elements [first, first + count) at once. */
+static void strains(batch *b, strains_function *many, int first, int count, int what)
+{
+    strain_output out[MANY];
+    answers together[MANY], alone;
+    int different = 0;
+    memset(together, 0, sizeof together);
+    for (int k = 0; k < count; k++)
+        out[k] = strain_of(b, first + k, &together[k], what);
+    many(count, b->data + first, b->x + first * b->nodes, out);
+    for (int k = 0; k < count; k++) {
+        memset(&alone, 0, sizeof alone);
+        strain_output one = strain_of(b, first + k, &alone, what);
+        b->type->strain(b->data[first + k], b->x + (first + k) * b->nodes, &one);
+        different += memcmp(&alone, &together[k], sizeof alone) != 0;
+    }
+    gsl_test_int(different, 0, "%s: elements of other strains, %d at once, wanted %d", b->name,
+                 count, what);
+}
+
+static void stresses(batch *b, stresses_function *many, int first, int count, int what)
+{
+    stress_output out[MANY];
+    const double *e[MANY], *inner[MANY] = {NULL};
+    status outcome[MANY];
+    answers together[MANY], alone;
+    int different = 0;
+    memset(together, 0, sizeof together);
+    for (int k = 0; k < count; k++) {
+        out[k] = stress_of(&together[k], what);
+        e[k] = b->alone[first + k].e;
+    }
+    many(count, b->data + first, e, inner, out, outcome);
+    for (int k = 0; k < count; k++) {
+        memset(&alone, 0, sizeof alone);
+        stress_output one = stress_of(&alone, what);
+        const status ended = b->type->stress(b->data[first + k], e[k], NULL, &one);
+        different += ended != outcome[k] ||
+                     (ended == STATUS_OK && memcmp(&alone, &together[k], sizeof alone) != 0);
+    }
+    gsl_test_int(different, 0, "%s: elements of other stresses, %d at once, wanted %d", b->name,
+                 count, what);
+}
+
+static void compare(batch *b, strains_function *strain, stresses_function *stress)
+{
+    for (int what = 1; what < 8; what++)
+        for (int count = 1; count <= MANY; count++)
+            for (int first = 0; first + count <= MANY; first += 3) {
+                if (strain != NULL)
+                    strains(b, strain, first, count, what);
+                if (stress != NULL)
+                    stresses(b, stress, first, count, what);
+            }
+}
+
+/* Kinds by turns: runs of 5, 1, 3 and 2; one element is far outside what can be evaluated. */
+static void set_up(batch *b, unsigned features)
+{
+    static const int kind_of[MANY] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
+    for (int kind = 0; kind < 2; kind++)
+        b->kind[kind] = prepare(b->type, kind, features);
+    for (int k = 0; k < MANY; k++) {
+        double d[X], weights[X];
+        b->data[k] = b->kind[kind_of[k]];
+        nodes_increments(b->nodes, length[kind_of[k]], k == 7 ? 40 : 0.3, 71 + (unsigned)k, d);
+        nodes_increments(b->nodes, 1, 2, 171 + (unsigned)k, weights);
+        memcpy(b->weight[k], weights, sizeof b->weight[k][0] * (size_t)b->strains);
+        nodes_place(b->nodes, length[kind_of[k]], d, b->x + k * b->nodes);
+        strain_output out = {.e = b->alone[k].e};
+        b->type->strain(b->data[k], b->x + k * b->nodes, &out);
+    }
+}
+
+int main(void)
+{
+    const unsigned all = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_GEOMETRIC |
+                         FEATURE_LARGE | FEATURE_CURVATURE,
+                   features[] = {all, FEATURE_SHEAR | FEATURE_LARGE | FEATURE_WAGNER_TORQUE,
+                                 all | FEATURE_WAGNER_TORQUE};
+    for (size_t i = 0; i < sizeof family / sizeof family[0]; i++)
+        for (int k = 0; k < 3; k++) {
+            batch b = {.type = family[i].type, .name = family[i].type->name};
+            b.nodes = element_nodes(b.type, NULL);
+            b.strains = element_strains(b.type, NULL);
+            set_up(&b, features[k]);
+            compare(&b, b.type->strain_many, b.type->stress_many);
+            b.name = "without AVX2";
+            compare(&b, family[i].strain, family[i].stress);
+            free(b.kind[0]);
+            free(b.kind[1]);
+        }
+    return gsl_test_summary();
+}

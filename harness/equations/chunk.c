@@ -1,0 +1,131 @@
+#include "harness/equations/chunk.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/equations/ahead.h"
+
+int chunk_size(const model *m)
+{
+    const element_type *t = m->type;
+    if (t->lanes < 2 || t->strain_many == NULL)
+        return 1;
+    return t->lanes < CHUNK_MOST ? t->lanes : CHUNK_MOST;
+}
+
+int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST])
+{
+    const int most = chunk_size(m);
+    int count = 0, i = first;
+    while (i < end && done[i - first])
+        i++;
+    for (int k = i; k < end && count < most; k++)
+        if (!done[k - first] && m->element[k].kind == m->element[i].kind) {
+            done[k - first] = 1;
+            index[count++] = k;
+        }
+    return count;
+}
+
+static double *of_strains(const model *m, double *all, int element)
+{
+    return all + (size_t)element * (size_t)m->strains;
+}
+
+static const double *inner_of(const model *m, const model_state *s, int element)
+{
+    return &s->inner[(size_t)element * (size_t)m->inner];
+}
+
+/* Their functions of one element, or what was evaluated ahead. */
+static void strains_one_by_one(const model *m, const model_state *s, int count,
+                               chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
+{
+    for (int k = 0; k < count; k++) {
+        chunk_element *c = &element[k];
+        const model_slot w = linearise_slot(m, c->index);
+        ahead_strain(m, c->index, c->x,
+                     &(strain_output){.e = deformed[k],
+                                      .J = w.J,
+                                      .s = c->H != NULL ? of_strains(m, s->sigma, c->index) : NULL,
+                                      .H = c->H});
+    }
+}
+
+static void stresses_one_by_one(const model *m, const model_state *s, int count,
+                                chunk_element element[])
+{
+    for (int k = 0; k < count; k++) {
+        const int i = element[k].index;
+        const model_slot w = linearise_slot(m, i);
+        element[k].outcome = ahead_stress(
+            m, i, of_strains(m, s->e, i), inner_of(m, s, i),
+            &(stress_output){
+                .sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL});
+    }
+}
+
+/* Their functions of many elements. */
+static void strains_together(const model *m, const model_state *s, int count,
+                             chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
+{
+    const element_data *data[CHUNK_MOST];
+    node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
+    strain_output out[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        const chunk_element *c = &element[k];
+        data[k] = m->kind[m->element[c->index].kind].data;
+        memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
+        out[k] = (strain_output){.e = deformed[k],
+                                 .J = linearise_slot(m, c->index).J,
+                                 .s = c->H != NULL ? of_strains(m, s->sigma, c->index) : NULL,
+                                 .H = c->H};
+    }
+    m->type->strain_many(count, data, x, out);
+}
+
+static void stresses_together(const model *m, const model_state *s, int count,
+                              chunk_element element[])
+{
+    const element_data *data[CHUNK_MOST];
+    const double *e[CHUNK_MOST], *inner[CHUNK_MOST];
+    stress_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        const int i = element[k].index;
+        const model_slot w = linearise_slot(m, i);
+        data[k] = m->kind[m->element[i].kind].data;
+        e[k] = of_strains(m, s->e, i);
+        inner[k] = inner_of(m, s, i);
+        out[k] =
+            (stress_output){.sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL};
+    }
+    m->type->stress_many(count, data, e, inner, out, outcome);
+    for (int k = 0; k < count; k++)
+        element[k].outcome = outcome[k];
+}
+
+void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[])
+{
+    double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    const int together = count > 1 && chunk_size(m) > 1;
+    for (int k = 0; k < count; k++)
+        kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
+    if (together)
+        strains_together(m, s, count, element, deformed);
+    else
+        strains_one_by_one(m, s, count, element, deformed);
+    if (together && m->type->stress_many != NULL)
+        stresses_together(m, s, count, element);
+    else
+        stresses_one_by_one(m, s, count, element);
+    for (int k = 0; k < count; k++) {
+        const model_slot w = linearise_slot(m, element[k].index);
+        const double *e = of_strains(m, s->e, element[k].index);
+        for (int i = 0; i < m->strains; i++)
+            w.incompatibility[i] = deformed[k][i] - e[i];
+        dense_mul_vec(m->strains, m->strains, w.C, w.incompatibility, more);
+        for (int i = 0; i < m->strains; i++)
+            w.sigma[i] += more[i];
+    }
+}

@@ -1,0 +1,30 @@
+/* A few elements evaluated in one go: of one kind where the type has lanes (element_type.lanes),
+ * else one after the other. */
+#ifndef BEAMWORK_MODEL_CHUNK_H
+#define BEAMWORK_MODEL_CHUNK_H
+
+#include "harness/equations/equations_impl.h"
+
+enum {
+    CHUNK_MOST = 8,   /* elements in one go */
+    CHUNK_WINDOW = 32 /* elements among which those of one kind are looked for */
+};
+
+/* Elements in one go; 1 where they are evaluated one after the other. */
+int chunk_size(const model *m);
+/* The next of [first, end) to be evaluated in one go, end - first <= CHUNK_WINDOW: index[];
+ * returns their number, 0: none is left. done[end - first] is zero before the first call. */
+int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST]);
+
+/* One element's evaluation. */
+typedef struct chunk_element {
+    int index; /* of the element: given */
+    double *H; /* sum sigma_i H_i; NULL: not wanted: given */
+    node_state x[ELEMENT_MAX_NODES];
+    status outcome;
+} chunk_element;
+
+/* Strains and stresses of count elements in the state, into their slots (linearise_slot) and H. */
+void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[]);
+
+#endif
