@@ -49,16 +49,38 @@ void parameters_text(const case_type *c, const double value[], char *text, int s
 
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[])
 {
+    parameters_words none;
+    none.known = 0;
+    return parameters_hash_next(c, value, any, &none);
+}
+
+/* "name=%.17g;", or "name=*;", in words->text. */
+static void write_word(const parameter_type *p, int i, double value, int any,
+                       parameters_words *words)
+{
+    const size_t size = sizeof words->text[i];
+    if (i < words->known && words->any[i] == any &&
+        memcmp(&words->value[i], &value, sizeof value) == 0)
+        return;
+    words->value[i] = value;
+    words->any[i] = any;
+    if (any)
+        snprintf(words->text[i], size, "%s=*;", p->name);
+    else
+        snprintf(words->text[i], size, "%s=%.17g;", p->name, value);
+}
+
+uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
+                              parameters_words *before)
+{
     uint64_t hash = 14695981039346656037ull;
     const parameter_type *p;
-    for (int i = 0; (p = parameter_at(c->parameters, i)) != NULL; i++) {
-        char text[128];
-        if (any != NULL && any[i])
-            snprintf(text, sizeof text, "%s=*;", p->name);
-        else
-            snprintf(text, sizeof text, "%s=%.17g;", p->name, value[i]);
-        for (const char *at = text; *at != '\0'; at++)
+    int i = 0;
+    for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
+        write_word(p, i, value[i], any != NULL && any[i], before);
+        for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;
     }
+    before->known = i;
     return hash;
 }

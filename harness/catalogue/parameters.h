@@ -23,4 +23,16 @@ void parameters_text(const case_type *c, const double value[], char *text, int s
  * any. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
+/* The words of the point before: neighbours in a table have most of them in common. */
+typedef struct parameters_words {
+    int known; /* 0: none yet */
+    double value[CASE_MAX_PARAMETERS];
+    int any[CASE_MAX_PARAMETERS];
+    char text[CASE_MAX_PARAMETERS][128];
+} parameters_words;
+
+/* The same for points of one case, one behind the other. */
+uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
+                              parameters_words *before);
+
 #endif

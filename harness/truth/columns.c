@@ -12,32 +12,38 @@ status columns_broken(const columns *r, const char *column)
                      r->path, column, r->name);
 }
 
-int columns_length(hid_t group, const char *column)
+/* Rows of an open column; -1: it is no list. */
+static int length_of(hid_t set)
 {
     hsize_t size = 0;
-    const hid_t set = H5Dopen2(group, column, H5P_DEFAULT);
     const hid_t space = set >= 0 ? H5Dget_space(set) : -1;
     const int good = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
                      H5Sget_simple_extent_dims(space, &size, NULL) == 1 && size < 10000000;
-    handles_close(2, (const hid_t[]){space, set});
+    handles_close(1, &space);
     return good ? (int)size : -1;
+}
+
+int columns_length(hid_t group, const char *column)
+{
+    const hid_t set = H5Dopen2(group, column, H5P_DEFAULT);
+    const int length = length_of(set);
+    handles_close(1, &set);
+    return length;
 }
 
 status columns_numbers(const columns *r, const char *column, hid_t type, void *out)
 {
-    const hid_t set =
-        columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
-    const int good = set >= 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) >= 0;
-    if (set >= 0)
-        H5Dclose(set);
+    const hid_t set = H5Dopen2(r->group, column, H5P_DEFAULT);
+    const int good =
+        length_of(set) == r->rows && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) >= 0;
+    handles_close(1, &set);
     return good ? STATUS_OK : columns_broken(r, column);
 }
 
 status columns_strings(const columns *r, const char *column, char **out)
 {
-    const hid_t set =
-        columns_length(r->group, column) == r->rows ? H5Dopen2(r->group, column, H5P_DEFAULT) : -1;
-    const hid_t stored = set >= 0 ? H5Dget_type(set) : -1;
+    const hid_t set = H5Dopen2(r->group, column, H5P_DEFAULT);
+    const hid_t stored = length_of(set) == r->rows ? H5Dget_type(set) : -1;
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
     const size_t size = good ? H5Tget_size(stored) : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;

@@ -52,8 +52,8 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
     for (int i = 0; i < t->rows; i++) {
         const truth *row = &t->row[i];
         const int fits = row->type == type && row->formulation[0] == '\0' && !row->on_curve &&
-                         (truth_gates(row) || strcmp(model, "same") != 0) &&
-                         strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0;
+                         strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0 &&
+                         (truth_gates(row) || strcmp(model, "same") != 0);
         const int follows = fits && (theories == NULL || row->theory[0] == '\0' ||
                                      choice_index(theories, row->theory) >= 0);
         if (follows && truth_holds(row, type, value) &&

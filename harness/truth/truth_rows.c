@@ -10,13 +10,13 @@
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
 static status check_row(const columns *r, const case_type *type, int i, const char *text,
-                        uint64_t hash, double value[], int any[])
+                        uint64_t hash, parameters_words *before, double value[], int any[])
 {
     fault why = {""};
     if (parameters_parse(type, text, value, any, &why) != STATUS_OK)
         return fault_set(r->f, STATUS_FAULT, "%s: row %d of %s: %.200s", r->path, i + 1, r->name,
                          why.text);
-    if (parameters_hash(type, value, any) != hash)
+    if (parameters_hash_next(type, value, any, before) != hash)
         return fault_set(r->f, STATUS_FAULT,
                          "%s: row %d of %s is stale: the defaults of the case have changed; "
                          "correct reference/defaults.csv and its tables",
@@ -104,6 +104,8 @@ static int is_of_same_point(const loose_columns *loose, int i)
 static status fill_rows(const columns *r, const case_type *type, const loose_columns *loose,
                         truth *row)
 {
+    parameters_words before;
+    before.known = 0;
     for (int i = 0; i < r->rows; i++) {
         row[i].type = type;
         row[i].elements = loose->elements[i];
@@ -112,8 +114,8 @@ static status fill_rows(const columns *r, const case_type *type, const loose_col
             memcpy(row[i].parameter, row[i - 1].parameter, sizeof row[i].parameter);
             memcpy(row[i].any, row[i - 1].any, sizeof row[i].any);
         } else
-            TRY(check_row(r, type, i, loose->parameters[i], loose->hash[i], row[i].parameter,
-                          row[i].any));
+            TRY(check_row(r, type, i, loose->parameters[i], loose->hash[i], &before,
+                          row[i].parameter, row[i].any));
         const char *wrong = truth_rows_wrong(&row[i]);
         if (wrong != NULL)
             return columns_broken(r, wrong);
