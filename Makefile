@@ -118,6 +118,10 @@ bench-elements: all $(BUILD)/harness/model/test/element_time ## microseconds per
 $(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
+.PHONY: instructions
+instructions: all ## what limits now: instructions of the parts of a solution beside the least thinkable; build/instructions.json; needs valgrind
+	@$(PYTHON) harness/tools/instructions.py $(PROGRAM) -o $(BUILD)/instructions.json
+
 # A former run shows change, never truth.
 .PHONY: compare baseline
 BASELINE := harness/baseline.csv
