@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/analysis/extract_path.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
@@ -73,6 +74,14 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
+/* Is the compliance of a station wanted? A matrix that is not stays zero. */
+static int is_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
+                        int station)
+{
+    return !c->options->values_only || path == NULL ||
+           extract_path_asks(c, analysis, path->stations, path->value, station);
+}
+
 /* With what compliance_analysis frees; at the stations that the path has reached. */
 static status solve(analysis_context *c, int analysis, tangent *t, outcome_compliance *out,
                     fault *f)
@@ -94,8 +103,9 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     for (int i = 0; i < reached; i++) {
         const model_state *s = path != NULL ? path->state[i] : kinematics_rest(c->model);
-        TRY(compliance_at(c, what, s, t, wanted, m->compliance + 36 * (size_t)i,
-                          m->stiffness + 36 * (size_t)i, f));
+        if (is_wanted_at(c, analysis, path, i))
+            TRY(compliance_at(c, what, s, t, wanted, m->compliance + 36 * (size_t)i,
+                              m->stiffness + 36 * (size_t)i, f));
         o->value[i] = m->path[i] = path != NULL ? path->value[i] : 0;
         m->stations = ++o->reached;
     }

@@ -117,6 +117,28 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
+/* Is the station where the quantity is taken? Those of a largest or least value are all looked at.
+ */
+static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
+{
+    if (q->reduction == SCENE_AT)
+        return fabs(path[station] - q->at) <= 1e-12 * fmax(1, fabs(q->at));
+    return station == stations - 1;
+}
+
+int extract_path_asks(const analysis_context *c, int analysis, int stations, const double path[],
+                      int station)
+{
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        if (q->analysis == analysis && q->reduction != SCENE_CURVE &&
+            (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
+             is_taken_at(q, stations, path, station)))
+            return 1;
+    }
+    return 0;
+}
+
 void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                   quantity_result *r)
 {
@@ -127,9 +149,7 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
         const double value =
             q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ? at_station(c, q, o, i, r) : 0;
         const int better = q->reduction == SCENE_MAX ? value > r->value : value < r->value;
-        const int here = q->reduction == SCENE_AT
-                             ? fabs(p->value[i] - q->at) <= 1e-12 * fmax(1, fabs(q->at))
-                             : i == p->stations - 1;
+        const int here = is_taken_at(q, p->stations, p->value, i);
         if ((q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) ? chosen < 0 || better
                                                                      : here) {
             chosen = i;

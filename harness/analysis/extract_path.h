@@ -8,4 +8,9 @@
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
+/* Is a station of the path[stations] of an analysis one that some quantity other than a curve is
+ * taken at? */
+int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
+                      int station);
+
 #endif

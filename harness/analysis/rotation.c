@@ -9,6 +9,7 @@
 
 #include "harness/algebra/clock.h"
 #include "harness/algebra/gyroscopic.h"
+#include "harness/analysis/extract_path.h"
 #include "harness/analysis/static.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/rotating_frame.h"
@@ -139,17 +140,26 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     return outcome;
 }
 
-/* Do quantities of this analysis ask for modes: at all, or at every station and not only at the
- * last? */
-static int asks_for_modes(const analysis_context *c, int analysis, int everywhere)
+/* Do quantities of this analysis ask for modes: at all, or elsewhere than at the last station? */
+static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if ((scene_asks(q, analysis, SCENE_FREQUENCY) || scene_asks(q, analysis, SCENE_GROWTH)) &&
-            (!everywhere || q->reduction != SCENE_LAST))
+            (!elsewhere || q->reduction != SCENE_LAST))
             return 1;
     }
     return 0;
+}
+
+/* Are the modes of a station wanted? Where not only those of the last are, all: what grows is told
+ * of the first station where it does. */
+static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
+                         int station)
+{
+    if (c->options->values_only)
+        return extract_path_asks(c, analysis, path->stations, path->value, station);
+    return station == path->stations - 1 || asks_for_modes(c, analysis, 1);
 }
 
 /* How many modes to begin with. */
@@ -253,7 +263,9 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
     if (out->modes == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
     TRY(matrices_alloc(c, a, f));
-    for (int i = asks_for_modes(c, analysis, 1) ? 0 : o->stations - 1; i < o->stations; i++) {
+    for (int i = 0; i < o->stations; i++) {
+        if (!are_wanted_at(c, analysis, o, i))
+            continue;
         TRY(modes_at(c, analysis, o->state[i], a, &out->modes[i], f));
         note_unproven(c, &out->modes[i], o->value[i]);
         note_instability(c, &out->modes[i], o->value[i]);

@@ -87,6 +87,7 @@ static status run_again(const sweep_request *request, const char wanted[], const
 {
     sweep_request quiet = *request;
     quiet.shapes = 0;
+    again->values_only = 1;
     quiet.things = "finest meshes again:";
     for (int i = 0; i < s->seriess; i++)
         if (can_repeat(s, i, wanted))

@@ -73,6 +73,7 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
     cell_formulation(&out, &one->formulation);
     out.solve.steps_between = p->steps;
     out.solve.condition = p->condition;
+    out.solve.values_only = s->values_only;
     out.threads = s->threads;
     if (p->text[0] == '\0' && mesh == one->meshes - 1)
         out.solve.shapes = s->shapes;

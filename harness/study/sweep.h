@@ -46,10 +46,11 @@ typedef struct sweep {
     const case_type *const *cases;
     const formulation *given;
     int givens;
-    int shapes;     /* of the request */
-    int doublings;  /* of the request */
-    int threads;    /* of the loop over elements in every cell; 0, 1: one */
-    int unfinished; /* cells that an interrupted run left; series that need them are gone */
+    int shapes;      /* of the request */
+    int values_only; /* 1: what only curves and matrices show is not computed */
+    int doublings;   /* of the request */
+    int threads;     /* of the loop over elements in every cell; 0, 1: one */
+    int unfinished;  /* cells that an interrupted run left; series that need them are gone */
     int points, seriess;
     point *point;
     series *series;

@@ -128,6 +128,46 @@ static void larger_of_two(const case_type *type)
     sweep_free(&s);
 }
 
+/* One mesh of a point of a case. */
+static void run_values(const char *name, const char *text, int values_only, sweep *s)
+{
+    static const int mesh[] = {2};
+    double value[CASE_MAX_PARAMETERS] = {0};
+    fault f = {""};
+    formulation chosen;
+    const case_type *type = case_find(name, &f);
+    gsl_test(parameters_parse(type, text, value, NULL, &f) != STATUS_OK, "point %s", f.text);
+    formulation_default(formulation_find("collocation"), &chosen);
+    gsl_test(plan_one(type, value, &chosen, 1, mesh, 1, s, &f) != STATUS_OK, "planned %s", f.text);
+    s->values_only = values_only;
+    gsl_test(run_sweep(&request, s, &f) != STATUS_OK, "run %s", f.text);
+}
+
+/* What only curves and matrices show costs nothing, and the values have the same bits. */
+static void values_only(const char *name, const char *text)
+{
+    sweep whole, some;
+    int curves = 0, finite = 0;
+    run_values(name, text, 0, &whole);
+    run_values(name, text, 1, &some);
+    const scene *here = &whole.point[0].scene;
+    const cell_result *a = whole.series[0].cell, *b = some.series[0].cell;
+    for (int q = 0; q < here->quantities; q++) {
+        const double x = a->solve.quantity[q].value, y = b->solve.quantity[q].value;
+        const int is_curve = here->quantity[q].reduction == SCENE_CURVE;
+        curves += is_curve;
+        finite += !is_curve && isfinite(x);
+        gsl_test(!is_curve && memcmp(&x, &y, sizeof x) != 0, "%s, %s: %g, %g", name,
+                 here->quantity[q].name, x, y);
+    }
+    gsl_test(curves == 0 || finite == 0, "%s: %d curves, %d values", name, curves, finite);
+    gsl_test(b->counters.factorisations >= a->counters.factorisations,
+             "%s: %ld factorisations of %ld", name, b->counters.factorisations,
+             a->counters.factorisations);
+    sweep_free(&whole);
+    sweep_free(&some);
+}
+
 int main(void)
 {
     fault f = {""};
@@ -135,6 +175,8 @@ int main(void)
     for (size_t i = 0; i < sizeof base / sizeof base[0]; i++)
         rounding(case_find(base[i], &f));
     size_of_it(case_find("elastica", &f));
+    values_only("rotating_cantilever", "stations=4");
+    values_only("sheet_cantilever", "");
     larger_of_two(case_find("elastica", &f));
     return gsl_test_summary();
 }
