@@ -5,6 +5,7 @@
 
 #include "elements/exact/coupled.h"
 #include "elements/exact/fields.h"
+#include "elements/exact/stressed.h"
 #include "elements/math/dense.h"
 
 static void condense(const beam_constants *c, const exact_fields *f, const double X[],
@@ -21,19 +22,48 @@ static void condense(const beam_constants *c, const exact_fields *f, const doubl
                        2;
             out->S[i * m + j] = unit * (f->energy[i * f->all + j] + sum);
         }
-    for (int i = 0; i < f->field; i++) {
-        for (int j = 0; j < m; j++) {
-            out->twist[i][j] = f->twist[i][j];
-            for (int k = 0; k < f->free - m; k++)
-                out->twist[i][j] += f->twist[i][m + k] * X[k * m + j];
-        }
+    for (int i = 0; i < f->field; i++)
         out->torque[i] = f->weight[i] * c->torque * unit / (out->l0 * out->l0);
-        for (int g = 0; g < f->points; g++)
-            for (int j = 0; j < m; j++)
-                for (int k = 0; k < m; k++)
-                    out->Q[g][j * m + k] += f->weight[i] * f->through[i][g] / (f->w[g] * out->l0) *
-                                            out->twist[i][j] * out->twist[i][k];
+}
+
+/* The twist rate at the points of the field by the strains that it depends on. */
+static void condense_twist(const exact_fields *f, const double X[], exact_stiffness *out)
+{
+    const int m = f->strains;
+    double twist[EXACT_STIFFNESS_MAX_FIELD][EXACT_STIFFNESS_MAX_STRAINS];
+    for (int j = 0; j < m; j++) {
+        int seen = 0;
+        for (int i = 0; i < f->field; i++) {
+            twist[i][j] = f->twist[i][j];
+            for (int k = 0; k < f->free - m; k++)
+                twist[i][j] += f->twist[i][m + k] * X[k * m + j];
+            seen |= twist[i][j] != 0;
+        }
+        out->order[j] = seen ? out->twisting : -1;
+        for (int i = 0; i < f->field && seen; i++)
+            out->twist[i][out->twisting] = twist[i][j];
+        if (seen)
+            out->place[out->twisting++] = j;
     }
+    for (int i = 0; i < f->field; i++)
+        for (int g = 0; g < f->points; g++)
+            for (int j = 0; j < out->twisting; j++)
+                for (int k = 0; k < out->twisting; k++)
+                    out->Q[g][j][k] += f->weight[i] * f->through[i][g] / (f->w[g] * out->l0) *
+                                       out->twist[i][j] * out->twist[i][k];
+}
+
+/* r of point g as a vector of strains has three entries. */
+static void condense_modified(exact_stiffness *out)
+{
+    const int n = out->strains;
+    for (int g = 0; g < out->points; g++)
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < 3; i++)
+                out->Sr[g][j] += out->r[i] * out->S[j * n + exact_stressed_entry(g, i)];
+    for (int g = 0; g < out->points; g++)
+        for (int h = 0; h < out->points; h++)
+            out->coupling[g][h] = exact_stressed_along(out, out->Sr[g], h);
 }
 
 status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
@@ -65,109 +95,16 @@ status exact_stiffness_prepare(const element_request *request, int nodes, exact_
             "element of length %g m: its shear flexibility cannot be separated from bending",
             request->length);
     condense(&c, &f, X, out);
+    condense_twist(&f, X, out);
+    condense_modified(out);
     return STATUS_OK;
-}
-
-/* r of point g as a vector of strains, S r, and r . S r' are sparse: three entries each. */
-static int entry(int g, int i)
-{
-    return 6 * g + (i == 0 ? 0 : 3 + i);
-}
-
-static double along(const exact_stiffness *k, const double stress[], int g)
-{
-    double sum = 0;
-    for (int i = 0; i < 3; i++)
-        sum += k->r[i] * stress[entry(g, i)];
-    return sum;
-}
-
-/* C += S r_g t_g^T + t_g (S r_g)^T + t_g (r_g . S r_h) t_h^T + tau_g Q_g */
-static void add_modified_tangent(const exact_stiffness *k, double t[][EXACT_STIFFNESS_MAX_STRAINS],
-                                 const double tau[], double C[])
-{
-    const int n = k->strains;
-    double Sr[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS] = {{0}};
-    for (int g = 0; g < k->points; g++)
-        for (int j = 0; j < n; j++)
-            for (int i = 0; i < 3; i++)
-                Sr[g][j] += k->r[i] * k->S[j * n + entry(g, i)];
-    for (int g = 0; g < k->points; g++)
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++)
-                C[i * n + j] +=
-                    Sr[g][i] * t[g][j] + t[g][i] * Sr[g][j] + tau[g] * k->Q[g][i * n + j];
-    for (int g = 0; g < k->points; g++)
-        for (int h = 0; h < k->points; h++) {
-            const double coupling = along(k, Sr[g], h);
-            if (coupling != 0)
-                for (int i = 0; i < n; i++)
-                    for (int j = 0; j < n; j++)
-                        C[i * n + j] += coupling * t[g][i] * t[h][j];
-        }
-}
-
-/* Wagner torque: energy sum torque_i (twist_i . e)^4. */
-static double add_torque(const exact_stiffness *k, const double e[], double sigma[], double C[])
-{
-    const int n = k->strains;
-    double energy = 0;
-    for (int p = 0; p < k->field && k->torque[p] != 0; p++) {
-        double twist = 0;
-        for (int i = 0; i < n; i++)
-            twist += k->twist[p][i] * e[i];
-        const double force = 4 * k->torque[p] * twist * twist * twist,
-                     slope = 12 * k->torque[p] * twist * twist;
-        energy += force * twist / 4;
-        for (int i = 0; i < n; i++) {
-            if (sigma != NULL)
-                sigma[i] += force * k->twist[p][i];
-            if (C != NULL)
-                for (int j = 0; j < n; j++)
-                    C[i * n + j] += slope * k->twist[p][i] * k->twist[p][j];
-        }
-    }
-    return energy;
 }
 
 status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out)
 {
-    const int n = k->strains;
-    double modified[EXACT_STIFFNESS_MAX_STRAINS], stress[EXACT_STIFFNESS_MAX_STRAINS],
-        t[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS], tau[EXACT_STRAIN_MAX_POINTS],
-        energy = 0;
-    memcpy(modified, e, (size_t)n * sizeof *e);
-    if (k->modified)
-        for (int g = 0; g < k->points; g++) {
-            double half = 0;
-            dense_mul_vec(n, n, k->Q[g], e, t[g]);
-            for (int i = 0; i < n; i++)
-                half += e[i] * t[g][i] / 2;
-            for (int i = 0; i < 3; i++)
-                modified[entry(g, i)] += k->r[i] * half;
-        }
-    dense_mul_vec(n, n, k->S, modified, stress);
-    for (int i = 0; i < n; i++)
-        energy += stress[i] * modified[i] / 2;
-    for (int g = 0; g < k->points; g++)
-        tau[g] = along(k, stress, g);
-    if (out->C != NULL) {
-        memcpy(out->C, k->S, (size_t)(n * n) * sizeof *out->C);
-        if (k->modified)
-            add_modified_tangent(k, t, tau, out->C);
-    }
-    if (k->modified)
-        for (int g = 0; g < k->points; g++)
-            for (int i = 0; i < n; i++)
-                stress[i] += tau[g] * t[g][i];
-    energy += add_torque(k, e, stress, out->C);
-    if (out->sigma != NULL)
-        memcpy(out->sigma, stress, (size_t)n * sizeof *stress);
-    if (out->energy != NULL)
-        *out->energy = energy;
-    if (out->residual != NULL)
-        *out->residual = 0;
-    return STATUS_OK;
+    status outcome;
+    exact_stressed_stress(k, &e, out, &outcome);
+    return outcome;
 }
 
 void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], double G[])
@@ -175,8 +112,9 @@ void exact_stiffness_geometric(const exact_stiffness *k, const double sigma[], d
     const int n = k->strains;
     memset(G, 0, (size_t)(n * n) * sizeof *G);
     for (int g = 0; g < k->points; g++) {
-        const double tau = along(k, sigma, g);
-        for (int i = 0; i < n * n; i++)
-            G[i] += tau * k->Q[g][i];
+        const double tau = exact_stressed_along(k, sigma, g);
+        for (int i = 0; i < k->twisting; i++)
+            for (int j = 0; j < k->twisting; j++)
+                G[k->place[i] * n + k->place[j]] += tau * k->Q[g][i][j];
     }
 }

@@ -29,13 +29,17 @@ typedef struct exact_stiffness {
     double l0;
     int modified;                                                        /* 0: ebar = e */
     double S[EXACT_STIFFNESS_MAX_STRAINS * EXACT_STIFFNESS_MAX_STRAINS]; /* [N/m] */
-    double Q[EXACT_STRAIN_MAX_POINTS]
-            [EXACT_STIFFNESS_MAX_STRAINS *
-             EXACT_STIFFNESS_MAX_STRAINS];    /* [1/m]: mean of kappa_x^2 about a point */
+    /* The strains that the twist rate depends on: there are few. */
+    int twisting, place[EXACT_STIFFNESS_MAX_STRAINS], order[EXACT_STIFFNESS_MAX_STRAINS]; /* -1 */
+    double Q[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS]
+            [EXACT_STIFFNESS_MAX_STRAINS];    /* [1/m], among them: mean of kappa_x^2 about a
+                                                 point */
     double r[3];                              /* on gamma_x, kappa_y, kappa_z of the point */
     double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
-                [EXACT_STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e */
+                [EXACT_STIFFNESS_MAX_STRAINS]; /* among them: l0^2 kappa_x = twist . e */
+    double Sr[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS];
+    double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* r_g . S r_h */
 } exact_stiffness;
 
 status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
