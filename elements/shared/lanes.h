@@ -53,9 +53,12 @@ static inline int lanes_run(int count, const element_data *const data[])
 /* Arrays of one lane each into lanes, and back. */
 static inline void lanes_gather(int n, const double *const from[LANES], real to[])
 {
-    for (int i = 0; i < n; i++)
-        for (int lane = 0; lane < LANES; lane++)
-            to[i][lane] = from[lane][i];
+    for (int i = 0; i < n; i++) {
+        real all = real_of(from[0][i]);
+        for (int lane = 1; lane < LANES; lane++)
+            all[lane] = from[lane][i];
+        to[i] = all;
+    }
 }
 static inline void lanes_scatter(int n, const real from[], double *const to[LANES])
 {

@@ -3,6 +3,8 @@
 
 #include "elements/sheet/base.h"
 #include "elements/sheet/deformation.h"
+#include "elements/sheet/inverse.h"
+#include "elements/sheet/linear.h"
 
 static const lanes_sizes sizes = {2, SHEET_STRAINS, 0, 0};
 
@@ -15,4 +17,33 @@ void REAL_NAMED(sheet_lanes_strain)(int count, const element_data *const data[],
                                     const node_state x[], strain_output out[])
 {
     lanes_strain_many(sizes, strain, count, data, x, out);
+}
+
+static inline real_truth second(const element_data *d, const real e[], const real inner[],
+                                stress_real *out)
+{
+    (void)inner;
+    sheet_linear_stress((const sheet_base_data *)(const void *)d, e, out);
+    return real_true();
+}
+
+void REAL_NAMED(sheet_lanes_second)(int count, const element_data *const data[],
+                                    const double *const e[], const double *const inner[],
+                                    stress_output out[], status outcome[])
+{
+    lanes_stress_many(sizes, second, STATUS_OK, count, data, e, inner, out, outcome);
+}
+
+static inline real_truth third(const element_data *d, const real e[], const real inner[],
+                               stress_real *out)
+{
+    (void)inner;
+    return sheet_inverse_stress(sheet_inverse_of(d), e, out);
+}
+
+void REAL_NAMED(sheet_lanes_third)(int count, const element_data *const data[],
+                                   const double *const e[], const double *const inner[],
+                                   stress_output out[], status outcome[])
+{
+    lanes_stress_many(sizes, third, STATUS_SINGULAR, count, data, e, inner, out, outcome);
 }

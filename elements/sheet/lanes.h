@@ -9,4 +9,10 @@ typedef void sheet_lanes_strains(int count, const element_data *const data[], co
                                  strain_output out[]);
 sheet_lanes_strains sheet_lanes_strain_plain, sheet_lanes_strain_avx2;
 
+typedef void sheet_lanes_stresses(int count, const element_data *const data[],
+                                  const double *const e[], const double *const inner[],
+                                  stress_output out[], status outcome[]);
+sheet_lanes_stresses sheet_lanes_second_plain, sheet_lanes_second_avx2;
+sheet_lanes_stresses sheet_lanes_third_plain, sheet_lanes_third_avx2;
+
 #endif

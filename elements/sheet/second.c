@@ -1,8 +1,6 @@
 #include "elements/sheet/second.h"
 
-#include <string.h>
-
-#include "elements/math/dense.h"
+#include "elements/sheet/linear.h"
 
 size_t sheet_second_data_size(const element_request *request)
 {
@@ -16,25 +14,16 @@ status sheet_second_prepare(const element_request *request, sheet_base_shear she
     return sheet_base_prepare(request, shear, (sheet_base_data *)(void *)out, f);
 }
 
-status sheet_second_stress(const element_data *data, const double e[], const double inner[],
+status sheet_second_stress(const element_data *d, const double e[], const double inner[],
                            stress_output *out)
 {
-    enum { N = SHEET_STRAINS };
-    const sheet_base_data *d = (const sheet_base_data *)(const void *)data;
-    double sigma[N];
     (void)inner;
-    dense_mul_vec(N, N, d->S, e, sigma);
-    if (out->energy != NULL) {
-        *out->energy = 0;
-        for (int i = 0; i < N; i++)
-            *out->energy += sigma[i] * e[i] / 2;
-    }
-    if (out->sigma != NULL)
-        memcpy(out->sigma, sigma, sizeof sigma);
-    if (out->C != NULL)
-        memcpy(out->C, d->S, sizeof d->S);
-    if (out->residual != NULL)
-        *out->residual = 0;
-    sheet_wagner_add(&d->wagner, e, out->energy, out->sigma, out->C);
+    sheet_linear_stress((const sheet_base_data *)(const void *)d, e, out);
     return STATUS_OK;
+}
+
+void sheet_second_stress_many(int count, const element_data *const data[], const double *const e[],
+                              const double *const inner[], stress_output out[], status outcome[])
+{
+    REAL_CHOSEN(sheet_lanes_second)(count, data, e, inner, out, outcome);
 }

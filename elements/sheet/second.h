@@ -10,9 +10,12 @@ status sheet_second_prepare(const element_request *request, sheet_base_shear she
                             element_data *out, fault *f);
 status sheet_second_stress(const element_data *d, const double e[], const double inner[],
                            stress_output *out);
+void sheet_second_stress_many(int count, const element_data *const data[], const double *const e[],
+                              const double *const inner[], stress_output out[], status outcome[]);
 
 /* In an element_type. */
 #define SHEET_SECOND_TYPE                                                                          \
-    SHEET_BASE_TYPE, .data_size = sheet_second_data_size, .stress = sheet_second_stress
+    SHEET_BASE_TYPE, .data_size = sheet_second_data_size, .stress = sheet_second_stress,           \
+                     .stress_many = sheet_second_stress_many
 
 #endif

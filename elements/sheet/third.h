@@ -12,12 +12,15 @@ status sheet_third_prepare(const element_request *request, int printed, element_
                            fault *f);
 status sheet_third_stress(const element_data *d, const double e[], const double inner[],
                           stress_output *out);
+void sheet_third_stress_many(int count, const element_data *const data[], const double *const e[],
+                             const double *const inner[], stress_output out[], status outcome[]);
 void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
 
 /* In an element_type. */
 #define SHEET_THIRD_TYPE                                                                           \
     SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
         .lacks = LACKS_SHEAR_Y, .lacks_by = "N Eq. 50", .data_size = sheet_third_data_size,        \
-        .stress = sheet_third_stress, .geometric = sheet_third_geometric
+        .stress = sheet_third_stress, .stress_many = sheet_third_stress_many,                      \
+        .geometric = sheet_third_geometric
 
 #endif

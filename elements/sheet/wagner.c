@@ -4,8 +4,6 @@
 
 #include "elements/math/quadrature.h"
 
-static const int strain_of[SHEET_WAGNER_STRAINS] = {1, 6, 7};
-
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f)
 {
     const double l0 = request->length,
@@ -28,24 +26,4 @@ status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *o
         out->rate[i][2] = x[i] * (3 * x[i] - 2) / (l0 * l0);
     }
     return STATUS_OK;
-}
-
-void sheet_wagner_add(const sheet_wagner_term *w, const double e[SHEET_STRAINS], double *energy,
-                      double *sigma, double *C)
-{
-    if (w->active)
-        for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {
-            const double *rate = w->rate[i], kx = rate[0] * e[1] + rate[1] * e[6] + rate[2] * e[7],
-                         square = w->weight[i] * kx * kx;
-            if (energy != NULL)
-                *energy += square * kx * kx;
-            for (int k = 0; k < SHEET_WAGNER_STRAINS; k++) {
-                if (sigma != NULL)
-                    sigma[strain_of[k]] += 4 * square * kx * rate[k];
-                if (C != NULL)
-                    for (int m = 0; m < SHEET_WAGNER_STRAINS; m++)
-                        C[SHEET_STRAINS * strain_of[k] + strain_of[m]] +=
-                            12 * square * rate[k] * rate[m];
-            }
-        }
 }

@@ -16,8 +16,27 @@ typedef struct sheet_wagner_term {
 /* Inactive without FEATURE_WAGNER_TORQUE; refuses initial torsion beside it. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
-/* Adds to energy[1], sigma[8], C[8 x 8]; NULL: not wanted. */
-void sheet_wagner_add(const sheet_wagner_term *w, const double e[SHEET_STRAINS], double *energy,
-                      double *sigma, double *C);
+/* Adds to energy[1], sigma[8], C[8 x 8], of one element or of several in lanes; NULL: not wanted.
+ */
+static inline void sheet_wagner_add(const sheet_wagner_term *w, const real e[SHEET_STRAINS],
+                                    real *energy, real *sigma, real *C)
+{
+    static const int strain_of[SHEET_WAGNER_STRAINS] = {1, 6, 7};
+    if (!w->active)
+        return;
+    for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {
+        const double *rate = w->rate[i];
+        const real kx = rate[0] * e[1] + rate[1] * e[6] + rate[2] * e[7],
+                   square = w->weight[i] * kx * kx;
+        if (energy != NULL)
+            *energy += square * kx * kx;
+        for (int k = 0; k < SHEET_WAGNER_STRAINS; k++) {
+            if (sigma != NULL)
+                sigma[strain_of[k]] += 4 * square * kx * rate[k];
+            for (int m = 0; m < SHEET_WAGNER_STRAINS && C != NULL; m++)
+                C[SHEET_STRAINS * strain_of[k] + strain_of[m]] += 12 * square * rate[k] * rate[m];
+        }
+    }
+}
 
 #endif

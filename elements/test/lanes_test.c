@@ -22,10 +22,10 @@ static const struct {
     strains_function *strain;
     stresses_function *stress;
 } family[] = {
-    {&element_sheet_second, sheet_lanes_strain_plain, NULL},
-    {&element_sheet_second_consistent, sheet_lanes_strain_plain, NULL},
-    {&element_sheet_third, sheet_lanes_strain_plain, NULL},
-    {&element_sheet_third_printed, sheet_lanes_strain_plain, NULL},
+    {&element_sheet_second, sheet_lanes_strain_plain, sheet_lanes_second_plain},
+    {&element_sheet_second_consistent, sheet_lanes_strain_plain, sheet_lanes_second_plain},
+    {&element_sheet_third, sheet_lanes_strain_plain, sheet_lanes_third_plain},
+    {&element_sheet_third_printed, sheet_lanes_strain_plain, sheet_lanes_third_plain},
 };
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
