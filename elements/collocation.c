@@ -5,10 +5,12 @@
 #include <string.h>
 
 #include "elements/exact/collocated.h"
+#include "elements/exact/lanes.h"
 #include "elements/exact/prestress.h"
+#include "elements/shared/lanes.h"
 #include "elements/shared/lumped.h"
 
-enum { OPTION_STAGES, FEWEST = 3, USUAL = 5, OUTER = EXACT_STAGES_OUTER };
+enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
 
 struct element_data {
     exact_stages stages;
@@ -73,13 +75,21 @@ static void rest(const element_data *d, double inner[])
 static status stress(const element_data *data, const double e[], const double inner[],
                      stress_output *out)
 {
-    const exact_stages *s = &data->stages;
     status outcome;
-    if (s->stages == USUAL)
-        exact_collocated_stress(USUAL, s, &e, &inner, out, &outcome);
-    else
-        exact_collocated_stress(s->stages, s, &e, &inner, out, &outcome);
+    exact_collocated_stress(&data->stages, 1, &e, &inner, out, &outcome);
     return outcome;
+}
+
+static void strain_many(int count, const element_data *const data[], const node_state x[],
+                        strain_output out[])
+{
+    REAL_CHOSEN(exact_lanes_stages_strain)(count, data, x, out);
+}
+
+static void stress_many(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    REAL_CHOSEN(exact_lanes_stages_stress)(count, data, e, inner, out, outcome);
 }
 
 static void geometric(const element_data *data, const double sigma[], double G[])
@@ -150,5 +160,8 @@ const element_type element_collocation = {
     .update = update,
     .rest = rest,
     .geometric = geometric,
+    .lanes = LANES_TOGETHER,
+    .strain_many = strain_many,
+    .stress_many = stress_many,
     .inertia = inertia,
 };

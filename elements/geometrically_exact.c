@@ -2,15 +2,16 @@
  * three nodes, reduced integration, strains at the integration points. */
 #include <string.h>
 
+#include "elements/exact/lanes.h"
 #include "elements/exact/stiffness.h"
 #include "elements/exact/strain.h"
+#include "elements/shared/lanes.h"
 #include "elements/shared/lumped.h"
 
 enum { OPTION_NODES };
 
 struct element_data {
-    exact_strain_line line;
-    exact_stiffness stiffness;
+    exact_gauss gauss;
     lumped_mass mass;
     int nodes;
 };
@@ -40,29 +41,42 @@ static size_t data_size(const element_request *request)
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
     const int count = nodes(request->options);
-    TRY(exact_stiffness_prepare(request, count, &out->stiffness, f));
+    TRY(exact_stiffness_prepare(request, count, &out->gauss.stiffness, f));
     out->mass = lumped_of(request->section, request->features, request->length);
     out->nodes = count;
     exact_strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
-                         count == 2 ? EXACT_MEASURE_ANGLE : EXACT_MEASURE_QUARTER, &out->line);
+                         count == 2 ? EXACT_MEASURE_ANGLE : EXACT_MEASURE_QUARTER,
+                         &out->gauss.line);
     return STATUS_OK;
 }
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    exact_strain_of(&d->line, x, out);
+    exact_strain_of(&d->gauss.line, x, out);
 }
 
 static status stress(const element_data *d, const double e[], const double inner[],
                      stress_output *out)
 {
     (void)inner;
-    return exact_stiffness_stress(&d->stiffness, e, out);
+    return exact_stiffness_stress(&d->gauss.stiffness, e, out);
+}
+
+static void strain_many(int count, const element_data *const data[], const node_state x[],
+                        strain_output out[])
+{
+    REAL_CHOSEN(exact_lanes_gauss_strain)(count, data, x, out);
+}
+
+static void stress_many(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    REAL_CHOSEN(exact_lanes_gauss_stress)(count, data, e, inner, out, outcome);
 }
 
 static void geometric(const element_data *d, const double sigma[], double G[])
 {
-    exact_stiffness_geometric(&d->stiffness, sigma, G);
+    exact_stiffness_geometric(&d->gauss.stiffness, sigma, G);
 }
 
 static status inertia(const element_data *d, const node_state x[],
@@ -86,5 +100,8 @@ const element_type element_geometrically_exact = {
     .strain = strain,
     .stress = stress,
     .geometric = geometric,
+    .lanes = LANES_TOGETHER,
+    .strain_many = strain_many,
+    .stress_many = stress_many,
     .inertia = inertia,
 };

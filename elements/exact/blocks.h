@@ -5,7 +5,7 @@
 #ifndef BEAMWORK_EXACT_BLOCKS_H
 #define BEAMWORK_EXACT_BLOCKS_H
 
-#include "elements/math/real3.h"
+#include "elements/math/vec3.h"
 
 enum { EXACT_BLOCKS_MAX = 11 };
 
@@ -46,7 +46,7 @@ exact_blocks_eliminate(int rows, int n, int late, real A[][9], real V[][9], real
             for (int c = 0; c < 9; c++)
                 sum[c] = A[at][c];
             for (int k = from; k < (i < rows ? i : rows); k++)
-                real3_subtract_transpose_mul(V[exact_blocks_at(k, i)], U[k], sum);
+                mat3_subtract_transpose_mul(V[exact_blocks_at(k, i)], U[k], sum);
             if (i == j && i < rows)
                 exact_blocks_pivot(sum, &d[3 * i], inverse[i]);
             if (i < j && i < rows) {

@@ -29,7 +29,7 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
         at[stages - 1][j] = s->line.rest[0][3 + j] + e[3 + j];
         gap[j] = s->rest_v[j] + e[j];
     }
-    real twice = 2 * real3_dot(inner, gap); /* the energy */
+    real twice = 2 * vec3_dot(inner, gap); /* the energy */
     exact_sums_geometry(stages, s, at, inner, p);
     if (s->warps)
         twice += exact_sums_warping(stages, s, p, &e[6], Sz);
@@ -127,25 +127,26 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
         }
 }
 
-/* Of LANES elements of one kind with `stages` points; as element_type.stress_many. */
+/* With `stages` points. */
 static inline __attribute__((always_inline)) void
-exact_collocated_stress(int stages, const exact_stages *s, const double *const e[],
-                        const double *const inner[], stress_output out[], status outcome[])
+exact_collocated_run(int stages, const exact_stages *s, int run, const double *const e[],
+                     const double *const inner[], stress_output out[], status outcome[])
 {
     real scaled[EXACT_STAGES_OUTER], unknown[EXACT_STAGES_UNKNOWNS];
     exact_collocated w;
     for (int lane = 0; lane < LANES; lane++) {
+        const int of = lane < run ? lane : run - 1;
         for (int i = 0; i < EXACT_STAGES_OUTER; i++)
-            real_put(&scaled[i], lane, e[lane][i] / s->line.l0);
+            real_put(&scaled[i], lane, e[of][i] / s->line.l0);
         for (int i = 0; i < 3 * stages; i++)
-            real_put(&unknown[i], lane, inner[lane][i]);
+            real_put(&unknown[i], lane, inner[of][i]);
     }
     exact_collocated_evaluate(stages, s, scaled, unknown, w.A);
     exact_blocks_eliminate(stages, stages + 3, stages + 1, w.A, w.V, w.d);
     if (out[0].memory != NULL)
         for (int J = 0; J < 3; J++)
             exact_blocks_solve(stages, stages + 1, stages + J, w.V, w.X[J]);
-    for (int lane = 0; lane < LANES; lane++) {
+    for (int lane = 0; lane < run; lane++) {
         if (!exact_blocks_definite(stages, w.A, w.d, lane) &&
             exact_collocated_exchange(stages, lane, &w) != 0) {
             outcome[lane] = STATUS_SINGULAR;
@@ -155,6 +156,18 @@ exact_collocated_stress(int stages, const exact_stages *s, const double *const e
         const double energy = real_lane(&w.A[exact_blocks_at(stages + 2, stages + 2)][8], lane);
         outcome[lane] = isfinite(energy) ? STATUS_OK : STATUS_NOT_CONVERGED;
     }
+}
+
+/* Of `run` elements of one kind, at most LANES; as element_type.stress_many. */
+static inline void exact_collocated_stress(const exact_stages *s, int run, const double *const e[],
+                                           const double *const inner[], stress_output out[],
+                                           status outcome[])
+{
+    enum { USUAL = 5 };
+    if (s->stages == USUAL)
+        exact_collocated_run(USUAL, s, run, e, inner, out, outcome);
+    else
+        exact_collocated_run(s->stages, s, run, e, inner, out, outcome);
 }
 
 #endif

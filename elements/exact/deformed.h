@@ -49,7 +49,7 @@ static inline void exact_deformed_stretch(const real v[3], const double v0[3], c
     e[1] = v[1] - v0[1];
     e[2] = v[2] - v0[2];
     const real squares =
-        2 * real3_dot(y, dy) - real3_dot(dy, dy) - e[1] * (v[1] + v0[1]) - e[2] * (v[2] + v0[2]);
+        2 * vec3_dot(y, dy) - vec3_dot(dy, dy) - e[1] * (v[1] + v0[1]) - e[2] * (v[2] + v0[2]);
     const real sum = v[0] + v0[0], longer = squares / sum, difference = v[0] - v0[0];
     for (int lane = 0; lane < LANES; lane++)
         real_put(&e[0], lane,
@@ -71,9 +71,9 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     if (measured) { /* T^T n takes n's place, and the second derivative of the measure meets dkappa
                        twice */
         exact_measure_second(m, p->kappa, moment, inner);
-        real3_transpose_mul_vec(T, moment, n);
+        mat3_transpose_mul_vec(T, moment, n);
         for (int k = 0; k < nodes; k++)
-            real3_mul(inner, t[k].kappa, bent[k]);
+            mat3_mul(inner, t[k].kappa, bent[k]);
     }
     for (int k = 0; k < nodes; k++)
         exact_point_second(p, n, f, &t[k]);
@@ -82,7 +82,7 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
             real *H = out->turns[l * (l + 1) / 2 + k];
             exact_point_add_second(n, N, dN, k, l, t, H);
             if (measured)
-                real3_add_transpose_mul(t[k].kappa, bent[l], H);
+                mat3_add_transpose_mul(t[k].kappa, bent[l], H);
         }
     for (int k = 0; k < nodes; k++) {
         const real curved = exact_point_curved(p, n, f, N[k], dN[k], &t[k]);
@@ -105,10 +105,10 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
     const int measured = line->rotation != EXACT_MEASURE_QUARTER;
     if (s != NULL) {
         for (int k = 0; k < nodes * (nodes + 1) / 2; k++)
-            real3_zero(9, out->turns[k]);
+            real_zero(9, out->turns[k]);
         for (int k = 0; k < nodes; k++)
             for (int l = 0; l < nodes; l++)
-                real3_zero(9, out->moves[k][l]);
+                real_zero(9, out->moves[k][l]);
     }
     for (int g = 0; g < nodes - 1; g++) {
         exact_point p;
@@ -116,8 +116,8 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
         real y[3], dy[3], psi[3], m[3], T[9];
         exact_deformed_observe(nodes, line, state, g, &p, y, dy);
         exact_deformed_stretch(p.v, line->rest[g], y, dy, out->e[g]);
-        real3_zero(3, m);
-        real3_zero(9, T);
+        real_zero(3, m);
+        real_zero(9, T);
         for (int i = 0; i < 3; i++)
             psi[i] = p.kappa[i];
         if (measured) {
@@ -135,7 +135,7 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
         for (int k = 0; k < nodes; k++) {
             exact_point_first(&p, state->q[k], line->N[g][k], line->dN[g][k], &t[k]);
             if (measured)
-                real3_mul(T, t[k].kappa, out->kappa[g][k]);
+                mat3_mul(T, t[k].kappa, out->kappa[g][k]);
             for (int i = 0; i < 9; i++) {
                 out->v[g][k][i] = l0 * t[k].v[i];
                 out->kappa[g][k][i] = l0 * (measured ? out->kappa[g][k][i] : t[k].kappa[i]);
@@ -213,23 +213,24 @@ static inline void exact_deformed_write_second(int nodes, exact_deformed *d, int
         }
 }
 
-/* Of LANES elements of one kind with `nodes` nodes, x [LANES x nodes]; as
- * element_type.strain_many. */
-static inline __attribute__((always_inline)) void
-exact_deformed_strain(int nodes, const exact_strain_line *line, const node_state x[],
-                      strain_output out[])
+/* With `nodes` nodes. */
+static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
+                                                                     const exact_strain_line *line,
+                                                                     int run, const node_state x[],
+                                                                     strain_output out[])
 {
     const int strains = 6 * (nodes - 1), second = out[0].H != NULL;
     exact_deformed_nodes state;
     exact_deformed d;
     real s[6 * EXACT_STRAIN_MAX_POINTS];
     for (int lane = 0; lane < LANES; lane++) {
-        exact_deformed_read(nodes, line, x + lane * nodes, lane, &state);
+        const int of = lane < run ? lane : run - 1;
+        exact_deformed_read(nodes, line, x + of * nodes, lane, &state);
         for (int i = 0; i < strains && second; i++)
-            real_put(&s[i], lane, out[lane].s[i]);
+            real_put(&s[i], lane, out[of].s[i]);
     }
     exact_deformed_evaluate(nodes, line, &state, out[0].J != NULL || second, second ? s : NULL, &d);
-    for (int lane = 0; lane < LANES; lane++) {
+    for (int lane = 0; lane < run; lane++) {
         if (out[lane].e != NULL) {
             for (int i = 0; i < strains; i++)
                 out[lane].e[i] = real_lane(&d.e[i / 6][i % 6], lane);
@@ -241,6 +242,16 @@ exact_deformed_strain(int nodes, const exact_strain_line *line, const node_state
         if (second)
             exact_deformed_write_second(nodes, &d, lane, out[lane].H);
     }
+}
+
+/* Of `run` elements of one kind, at most LANES, x [run x nodes]; as element_type.strain_many. */
+static inline void exact_deformed_strain(const exact_strain_line *line, int run,
+                                         const node_state x[], strain_output out[])
+{
+    if (line->nodes == 2)
+        exact_deformed_run(2, line, run, x, out);
+    else
+        exact_deformed_run(3, line, run, x, out);
 }
 
 #endif

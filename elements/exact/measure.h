@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_EXACT_MEASURE_H
 #define BEAMWORK_EXACT_MEASURE_H
 
-#include "elements/math/real3.h"
+#include "elements/math/vec3.h"
 
 typedef enum exact_measure_kind {
     EXACT_MEASURE_QUARTER, /* 4 tan(angle/4): what the interpolation of two quaternions gives half
@@ -19,7 +19,7 @@ void exact_measure_angle(double t, double m[3]);
 /* The same of the kind wanted, of x of the first kind. */
 static inline void exact_measure_ratio(exact_measure_kind kind, const real x[3], real m[3])
 {
-    const real t = real3_dot(x, x) * (1.0 / 16);
+    const real t = vec3_dot(x, x) * (1.0 / 16);
     if (kind == EXACT_MEASURE_EIGHTH) { /* 2 tan(angle/8)/tan(angle/4) */
         const real r = real_sqrt(1 + t), s = 1 + r;
         m[0] = 2 / s;
@@ -51,7 +51,7 @@ static inline void exact_measure_of(const real m[3], const real x[3], real out[3
 static inline void exact_measure_second(const real m[3], const real x[3], const real n[3],
                                         real H[9])
 {
-    const real along = real3_dot(n, x), slope = m[1] * 0.125, bent = m[2] * (1.0 / 64) * along;
+    const real along = vec3_dot(n, x), slope = m[1] * 0.125, bent = m[2] * (1.0 / 64) * along;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             H[3 * i + j] = slope * (n[i] * x[j] + x[i] * n[j]) + bent * x[i] * x[j];

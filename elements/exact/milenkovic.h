@@ -6,7 +6,7 @@
 #ifndef BEAMWORK_EXACT_MILENKOVIC_H
 #define BEAMWORK_EXACT_MILENKOVIC_H
 
-#include "elements/math/real3.h"
+#include "elements/math/vec3.h"
 
 /* s, p, q, each with its first and second derivative. */
 typedef struct exact_milenkovic_form {
@@ -37,8 +37,8 @@ static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const
                                            const real y[3], real out[3])
 {
     real once[3], twice[3];
-    real3_cross(x, y, once);
-    real3_cross(x, once, twice);
+    vec3_cross(x, y, once);
+    vec3_cross(x, once, twice);
     for (int i = 0; i < 3; i++)
         out[i] = f->s[0] * y[i] - f->p[0] * once[i] + f->q[0] * twice[i];
 }
@@ -47,10 +47,10 @@ static inline void exact_milenkovic_vector(const exact_milenkovic_form *f, const
 static inline void exact_milenkovic_gradients(const exact_milenkovic_form *f, const real x[3],
                                               const real y[3], real dx[9], real dy[9])
 {
-    const real t = real3_dot(x, x), xy = real3_dot(x, y), p = f->p[0], q = f->q[0];
+    const real t = vec3_dot(x, x), xy = vec3_dot(x, y), p = f->p[0], q = f->q[0];
     const real level = f->s[0] - q * t, bent = q * xy;
     real once[3], along[3];
-    real3_cross(x, y, once);
+    vec3_cross(x, y, once);
     for (int i = 0; i < 3; i++)
         along[i] =
             2 * (f->s[1] * y[i] - f->p[1] * once[i] + f->q[1] * (x[i] * xy - t * y[i]) - q * y[i]);
@@ -76,11 +76,11 @@ static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, 
                                                 real XY[9])
 {
     real yw[3], wx[3], slope[3], across[3];
-    real3_cross(y, w, yw);
-    real3_cross(w, x, wx);
-    const real t = real3_dot(x, x), wy = real3_dot(w, y), xw = real3_dot(x, w),
-               xy = real3_dot(x, y), p = f->p[0], q = f->q[0];
-    const real once = real3_dot(x, yw), twice = xw * xy - t * wy;
+    vec3_cross(y, w, yw);
+    vec3_cross(w, x, wx);
+    const real t = vec3_dot(x, x), wy = vec3_dot(w, y), xw = vec3_dot(x, w), xy = vec3_dot(x, y),
+               p = f->p[0], q = f->q[0];
+    const real once = vec3_dot(x, yw), twice = xw * xy - t * wy;
     const real level = 2 * (f->s[1] * wy - f->p[1] * once + f->q[1] * twice - q * wy);
     const real bent = 4 * (f->s[2] * wy - f->p[2] * once + f->q[2] * twice);
     const real turn = f->s[1] - f->q[1] * t - q, along = f->q[1] * xw;

@@ -16,7 +16,7 @@
 #ifndef BEAMWORK_EXACT_POINT_H
 #define BEAMWORK_EXACT_POINT_H
 
-#include "elements/math/real3.h"
+#include "elements/math/vec3.h"
 
 typedef struct exact_point {
     real m, u[4];  /* Q = m u, |u| = 1 */
@@ -79,7 +79,7 @@ static inline void exact_point_at(int nodes, real q[][4], const double N[], cons
     for (int i = 0; i < 3; i++)
         p->kappa[i] = 2 * (h[i + 1] * inverse);
     exact_point_axes(p->u, p->R);
-    real3_transpose_mul_vec(p->R, y, p->v);
+    mat3_transpose_mul_vec(p->R, y, p->v);
 }
 
 /* out (+)= factor b x each column of a [3 x 3] */
@@ -123,12 +123,12 @@ static inline void exact_point_second(const exact_point *p, const real n[3], con
 {
     real across[3], lever[3], Z[9];
     const real *a = t->a, *turned = t->a + 3, *v = p->v;
-    const real nk = real3_dot(n, p->kappa), fv = real3_dot(f, v), level = -2 * nk - 4 * fv;
-    real3_cross(p->kappa, n, across);
-    real3_cross(v, f, lever);
+    const real nk = vec3_dot(n, p->kappa), fv = vec3_dot(f, v), level = -2 * nk - 4 * fv;
+    vec3_cross(p->kappa, n, across);
+    vec3_cross(v, f, lever);
     for (int j = 0; j < 3; j++) {
-        const real fa = real3_dot(f, (const real[3]){turned[j], turned[3 + j], turned[6 + j]}),
-                   va = real3_dot(v, (const real[3]){turned[j], turned[3 + j], turned[6 + j]});
+        const real fa = vec3_dot(f, (const real[3]){turned[j], turned[3 + j], turned[6 + j]}),
+                   va = vec3_dot(v, (const real[3]){turned[j], turned[3 + j], turned[6 + j]});
         t->twice[j] = (2 * nk) * a[j];
         for (int i = 0; i < 3; i++) {
             const real edge = 4 * p->eta * n[i] + 2 * across[i] + 2 * lever[i];
@@ -141,8 +141,8 @@ static inline void exact_point_second(const exact_point *p, const real n[3], con
         for (int i = 0; i < 3; i++)
             Z[3 * i + j] = 2 * (f[(i + 1) % 3] * p->R[3 * j + (i + 2) % 3] -
                                 f[(i + 2) % 3] * p->R[3 * j + (i + 1) % 3]);
-    real3_zero(9, t->by);
-    real3_add_transpose_mul(turned, Z, t->by);
+    real_zero(9, t->by);
+    mat3_add_transpose_mul(turned, Z, t->by);
 }
 
 /* H += second derivative for nodes k and l [3 x 3]; that with respect to y is N_k t_k->by. */
@@ -152,7 +152,7 @@ static inline void exact_point_add_second(const real n[3], const double N[], con
     const real *a = t[l].a, *turned = t[l].a + 3, *left = t[k].a;
     const double symmetric = dN[k] * N[l] + N[k] * dN[l], skew = N[k] * dN[l] - dN[k] * N[l];
     real W[12], spin[9];
-    real3_zero(9, spin);
+    real_zero(9, spin);
     exact_point_add_cross(n, turned, real_of(2 * skew), spin);
     for (int j = 0; j < 3; j++) {
         W[j] = (N[k] * N[l]) * t[l].twice[j] -
@@ -173,9 +173,9 @@ static inline real exact_point_curved(const exact_point *p, const real n[3], con
                                       double N, double dN, const exact_point_turn *t)
 {
     real across[3], lever[3];
-    real3_cross(p->kappa, n, across);
-    real3_cross(p->v, f, lever);
-    real sum = -N * real3_dot(n, p->kappa) * t->c[0];
+    vec3_cross(p->kappa, n, across);
+    vec3_cross(p->v, f, lever);
+    real sum = -N * vec3_dot(n, p->kappa) * t->c[0];
     for (int i = 0; i < 3; i++)
         sum += (2 * dN * n[i] - N * (2 * p->eta * n[i] + across[i] + 2 * lever[i])) * t->c[i + 1];
     return -0.25 * sum / p->m;

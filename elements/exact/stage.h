@@ -34,7 +34,7 @@ typedef struct exact_stage_terms {
 /* Of x, x' and F. */
 static inline void exact_stage_of(const real force[3], const double rest_kappa[3], exact_stage *p)
 {
-    exact_milenkovic_forms(real3_dot(p->x, p->x), &p->orientation, &p->curvature);
+    exact_milenkovic_forms(vec3_dot(p->x, p->x), &p->orientation, &p->curvature);
     exact_milenkovic_vector(&p->curvature, p->x, p->slope, p->kappa);
     exact_milenkovic_vector(&p->orientation, p->x, force, p->N);
     for (int j = 0; j < 3; j++)
@@ -93,9 +93,9 @@ static inline void exact_stage_energy(const beam_constants *c, const real kappa[
     m->N[0] = -1 - c->initial[0] - axial + c->trapeze * half;
     m->N[1] = -gy - c->initial[1] - c->zs * k - c->F[6] * T;
     m->N[2] = -gz - c->initial[2] + c->ys * k - c->F[7] * T;
-    real3_zero(9, m->kk);
-    real3_zero(9, m->kN);
-    real3_zero(9, m->NN);
+    real_zero(9, m->kk);
+    real_zero(9, m->kN);
+    real_zero(9, m->NN);
     m->kk[0] =
         torsion +
         (c->EIy * c->bend_y * c->bend_y + c->EIz * c->bend_z * c->bend_z + 12 * c->torque) * kk;
@@ -117,7 +117,7 @@ static inline void exact_stage_bend(const exact_stage_material *m, int coupled, 
                                     real out[9])
 {
     if (coupled) {
-        real3_mul(m->kk, A, out);
+        mat3_mul(m->kk, A, out);
         return;
     }
     for (int j = 0; j < 3; j++) {
@@ -132,7 +132,7 @@ static inline void exact_stage_stretch(const exact_stage_material *m, int couple
                                        real out[9])
 {
     if (coupled) {
-        real3_mul(m->NN, A, out);
+        mat3_mul(m->NN, A, out);
         return;
     }
     for (int j = 0; j < 3; j++) {
@@ -157,7 +157,7 @@ static inline void exact_stage_add_mixed_transposed(const exact_stage_material *
                                                     const real A[9], real out[9])
 {
     if (coupled) {
-        real3_add_transpose_mul(m->kN, A, out);
+        mat3_add_transpose_mul(m->kN, A, out);
         return;
     }
     for (int i = 0; i < 3; i++)
@@ -192,21 +192,21 @@ static inline void exact_stage_terms_of(const beam_constants *c, const exact_sta
     exact_stage_add_mixed_transposed(m, coupled, D.Kx, B);
     exact_stage_bend(m, coupled, D.Ks, C);
     exact_stage_stretch(m, coupled, D.NF, E);
-    real3_zero(9, F);
+    real_zero(9, F);
     exact_stage_add_mixed(m, coupled, D.NF, F);
-    real3_zero(9, t->xx);
+    real_zero(9, t->xx);
     exact_milenkovic_add_hessian(&p->curvature, p->x, m->kappa, p->slope, t->xx, t->xs);
     exact_milenkovic_add_hessian(&p->orientation, p->x, m->N, force, t->xx, t->xF);
-    real3_zero(9, t->ss);
-    real3_zero(9, t->sF);
-    real3_zero(9, t->FF);
-    real3_add_transpose_mul(D.Kx, A, t->xx);
-    real3_add_transpose_mul(D.Nx, B, t->xx);
-    real3_add_transpose_mul(A, D.Ks, t->xs);
-    real3_add_transpose_mul(B, D.NF, t->xF);
-    real3_add_transpose_mul(D.Ks, C, t->ss);
-    real3_add_transpose_mul(D.Ks, F, t->sF);
-    real3_add_transpose_mul(D.NF, E, t->FF);
+    real_zero(9, t->ss);
+    real_zero(9, t->sF);
+    real_zero(9, t->FF);
+    mat3_add_transpose_mul(D.Kx, A, t->xx);
+    mat3_add_transpose_mul(D.Nx, B, t->xx);
+    mat3_add_transpose_mul(A, D.Ks, t->xs);
+    mat3_add_transpose_mul(B, D.NF, t->xF);
+    mat3_add_transpose_mul(D.Ks, C, t->ss);
+    mat3_add_transpose_mul(D.Ks, F, t->sF);
+    mat3_add_transpose_mul(D.NF, E, t->FF);
     for (int j = 0; j < 9; j++) {
         t->xx[j] *= w;
         t->xs[j] *= w;

@@ -27,7 +27,8 @@ enum {
     EXACT_STAGES_ALL = EXACT_STAGES_UNKNOWNS + EXACT_STAGES_OUTER
 };
 
-/* Of the variables x of the inner nodes, then 2 X: a node at an end has half of it. */
+/* What the element_data of collocation begin with.  Of the variables x of the inner nodes, then 2
+ * X: a node at an end has half of it. */
 typedef struct exact_stages {
     int stages, unknowns; /* unknowns: F (3), x of the inner nodes */
     beam_constants c;

@@ -103,7 +103,7 @@ status exact_stiffness_prepare(const element_request *request, int nodes, exact_
 status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out)
 {
     status outcome;
-    exact_stressed_stress(k, &e, out, &outcome);
+    exact_stressed_stress(k, 1, &e, out, &outcome);
     return outcome;
 }
 

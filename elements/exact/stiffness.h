@@ -42,6 +42,12 @@ typedef struct exact_stiffness {
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* r_g . S r_h */
 } exact_stiffness;
 
+/* Of elements with strains at Gauss points: what their element_data begin with. */
+typedef struct exact_gauss {
+    exact_strain_line line;
+    exact_stiffness stiffness;
+} exact_gauss;
+
 status exact_stiffness_prepare(const element_request *request, int nodes, exact_stiffness *out,
                                fault *f);
 status exact_stiffness_stress(const exact_stiffness *k, const double e[], stress_output *out);

@@ -10,10 +10,7 @@
 
 void exact_strain_of(const exact_strain_line *line, const node_state x[], strain_output *out)
 {
-    if (line->nodes == 2)
-        exact_deformed_strain(2, line, x, out);
-    else
-        exact_deformed_strain(3, line, x, out);
+    exact_deformed_strain(line, 1, x, out);
 }
 
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */

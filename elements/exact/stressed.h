@@ -149,17 +149,17 @@ static inline void exact_stressed_write(const exact_stiffness *k, const exact_st
     }
 }
 
-/* Of LANES elements of one kind; as element_type.stress_many. */
-static inline void exact_stressed_stress(const exact_stiffness *k, const double *const e[],
+/* Of `run` elements of one kind, at most LANES; as element_type.stress_many. */
+static inline void exact_stressed_stress(const exact_stiffness *k, int run, const double *const e[],
                                          stress_output out[], status outcome[])
 {
     real strain[EXACT_STIFFNESS_MAX_STRAINS];
     exact_stressed w;
     for (int lane = 0; lane < LANES; lane++)
         for (int i = 0; i < k->strains; i++)
-            real_put(&strain[i], lane, e[lane][i]);
+            real_put(&strain[i], lane, e[lane < run ? lane : run - 1][i]);
     exact_stressed_evaluate(k, strain, &w);
-    for (int lane = 0; lane < LANES; lane++) {
+    for (int lane = 0; lane < run; lane++) {
         exact_stressed_write(k, &w, lane, &out[lane]);
         outcome[lane] = STATUS_OK;
     }

@@ -62,7 +62,7 @@ static inline void exact_sums_couple(int stages, const exact_stages *s, exact_st
     for (int i = 0; i < stages; i++) {
         const double *S = &s->S[i * (stages + 2)];
         real force[3];
-        real3_zero(3, force);
+        real_zero(3, force);
         for (int h = 0; h < stages; h++)
             for (int j = 0; j < 3; j++)
                 force[j] += S[h] * t[h].z[EXACT_STAGE_FORCE + j];
@@ -120,8 +120,8 @@ static inline void exact_sums_border(int stages, const exact_stages *s, int k,
 {
     const int F = stages - 1, last = stages + 2, row = k < stages - 1 ? k : stages;
     real Y[9], edge[9], *E = A[exact_blocks_at(row, last)];
-    real3_zero(9, Y);
-    real3_zero(9, edge);
+    real_zero(9, Y);
+    real_zero(9, edge);
     for (int i = 0; i < stages; i++) {
         const double N = s->N[i][k], dN = s->dN[i][k], *S = &s->S[i * (stages + 2) + stages];
         for (int j = 0; j < 9; j++)
@@ -155,9 +155,9 @@ static inline void exact_sums_force(int stages, const exact_stages *s, const exa
     const int F = stages - 1, v = stages + 1, last = stages + 2;
     real *FF = A[exact_blocks_at(F, F)], *Fv = A[exact_blocks_at(F, v)],
          *FE = A[exact_blocks_at(F, last)];
-    real3_zero(9, FF);
-    real3_zero(9, Fv);
-    real3_zero(9, FE);
+    real_zero(9, FF);
+    real_zero(9, Fv);
+    real_zero(9, FE);
     for (int i = 0; i < stages; i++) {
         const double *S = &s->S[i * (stages + 2) + stages];
         for (int j = 0; j < 9; j++)
@@ -189,12 +189,12 @@ static inline void exact_sums_gather(int stages, const exact_stages *s, exact_st
     }
     exact_sums_force(stages, s, t, A);
     for (int k = 0; k < F; k++)
-        real3_zero(9, A[exact_blocks_at(k, v)]);
-    real3_zero(9, A[exact_blocks_at(rho, v)]);
-    real3_zero(9, A[exact_blocks_at(v, v)]);
-    real3_zero(9, A[exact_blocks_at(v, last)]);
+        real_zero(9, A[exact_blocks_at(k, v)]);
+    real_zero(9, A[exact_blocks_at(rho, v)]);
+    real_zero(9, A[exact_blocks_at(v, v)]);
+    real_zero(9, A[exact_blocks_at(v, last)]);
     real *E = A[exact_blocks_at(last, last)];
-    real3_zero(9, E);
+    real_zero(9, E);
     if (s->warps)
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++)

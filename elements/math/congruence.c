@@ -93,6 +93,8 @@ void REAL_NAMED(congruence_add)(int m, int n, const double *J, const double *S, 
         add(8, 14, 4, J, S, K);
     else if (m == 8 && n == 8)
         add(8, 8, 2, J, S, K);
+    else if (m == 15 && n == 21)
+        add(15, 21, 6, J, S, K);
     else
         add(m, n, (n + FOUR - 1) / FOUR, J, S, K);
 }

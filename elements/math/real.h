@@ -102,6 +102,12 @@ static inline int real_any(real_truth t)
     return any;
 }
 
+static inline void real_zero(int n, real a[])
+{
+    for (int i = 0; i < n; i++)
+        a[i] = real_of(0);
+}
+
 /* Functions of libm lane by lane: what one element gets. */
 static inline real real_atan2(real y, real x)
 {

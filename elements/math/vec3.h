@@ -57,4 +57,21 @@ static inline void mat3_transpose_mul_vec(const real A[9], const real v[3],
         w[i] = A[i] * v[0] + A[3 + i] * v[1] + A[6 + i] * v[2];
 }
 
+/* C += A^T B, no alias */
+static inline void mat3_add_transpose_mul(const real A[9], const real B[9], real C[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            C[3 * i + j] += A[i] * B[j] + A[3 + i] * B[3 + j] + A[6 + i] * B[6 + j];
+}
+
+/* C -= A^T B, term by term; no alias */
+static inline void mat3_subtract_transpose_mul(const real A[9], const real B[9], real C[9])
+{
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                C[3 * i + j] -= A[3 * k + i] * B[3 * k + j];
+}
+
 #endif

@@ -43,7 +43,7 @@ static status stress(const exact_stages *s, const double e[], const double inner
                      stress_output *out)
 {
     status outcome;
-    exact_collocated_stress(s->stages, s, &e, &inner, out, &outcome);
+    exact_collocated_stress(s, 1, &e, &inner, out, &outcome);
     return outcome;
 }
 

@@ -1,15 +1,18 @@
 /* Many elements at once have the bits of one at a time, with and without AVX2: of two kinds in
  * runs of any length, each in a state of its own. */
 #include <gsl/gsl_test.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/exact/lanes.h"
 #include "elements/sheet/lanes.h"
 #include "elements/test/nodes.h"
 #include "elements/test/sections.h"
 
 extern const element_type element_sheet_second, element_sheet_second_consistent,
-    element_sheet_third, element_sheet_third_printed;
+    element_sheet_third, element_sheet_third_printed, element_collocation,
+    element_geometrically_exact;
 
 typedef void strains_function(int count, const element_data *const data[], const node_state x[],
                               strain_output out[]);
@@ -21,41 +24,51 @@ static const struct {
     const element_type *type;
     strains_function *strain;
     stresses_function *stress;
+    double option; /* the first one */
 } family[] = {
-    {&element_sheet_second, sheet_lanes_strain_plain, sheet_lanes_second_plain},
-    {&element_sheet_second_consistent, sheet_lanes_strain_plain, sheet_lanes_second_plain},
-    {&element_sheet_third, sheet_lanes_strain_plain, sheet_lanes_third_plain},
-    {&element_sheet_third_printed, sheet_lanes_strain_plain, sheet_lanes_third_plain},
+    {&element_sheet_second, sheet_lanes_strain_plain, sheet_lanes_second_plain, 0},
+    {&element_sheet_second_consistent, sheet_lanes_strain_plain, sheet_lanes_second_plain, 0},
+    {&element_sheet_third, sheet_lanes_strain_plain, sheet_lanes_third_plain, 0},
+    {&element_sheet_third_printed, sheet_lanes_strain_plain, sheet_lanes_third_plain, 0},
+    {&element_collocation, exact_lanes_stages_strain_plain, exact_lanes_stages_stress_plain, 2},
+    {&element_collocation, exact_lanes_stages_strain_plain, exact_lanes_stages_stress_plain, 5},
+    {&element_geometrically_exact, exact_lanes_gauss_strain_plain, exact_lanes_gauss_stress_plain,
+     0},
+    {&element_geometrically_exact, exact_lanes_gauss_strain_plain, exact_lanes_gauss_stress_plain,
+     1},
 };
 
-enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
+enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
 /* All that one element gives, and what of it is asked for. */
 typedef struct answers {
-    double e[S], J[S * X], H[X * X], energy, sigma[S], C[S * S];
+    double e[S], J[S * X], H[X * X], energy, sigma[S], C[S * S], residual, memory[INNER * S];
     status outcome;
 } answers;
 
 typedef struct batch {
     const element_type *type;
     const char *name;
+    double option[ELEMENT_MAX_OPTIONS];
     int nodes, strains;
     element_data *kind[2];
     const element_data *data[MANY];
     node_state x[MANY * ELEMENT_MAX_NODES];
-    double weight[MANY][S];
+    double weight[MANY][S], inner[MANY][INNER];
     answers alone[MANY];
 } batch;
 
 static const double length[2] = {0.13, 0.31}; /* [m] */
 
-static element_data *prepare(const element_type *type, int kind, unsigned features)
+static element_data *prepare(const element_type *type, const double option[], int kind,
+                             unsigned features)
 {
     section_spec spec = section_spec_rectangle(198.7e9, 76.3e9, 0.05, 0.0007);
     const section c = sections_computed(&spec);
     const element_request request = {.section = &c,
                                      .length = length[kind],
                                      .features = features,
+                                     .options = option,
                                      .curvature = {0, kind * 0.2, 0.3},
                                      .strain = {0, 0, kind * 1e-3}};
     fault f;
@@ -73,11 +86,13 @@ static strain_output strain_of(const batch *b, int k, answers *a, int what)
                            .H = what & 4 ? a->H : NULL};
 }
 
-static stress_output stress_of(answers *a, int what)
+static stress_output stress_of(const batch *b, answers *a, int what)
 {
     return (stress_output){.energy = what & 1 ? &a->energy : NULL,
                            .sigma = what & 2 ? a->sigma : NULL,
-                           .C = what & 4 ? a->C : NULL};
+                           .C = what & 4 ? a->C : NULL,
+                           .residual = what & 1 ? &a->residual : NULL,
+                           .memory = what & 4 && b->type->memory != NULL ? a->memory : NULL};
 }
 
 /* Elements [first, first + count) at once. */
@@ -103,20 +118,21 @@ static void strains(batch *b, strains_function *many, int first, int count, int 
 static void stresses(batch *b, stresses_function *many, int first, int count, int what)
 {
     stress_output out[MANY];
-    const double *e[MANY], *inner[MANY] = {NULL};
+    const double *e[MANY], *inner[MANY];
     status outcome[MANY];
     answers together[MANY], alone;
     int different = 0;
     memset(together, 0, sizeof together);
     for (int k = 0; k < count; k++) {
-        out[k] = stress_of(&together[k], what);
+        out[k] = stress_of(b, &together[k], what);
         e[k] = b->alone[first + k].e;
+        inner[k] = b->inner[first + k];
     }
     many(count, b->data + first, e, inner, out, outcome);
     for (int k = 0; k < count; k++) {
         memset(&alone, 0, sizeof alone);
-        stress_output one = stress_of(&alone, what);
-        const status ended = b->type->stress(b->data[first + k], e[k], NULL, &one);
+        stress_output one = stress_of(b, &alone, what);
+        const status ended = b->type->stress(b->data[first + k], e[k], inner[k], &one);
         different += ended != outcome[k] ||
                      (ended == STATUS_OK && memcmp(&alone, &together[k], sizeof alone) != 0);
     }
@@ -141,14 +157,19 @@ static void set_up(batch *b, unsigned features)
 {
     static const int kind_of[MANY] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
     for (int kind = 0; kind < 2; kind++)
-        b->kind[kind] = prepare(b->type, kind, features);
+        b->kind[kind] = prepare(b->type, b->option, kind, features);
     for (int k = 0; k < MANY; k++) {
         double d[X], weights[X];
+        const double size = k == 7 ? 40 : (k % 2 ? 0.3 : 0.003);
         b->data[k] = b->kind[kind_of[k]];
-        nodes_increments(b->nodes, length[kind_of[k]], k == 7 ? 40 : 0.3, 71 + (unsigned)k, d);
+        nodes_increments(b->nodes, length[kind_of[k]], size, 71 + (unsigned)k, d);
         nodes_increments(b->nodes, 1, 2, 171 + (unsigned)k, weights);
         memcpy(b->weight[k], weights, sizeof b->weight[k][0] * (size_t)b->strains);
         nodes_place(b->nodes, length[kind_of[k]], d, b->x + k * b->nodes);
+        if (b->type->rest != NULL)
+            b->type->rest(b->data[k], b->inner[k]);
+        for (int i = 0; i < element_inner(b->type, b->option); i++)
+            b->inner[k][i] += 0.1 * size * sin(9.0 * i + k);
         strain_output out = {.e = b->alone[k].e};
         b->type->strain(b->data[k], b->x + k * b->nodes, &out);
     }
@@ -163,8 +184,9 @@ int main(void)
     for (size_t i = 0; i < sizeof family / sizeof family[0]; i++)
         for (int k = 0; k < 3; k++) {
             batch b = {.type = family[i].type, .name = family[i].type->name};
-            b.nodes = element_nodes(b.type, NULL);
-            b.strains = element_strains(b.type, NULL);
+            b.option[0] = family[i].option;
+            b.nodes = element_nodes(b.type, b.option);
+            b.strains = element_strains(b.type, b.option);
             set_up(&b, features[k]);
             compare(&b, b.type->strain_many, b.type->stress_many);
             b.name = "without AVX2";
