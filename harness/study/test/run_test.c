@@ -13,6 +13,24 @@
 #include "harness/study/sweep.h"
 #include "harness/truth/truth.h"
 
+/* Points one behind the other have the hash that each has alone. */
+static void hashes_of_neighbours(void)
+{
+    fault f;
+    const case_type *c = case_find("c_column", &f);
+    static const char *const text[] = {"",  "length=3", "length=3;section_data=printed",
+                                       "*", "length=*", "length=7;section_data=printed"};
+    parameters_words before;
+    before.known = 0;
+    for (size_t i = 0; i < sizeof text / sizeof text[0]; i++) {
+        double value[CASE_MAX_PARAMETERS];
+        int any[CASE_MAX_PARAMETERS];
+        gsl_test(parameters_parse(c, text[i], value, any, &f) != STATUS_OK, "'%s'", text[i]);
+        gsl_test(parameters_hash_next(c, value, any, &before) != parameters_hash(c, value, any),
+                 "hash of '%s' behind its neighbour", text[i]);
+    }
+}
+
 static void parameters(void)
 {
     fault f;
@@ -194,6 +212,7 @@ static void truth_files(void)
 int main(void)
 {
     parameters();
+    hashes_of_neighbours();
     texts();
     meshes();
     random_input();
