@@ -124,3 +124,81 @@ void team_run(team *t, int count, team_work *work, void *context)
             sched_yield(); /* the parts are equal: it is a moment, unless there are fewer processors
                             */
 }
+
+typedef struct relay {
+    team_fill *fill;
+    team_take *take;
+    void *context;
+    int pieces;
+    atomic_int claimed, taken;     /* pieces so far */
+    atomic_int filled[TEAM_SLOTS]; /* the piece that is there, plus one */
+} relay;
+
+/* The next piece, if there is one and its slot is free. */
+static int fill_next(relay *r)
+{
+    int piece = atomic_load(&r->claimed);
+    if (piece >= r->pieces ||
+        piece - atomic_load_explicit(&r->taken, memory_order_acquire) >= TEAM_SLOTS ||
+        !atomic_compare_exchange_strong(&r->claimed, &piece, piece + 1))
+        return 0;
+    r->fill(r->context, piece, piece % TEAM_SLOTS);
+    atomic_store_explicit(&r->filled[piece % TEAM_SLOTS], piece + 1, memory_order_release);
+    return 1;
+}
+
+static void wait_a_moment(int *spins)
+{
+    if (++*spins > SPINS)
+        sched_yield();
+}
+
+/* Fills while there is something to fill. */
+static void follow(relay *r)
+{
+    int spins = 0;
+    while (atomic_load(&r->claimed) < r->pieces)
+        if (fill_next(r))
+            spins = 0;
+        else
+            wait_a_moment(&spins);
+}
+
+/* Takes what is filled, and else fills. */
+static void lead(relay *r)
+{
+    int spins = 0, wanted = 1;
+    for (int piece = 0; piece < r->pieces && wanted;) {
+        const int slot = piece % TEAM_SLOTS;
+        if (atomic_load_explicit(&r->filled[slot], memory_order_acquire) == piece + 1) {
+            wanted = r->take(r->context, piece, slot);
+            atomic_store_explicit(&r->taken, ++piece, memory_order_release);
+            spins = 0;
+        } else if (!fill_next(r))
+            wait_a_moment(&spins);
+    }
+    atomic_store(&r->claimed, r->pieces); /* nothing more is wanted */
+}
+
+static void relay_member(void *context, int first, int end)
+{
+    (void)end;
+    if (first == 0)
+        lead(context);
+    else
+        follow(context);
+}
+
+void team_relay(team *t, int pieces, team_fill *fill, team_take *take, void *context)
+{
+    if (t == NULL) {
+        int wanted = 1;
+        for (int piece = 0; piece < pieces && wanted; piece++) {
+            fill(context, piece, 0);
+            wanted = take(context, piece, 0);
+        }
+        return;
+    }
+    relay r = {.fill = fill, .take = take, .context = context, .pieces = pieces};
+    team_run(t, t->threads, relay_member, &r);
+}

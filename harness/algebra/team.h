@@ -8,12 +8,21 @@
 typedef struct team team;
 typedef void team_work(void *context, int first, int end); /* [first, end) */
 
-enum { TEAM_MOST = 16 };
+/* One piece of work into a slot; all members. */
+typedef void team_fill(void *context, int piece, int slot);
+/* What a slot holds is used up, by the caller; 0: that was the last piece that is wanted. */
+typedef int team_take(void *context, int piece, int slot);
+
+enum { TEAM_MOST = 16, TEAM_SLOTS = 8 };
 
 status team_alloc(int threads, team **out,
                   fault *f); /* the caller is one of them; threads <= 1: *out = NULL */
 void team_free(team *t);
 /* work over [0, count), shared; t NULL: by the caller alone. Returns when all is done. */
 void team_run(team *t, int count, team_work *work, void *context);
+/* Pieces [0, pieces) are filled by whoever is free, a few ahead, and taken in their order by the
+ * caller, who fills too: slots stay in the cache, and sums keep their order. slot: below
+ * TEAM_SLOTS, and 0 where t is NULL. */
+void team_relay(team *t, int pieces, team_fill *fill, team_take *take, void *context);
 
 #endif

@@ -116,12 +116,17 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
     }
 }
 
-/* What the threads of a team share. */
+/* What the threads of a team share: elements in pieces of `window`, whose parts are added up in
+ * order. */
 typedef struct shared_loop {
     model *m;
     const model_state *s;
-    int tangent;
-    double path;
+    model_linearisation *lin;
+    const mesh_pattern *pattern; /* NULL: no K is wanted */
+    int tangent, window;
+    element_part *part; /* [slots of the team x window] */
+    status outcome;
+    fault *f;
 } shared_loop;
 
 /* The parts of elements [first, end), at most CHUNK_WINDOW, into part[0], ... */
@@ -139,27 +144,34 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
             p->outcome =
-                element_equations(loop->m, loop->s, &element[k], loop->tangent, loop->path, p);
+                element_equations(loop->m, loop->s, &element[k], loop->tangent, loop->lin->path, p);
         }
     }
 }
 
-static void fill_parts(void *context, int first, int end)
+static int end_of(const shared_loop *loop, int piece)
 {
-    const shared_loop *loop = context;
-    for (int i = first; i < end; i += CHUNK_WINDOW)
-        fill_window(loop, i, i + CHUNK_WINDOW < end ? i + CHUNK_WINDOW : end, &loop->m->part[i]);
+    const int end = (piece + 1) * loop->window;
+    return end < loop->m->elements ? end : loop->m->elements;
 }
 
-/* Parts that are kept at a time without a team, at m->window; one where there is no memory. */
+static void fill_piece(void *context, int piece, int slot)
+{
+    const shared_loop *loop = context;
+    fill_window(loop, piece * loop->window, end_of(loop, piece),
+                loop->part + (size_t)slot * (size_t)loop->window);
+}
+
+/* Parts that are kept at a time, in m->part; 0: one at a time, as there is no memory or no need. */
 static int window_of(model *m)
 {
-    const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW;
-    if (chunk_size(m) == 1)
-        return 1;
-    if (m->window == NULL)
-        m->window = malloc((size_t)wanted * sizeof *m->window);
-    return m->window != NULL ? wanted : 1;
+    const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW,
+              slots = m->team != NULL ? TEAM_SLOTS : 1;
+    if (m->team == NULL && chunk_size(m) == 1)
+        return 0;
+    if (m->part == NULL)
+        m->part = malloc((size_t)(wanted * slots) * sizeof *m->part);
+    return m->part != NULL ? wanted : 0;
 }
 
 /* The element's equations into those of the model, but for K. */
@@ -187,15 +199,43 @@ static status add_discrete(model *m, const model_state *s, model_linearisation *
     return STATUS_OK;
 }
 
+/* Adds up what a slot holds; 0: an element cannot be evaluated. */
+static int take_piece(void *context, int piece, int slot)
+{
+    shared_loop *loop = context;
+    model *m = loop->m;
+    element_part *part = loop->part + (size_t)slot * (size_t)loop->window;
+    for (int i = piece * loop->window; i < end_of(loop, piece); i++, part++) {
+        m->counters.strain_evaluations++;
+        m->counters.stress_evaluations++;
+        loop->outcome = part->outcome;
+        if (part->outcome != STATUS_OK) {
+            fault_set(loop->f, part->outcome, "%s", part->why.text);
+            return 0;
+        }
+        add_part(m, &m->element[i], part, loop->lin);
+        if (loop->pattern != NULL)
+            assemble_matrix(loop->pattern, i, part->K, loop->lin->K);
+        phases_lap(&m->phases, PHASE_ASSEMBLY);
+    }
+    return 1;
+}
+
 static status linearise_elements(model *m, const model_state *s, model_linearisation *lin, fault *f)
 {
-    element_part own, *part = m->part;
-    const shared_loop loop = {m, s, lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
-                              lin->path};
-    const mesh_pattern *p =
-        lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row];
-    const int together = m->team != NULL && !m->rotates; /* inertia counts its evaluations */
-    const int window = together ? m->elements : window_of(m);
+    element_part own;
+    const int window = window_of(m);
+    shared_loop loop = {
+        .m = m,
+        .s = s,
+        .lin = lin,
+        .pattern = lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row],
+        .tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
+        .window = window > 0 ? window : 1,
+        .part = window > 0 ? m->part : &own,
+        .f = f};
+    /* inertia counts its evaluations */
+    team *together = window > 0 && !m->rotates ? m->team : NULL;
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -203,23 +243,9 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
                (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
     if (lin->K != NULL)
         sparse_zero(lin->K);
-    if (together)
-        team_run(m->team, m->elements, fill_parts, (void *)&loop);
-    else
-        part = window > 1 ? m->window : &own;
-    for (int i = 0; i < m->elements; i++) {
-        if (!together && i % window == 0)
-            fill_window(&loop, i, i + window < m->elements ? i + window : m->elements, part);
-        element_part *one = &part[i % window];
-        m->counters.strain_evaluations++;
-        m->counters.stress_evaluations++;
-        if (one->outcome != STATUS_OK)
-            return fault_set(f, one->outcome, "%s", one->why.text);
-        add_part(m, &m->element[i], one, lin);
-        if (p != NULL)
-            assemble_matrix(p, i, one->K, lin->K);
-        phases_lap(&m->phases, PHASE_ASSEMBLY);
-    }
+    team_relay(together, (m->elements + loop.window - 1) / loop.window, fill_piece, take_piece,
+               &loop);
+    TRY(loop.outcome);
     TRY(add_discrete(m, s, lin, f));
     loads_add(m, s, lin->path, lin->residual);
     if (lin->K != NULL)

@@ -148,7 +148,6 @@ void model_free(model *m)
     free(m->undeformed);
     free(m->ahead);
     free(m->part);
-    free(m->window);
     team_free(m->team);
     kinematics_state_free(m->rest);
     free(m);
@@ -201,10 +200,8 @@ status model_set_threads(model *m, int threads, fault *f)
         threads = m->elements / ELEMENTS_OF_A_THREAD;
     team_free(m->team);
     m->team = NULL;
-    if (threads > 1 && m->part == NULL)
-        m->part = malloc(((size_t)m->elements + 1) * sizeof *m->part);
-    if (threads > 1 && m->part == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the elements of %d threads", threads);
+    free(m->part); /* as many as that team needs */
+    m->part = NULL;
     return team_alloc(threads, &m->team, f);
 }
 

@@ -139,11 +139,9 @@ struct model {
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;
-    team *team;           /* of the loop over elements; NULL: one thread */
-    element_part *part;   /* [elements] what the team computes before it is added up in order; NULL
-                             without a team */
-    element_part *window; /* likewise of a few elements, without a team; NULL: none yet */
-    mesh_ahead *ahead;    /* one block; NULL: nothing has been evaluated ahead */
+    team *team;         /* of the loop over elements; NULL: one thread */
+    element_part *part; /* of a few elements, before they are added up in order; NULL: none yet */
+    mesh_ahead *ahead;  /* one block; NULL: nothing has been evaluated ahead */
     int lines;
     char **line; /* what was left out */
 };

@@ -57,6 +57,49 @@ static void no_more_than_there_is_room_for(int threads)
     team_free(t);
 }
 
+enum { PIECES = 500 };
+
+typedef struct relay_log {
+    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* last: piece that is the last one */
+} relay_log;
+
+static void write_piece(void *context, int piece, int slot)
+{
+    relay_log *log = context;
+    log->fills[piece]++;
+    log->held[slot] = 7 * piece;
+}
+
+static int read_piece(void *context, int piece, int slot)
+{
+    relay_log *log = context;
+    log->wrong += piece != log->taken++ || log->held[slot] != 7 * piece;
+    return piece != log->last;
+}
+
+/* In order, each once, and what was filled is still there; nothing behind the last that is wanted.
+ */
+static void relays(int threads)
+{
+    team *t = NULL;
+    fault f = {""};
+    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    int wrong = 0, taken = 0, expected = 0;
+    for (int round = 0; round < 400; round++) {
+        const int pieces = round % PIECES, last = round % 3 == 0 ? pieces / 2 : PIECES;
+        relay_log log = {.last = last};
+        team_relay(t, pieces, write_piece, read_piece, &log);
+        taken += log.taken;
+        expected += last < pieces ? last + 1 : pieces;
+        wrong += log.wrong;
+        for (int i = 0; i < PIECES; i++)
+            wrong += i < log.taken ? log.fills[i] != 1 : log.fills[i] > (i < pieces);
+    }
+    gsl_test_int(wrong, 0, "%d threads: pieces in order, each once", threads);
+    gsl_test_int(taken, expected, "%d threads: all pieces that are wanted", threads);
+    team_free(t);
+}
+
 int main(void)
 {
     no_more_than_there_is_room_for(5);
@@ -65,6 +108,8 @@ int main(void)
     no_more_than_there_is_room_for(10 * TEAM_MOST);
     for (int threads = 1; threads <= 4; threads++)
         every_index_once(threads);
+    for (int threads = 1; threads <= 4; threads++)
+        relays(threads);
     team *unused = NULL;
     gsl_test(team_alloc(3, &unused, NULL) != STATUS_OK, "a team that is never used");
     team_free(unused);
