@@ -15,6 +15,8 @@ enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
 struct element_data {
     exact_stages stages;
     lumped_mass mass;
+    int prestressed; /* 1: prestress is there */
+    double prestress[OUTER][OUTER * OUTER];
 };
 
 static const parameter_type options[] = {
@@ -57,7 +59,11 @@ static size_t data_size(const element_request *request)
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
     out->mass = lumped_of(request->section, request->features, request->length);
-    return exact_stages_prepare(request, stage_count(request->options), &out->stages, f);
+    TRY(exact_stages_prepare(request, stage_count(request->options), &out->stages, f));
+    out->prestressed = (request->features & FEATURE_GEOMETRIC) != 0;
+    if (out->prestressed)
+        exact_prestress_derivatives(&out->stages, out->prestress);
+    return STATUS_OK;
 }
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
@@ -94,20 +100,16 @@ static void stress_many(int count, const element_data *const data[], const doubl
 
 static void geometric(const element_data *data, const double sigma[], double G[])
 {
-    const exact_stages *s = &data->stages;
-    double scaled[OUTER], largest = 0;
+    double own[OUTER][OUTER * OUTER];
     memset(G, 0, OUTER * OUTER * sizeof *G);
-    for (int i = 0; i < OUTER; i++)
-        largest = fmax(largest, fabs(sigma[i]));
-    if (!(largest > 0))
-        return;
-    /* Of the size of one, so that the part linear in the prestress is neither small nor large
-     * beside the stiffness. */
-    for (int i = 0; i < OUTER; i++)
-        scaled[i] = sigma[i] / largest;
-    exact_prestress_stiffness(s, scaled, G);
-    for (int i = 0; i < OUTER * OUTER; i++)
-        G[i] *= largest / s->line.l0; /* energy/l0^2 times largest/(energy/l0) */
+    if (!data->prestressed) /* nobody said that it would be asked for */
+        exact_prestress_derivatives(&data->stages, own);
+    for (int k = 0; k < OUTER; k++) {
+        const double *Q = data->prestressed ? data->prestress[k] : own[k];
+        const double weight = sigma[k] / data->stages.line.l0; /* energy/l0^2 over energy/l0 */
+        for (int i = 0; i < OUTER * OUTER; i++)
+            G[i] += weight * Q[i];
+    }
 }
 
 static double update(const element_data *data, const double de[], const double memory[],

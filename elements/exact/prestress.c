@@ -12,12 +12,14 @@
 #include "elements/exact/collocated.h"
 #include "elements/math/dense.h"
 
-/* Linear response: change of all variables under sigma, and how the unknowns follow the strains, Z
- * [unknowns x 8]. */
-static void linear_state(const exact_stages *s, const double sigma[], double change[], double Z[])
+enum { OUTER = EXACT_STAGES_OUTER };
+
+/* Linear response to each stress by itself: change [n x 8] of all variables, and how the unknowns
+ * follow the strains, Z [unknowns x 8]. */
+static void linear_states(const exact_stages *s, double change[], double Z[])
 {
-    const int m = s->unknowns, n = m + EXACT_STAGES_OUTER;
-    double rest[EXACT_STAGES_UNKNOWNS] = {0}, none[EXACT_STAGES_OUTER] = {0},
+    const int m = s->unknowns, n = m + OUTER;
+    double rest[EXACT_STAGES_UNKNOWNS] = {0}, none[OUTER] = {0},
            K[EXACT_STAGES_UNKNOWNS * EXACT_STAGES_UNKNOWNS], A[EXACT_VARIABLES_BLOCKS][9],
            hessian[EXACT_STAGES_ALL * EXACT_STAGES_ALL];
     int pivot[EXACT_STAGES_ALL];
@@ -26,18 +28,19 @@ static void linear_state(const exact_stages *s, const double sigma[], double cha
     exact_variables_matrix(s->stages, A, n, hessian);
     for (int i = 0; i < m; i++) {
         memcpy(&K[i * m], &hessian[i * n], (size_t)m * sizeof *K);
-        for (int j = 0; j < EXACT_STAGES_OUTER; j++)
-            Z[i * EXACT_STAGES_OUTER + j] = -hessian[i * n + m + j];
+        for (int j = 0; j < OUTER; j++)
+            Z[i * OUTER + j] = -hessian[i * n + m + j];
     }
     dense_lu(m, K, pivot); /* the undeformed element is stable */
-    dense_lu_solve(m, EXACT_STAGES_OUTER, K, pivot, Z);
-    memset(change, 0, (size_t)n * sizeof *change);
-    memcpy(change + m, sigma, EXACT_STAGES_OUTER * sizeof *change);
+    dense_lu_solve(m, OUTER, K, pivot, Z);
+    memset(change, 0, (size_t)(n * OUTER) * sizeof *change);
+    for (int i = 0; i < OUTER; i++)
+        change[(m + i) * OUTER + i] = 1;
     if (!s->c.warping)
         for (int i = n - 2; i < n; i++)
             hessian[i * (n + 1)] = 1; /* no amplitudes */
     dense_lu(n, hessian, pivot);
-    dense_lu_solve(n, 1, hessian, pivot, change);
+    dense_lu_solve(n, OUTER, hessian, pivot, change);
 }
 
 /* At point i of the undeformed element: M times the change of (kappa, N) that goes with that of the
@@ -102,20 +105,24 @@ static void stressed_hessian(const exact_stages *s, const double change[], doubl
     exact_variables_matrix(stages, A, s->unknowns + EXACT_STAGES_OUTER, hessian);
 }
 
-void exact_prestress_stiffness(const exact_stages *s, const double sigma[], double G[])
+void exact_prestress_derivatives(const exact_stages *s, double Q[OUTER][OUTER * OUTER])
 {
-    const int m = s->unknowns, n = m + EXACT_STAGES_OUTER;
-    double change[EXACT_STAGES_ALL],
-        W[EXACT_STAGES_ALL * EXACT_STAGES_OUTER] = {0}, plus[EXACT_STAGES_ALL * EXACT_STAGES_ALL],
+    const int m = s->unknowns, n = m + OUTER;
+    double all[EXACT_STAGES_ALL * OUTER], change[EXACT_STAGES_ALL],
+        W[EXACT_STAGES_ALL * OUTER] = {0}, plus[EXACT_STAGES_ALL * EXACT_STAGES_ALL],
                              minus[EXACT_STAGES_ALL * EXACT_STAGES_ALL],
-                             work[EXACT_STAGES_ALL * EXACT_STAGES_OUTER];
-    linear_state(s, sigma, change, W);
-    for (int j = 0; j < EXACT_STAGES_OUTER; j++)
-        W[(m + j) * EXACT_STAGES_OUTER + j] = 1;
-    stressed_hessian(s, change, 1, plus);
-    stressed_hessian(s, change, -1, minus);
-    for (int i = 0; i < n * n; i++)
-        plus[i] = (plus[i] - minus[i]) / 2;
-    memset(G, 0, EXACT_STAGES_OUTER * EXACT_STAGES_OUTER * sizeof *G);
-    dense_add_congruence(n, EXACT_STAGES_OUTER, W, plus, G, work);
+                             work[EXACT_STAGES_ALL * OUTER];
+    linear_states(s, all, W);
+    for (int j = 0; j < OUTER; j++)
+        W[(m + j) * OUTER + j] = 1;
+    for (int k = 0; k < OUTER; k++) {
+        for (int i = 0; i < n; i++)
+            change[i] = all[i * OUTER + k];
+        stressed_hessian(s, change, 1, plus);
+        stressed_hessian(s, change, -1, minus);
+        for (int i = 0; i < n * n; i++)
+            plus[i] = (plus[i] - minus[i]) / 2;
+        memset(Q[k], 0, sizeof Q[k]);
+        dense_add_congruence(n, OUTER, W, plus, Q[k], work);
+    }
 }

@@ -4,8 +4,9 @@
 
 #include "elements/exact/stages.h"
 
-/* Derivative of the condensed stiffness [8 x 8] with respect to the stresses sigma [8] in the
- * undeformed geometry; dimensionless. */
-void exact_prestress_stiffness(const exact_stages *s, const double sigma[], double G[]);
+/* Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i of the undeformed
+ * geometry, in which it is linear; dimensionless. */
+void exact_prestress_derivatives(
+    const exact_stages *s, double Q[EXACT_STAGES_OUTER][EXACT_STAGES_OUTER * EXACT_STAGES_OUTER]);
 
 #endif

@@ -18,9 +18,17 @@ static double entry(int stages, double A[][9], int i, int j)
 
 void exact_variables_matrix(int stages, double A[][9], int n, double matrix[])
 {
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-            matrix[i * n + j] = entry(stages, A, i, j);
+    int row, column;
+    for (int i = 0; i < n; i++) {
+        const int I = exact_variables_block(stages, i, &row);
+        for (int j = 0; j < n; j += 3) { /* of one block; the last one has two */
+            const int J = exact_variables_block(stages, j, &column), down = I > J,
+                      at = down ? exact_blocks_at(J, I) : exact_blocks_at(I, J);
+            for (int k = 0; k < 3 && j + k < n; k++)
+                matrix[i * n + j + k] =
+                    A[at][down || (I == J && row > k) ? 3 * k + row : 3 * row + k];
+        }
+    }
 }
 
 int exact_variables_eliminate(int stages, double A[][9], double S[][9],
