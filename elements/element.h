@@ -158,6 +158,18 @@ typedef struct force_output {
                   exponential chart */
 } force_output;
 
+/* What `equations_many` fills: the mixed equations of an element, condensed (N section 4). */
+typedef struct equations_output {
+    double *J;               /* [strains x 7 nodes] de/dx */
+    double *C;               /* [strains x strains] dsigma/de [N/m] */
+    double *memory;          /* [memory] as stress gives it */
+    double *incompatibility; /* [strains] D(x) - e [m] */
+    double *sigma;           /* [strains] stress(e) + C (D(x) - e) [N] */
+    double *force;           /* [7 nodes] J^T sigma */
+    double *present;         /* [7 nodes] J^T s */
+    double *K; /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2 + J^T C J; NULL: not wanted */
+} equations_output;
+
 /* What is optional is NULL or 0 where it is left out, and then means what stands behind it. */
 typedef struct element_type {
     /* Required. */
@@ -244,6 +256,11 @@ typedef struct element_type {
     /* Optional: how many of one kind strain_many and stress_many evaluate in one go (lanes of the
      * processor): they are asked for so many. 0: as many as there are (another process). */
     int lanes;
+    /* Optional: strains, stresses and the equations that follow from them in one go, the bits of
+     * those one after the other. s[count][strains]: independent stresses. */
+    void (*equations_many)(int count, const element_data *const data[], const node_state x[],
+                           const double *const e[], const double *const inner[],
+                           const double *const s[], equations_output out[], status outcome[]);
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,

@@ -7,6 +7,43 @@
 
 #include "elements/math/real.h"
 
+enum { REAL_WIDEST = 11 };
+
+/* out[width] += sum_l c[l stride] row l of rows, row length n, in this order; sums of a width that
+ * is known where this is inlined stay in registers. */
+static inline __attribute__((always_inline)) void
+real_add_row(int count, int width, const real *c, int stride, const real *rows, int n, real *out)
+{
+    real sum[REAL_WIDEST];
+    for (int j = 0; j < width; j++)
+        sum[j] = out[j];
+    for (int l = 0; l < count; l++) {
+        const real factor = c[l * stride];
+        for (int j = 0; j < width; j++)
+            sum[j] += factor * rows[l * n + j];
+    }
+    for (int j = 0; j < width; j++)
+        out[j] = sum[j];
+}
+
+/* K(n x n) += J^T S J for columns and rows from `first` on, with J(m x n), S(m x m), in pieces of
+ * `width`, which n - first is a multiple of; SJ(m x n) is overwritten there. */
+static inline __attribute__((always_inline)) void real_add_congruence(int m, int n, int first,
+                                                                      int width, const real *J,
+                                                                      const real *S, real *SJ,
+                                                                      real *K)
+{
+    for (int j = first; j < n; j += width) {
+        for (int i = 0; i < m; i++) {
+            for (int k = 0; k < width; k++)
+                SJ[i * n + j + k] = real_of(0);
+            real_add_row(m, width, S + i * m, 1, J + j, n, SJ + i * n + j);
+        }
+        for (int i = first; i < n; i++)
+            real_add_row(m, width, J + i, n, SJ + j, n, K + i * n + j);
+    }
+}
+
 /* Cholesky A = L L^T in place (lower triangle, n x n). Returns where A is positive definite. */
 static inline real_truth real_cholesky(int n, real *A)
 {

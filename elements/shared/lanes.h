@@ -8,7 +8,7 @@
 #define BEAMWORK_LANES_H
 
 #include "elements/element.h"
-#include "elements/math/real.h"
+#include "elements/math/real_dense.h"
 
 enum { LANES_TOGETHER = 4 }; /* of element_type.lanes */
 
@@ -39,6 +39,8 @@ enum { LANES_INNER = 24, LANES_MEMORY = 600 };
 /* Sizes of a family. */
 typedef struct lanes_sizes {
     int nodes, strains, inner, memory;
+    int relative; /* 1: of two nodes, whose places enter by their difference only: J and H of the
+                     one are minus those of the other, to the bit */
 } lanes_sizes;
 
 /* Those of one kind that follow each other, at most LANES. */
@@ -78,26 +80,49 @@ typedef real_truth lanes_stress(const element_data *, const real e[], const real
     for (int lane = 0; lane < LANES; lane++)                                                       \
         to[lane] = (run) ? (of) : (unused);
 
-/* A run of one kind; lanes that are left take the last element. */
+/* The last element of a run is also in the lanes that are left. */
+static inline int lanes_of(int lane, int run)
+{
+    return lane < run ? lane : run - 1;
+}
+
+static inline __attribute__((always_inline)) void
+lanes_gather_nodes(int nodes, int run, const node_state x[], node_real at[])
+{
+    for (int k = 0; k < nodes; k++) {
+        const double *from[LANES];
+        for (int lane = 0; lane < LANES; lane++)
+            from[lane] = (const void *)&x[lanes_of(lane, run) * nodes + k];
+        lanes_gather(sizeof(node_state) / sizeof(double), from, (real *)(void *)&at[k]);
+    }
+}
+
+static inline __attribute__((always_inline)) void
+lanes_gather_arrays(int n, int run, const double *const in[], real to[])
+{
+    const double *from[LANES];
+    for (int lane = 0; lane < LANES; lane++)
+        from[lane] = in[lanes_of(lane, run)];
+    lanes_gather(n, from, to);
+}
+
+/* A run of one kind. */
 static inline __attribute__((always_inline)) void
 lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_data *data,
                  const node_state x[], strain_output out[])
 {
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
     const int columns = NODE_COORDINATES * n.nodes;
-    const double *from[LANES];
     double unused[X * X];
     node_real at[ELEMENT_MAX_NODES];
     real e[S], J[S * X], s[S], H[X * X];
-    for (int k = 0; k < n.nodes; k++) {
-        for (int lane = 0; lane < LANES; lane++)
-            from[lane] = (const void *)&x[(lane < run ? lane : run - 1) * n.nodes + k];
-        lanes_gather(sizeof(node_state) / sizeof(double), from, (real *)(void *)&at[k]);
+    lanes_gather_nodes(n.nodes, run, x, at);
+    if (out->s != NULL) {
+        const double *weights[LANES];
+        for (int lane = 0; lane < run; lane++)
+            weights[lane] = out[lane].s;
+        lanes_gather_arrays(n.strains, run, weights, s);
     }
-    for (int lane = 0; lane < LANES && out->s != NULL; lane++)
-        from[lane] = out[lane < run ? lane : run - 1].s;
-    if (out->s != NULL)
-        lanes_gather(n.strains, from, s);
     strain(data, at,
            &(strain_real){.e = out->e != NULL ? e : NULL,
                           .J = out->J != NULL ? J : NULL,
@@ -125,16 +150,11 @@ lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
                  stress_output out[], status outcome[])
 {
     enum { S = ELEMENT_MAX_STRAINS };
-    const double *from[LANES], *inner_from[LANES];
     double unused[LANES_MEMORY];
     real at[S], inside[LANES_INNER], energy, sigma[S], C[S * S], residual, memory[LANES_MEMORY];
-    for (int lane = 0; lane < LANES; lane++) {
-        from[lane] = e[lane < run ? lane : run - 1];
-        inner_from[lane] = inner[lane < run ? lane : run - 1];
-    }
-    lanes_gather(n.strains, from, at);
+    lanes_gather_arrays(n.strains, run, e, at);
     if (n.inner > 0)
-        lanes_gather(n.inner, inner_from, inside);
+        lanes_gather_arrays(n.inner, run, inner, inside);
     const real_truth good =
         stress(data, at, inside,
                &(stress_real){.energy = out->energy != NULL ? &energy : NULL,

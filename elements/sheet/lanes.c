@@ -1,12 +1,13 @@
 #define LANES 4
 #include "elements/sheet/lanes.h"
 
+#include "elements/shared/lanes_equations.h"
 #include "elements/sheet/base.h"
 #include "elements/sheet/deformation.h"
 #include "elements/sheet/inverse.h"
 #include "elements/sheet/linear.h"
 
-static const lanes_sizes sizes = {2, SHEET_STRAINS, 0, 0};
+static const lanes_sizes sizes = {.nodes = 2, .strains = SHEET_STRAINS, .relative = 1};
 
 static inline void strain(const element_data *d, const node_real x[], strain_real *out)
 {
@@ -46,4 +47,22 @@ void REAL_NAMED(sheet_lanes_third)(int count, const element_data *const data[],
                                    stress_output out[], status outcome[])
 {
     lanes_stress_many(sizes, third, STATUS_SINGULAR, count, data, e, inner, out, outcome);
+}
+
+void REAL_NAMED(sheet_lanes_second_equations)(int count, const element_data *const data[],
+                                              const node_state x[], const double *const e[],
+                                              const double *const inner[], const double *const s[],
+                                              equations_output out[], status outcome[])
+{
+    lanes_equations_many(sizes, strain, second, STATUS_OK, count, data, x, e, inner, s, out,
+                         outcome);
+}
+
+void REAL_NAMED(sheet_lanes_third_equations)(int count, const element_data *const data[],
+                                             const node_state x[], const double *const e[],
+                                             const double *const inner[], const double *const s[],
+                                             equations_output out[], status outcome[])
+{
+    lanes_equations_many(sizes, strain, third, STATUS_SINGULAR, count, data, x, e, inner, s, out,
+                         outcome);
 }

@@ -15,4 +15,11 @@ typedef void sheet_lanes_stresses(int count, const element_data *const data[],
 sheet_lanes_stresses sheet_lanes_second_plain, sheet_lanes_second_avx2;
 sheet_lanes_stresses sheet_lanes_third_plain, sheet_lanes_third_avx2;
 
+typedef void sheet_lanes_equations(int count, const element_data *const data[],
+                                   const node_state x[], const double *const e[],
+                                   const double *const inner[], const double *const s[],
+                                   equations_output out[], status outcome[]);
+sheet_lanes_equations sheet_lanes_second_equations_plain, sheet_lanes_second_equations_avx2;
+sheet_lanes_equations sheet_lanes_third_equations_plain, sheet_lanes_third_equations_avx2;
+
 #endif

@@ -27,3 +27,10 @@ void sheet_second_stress_many(int count, const element_data *const data[], const
 {
     REAL_CHOSEN(sheet_lanes_second)(count, data, e, inner, out, outcome);
 }
+
+void sheet_second_equations_many(int count, const element_data *const data[], const node_state x[],
+                                 const double *const e[], const double *const inner[],
+                                 const double *const s[], equations_output out[], status outcome[])
+{
+    REAL_CHOSEN(sheet_lanes_second_equations)(count, data, x, e, inner, s, out, outcome);
+}

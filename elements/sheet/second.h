@@ -12,10 +12,14 @@ status sheet_second_stress(const element_data *d, const double e[], const double
                            stress_output *out);
 void sheet_second_stress_many(int count, const element_data *const data[], const double *const e[],
                               const double *const inner[], stress_output out[], status outcome[]);
+void sheet_second_equations_many(int count, const element_data *const data[], const node_state x[],
+                                 const double *const e[], const double *const inner[],
+                                 const double *const s[], equations_output out[], status outcome[]);
 
 /* In an element_type. */
 #define SHEET_SECOND_TYPE                                                                          \
     SHEET_BASE_TYPE, .data_size = sheet_second_data_size, .stress = sheet_second_stress,           \
-                     .stress_many = sheet_second_stress_many
+                     .stress_many = sheet_second_stress_many,                                      \
+                     .equations_many = sheet_second_equations_many
 
 #endif

@@ -49,6 +49,13 @@ void sheet_third_stress_many(int count, const element_data *const data[], const 
     REAL_CHOSEN(sheet_lanes_third)(count, data, e, inner, out, outcome);
 }
 
+void sheet_third_equations_many(int count, const element_data *const data[], const node_state x[],
+                                const double *const e[], const double *const inner[],
+                                const double *const s[], equations_output out[], status outcome[])
+{
+    REAL_CHOSEN(sheet_lanes_third_equations)(count, data, x, e, inner, s, out, outcome);
+}
+
 /* What is left of N Eq. 52 in the arc. */
 static status set_rest(const element_request *request, sheet_inverse_data *out, fault *f)
 {

@@ -14,6 +14,9 @@ status sheet_third_stress(const element_data *d, const double e[], const double 
                           stress_output *out);
 void sheet_third_stress_many(int count, const element_data *const data[], const double *const e[],
                              const double *const inner[], stress_output out[], status outcome[]);
+void sheet_third_equations_many(int count, const element_data *const data[], const node_state x[],
+                                const double *const e[], const double *const inner[],
+                                const double *const s[], equations_output out[], status outcome[]);
 void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
 
 /* In an element_type. */
@@ -21,6 +24,6 @@ void sheet_third_geometric(const element_data *d, const double sigma[], double G
     SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
         .lacks = LACKS_SHEAR_Y, .lacks_by = "N Eq. 50", .data_size = sheet_third_data_size,        \
         .stress = sheet_third_stress, .stress_many = sheet_third_stress_many,                      \
-        .geometric = sheet_third_geometric
+        .equations_many = sheet_third_equations_many, .geometric = sheet_third_geometric
 
 #endif

@@ -47,8 +47,8 @@ static void strains_one_by_one(const model *m, const model_state *s, int count,
         ahead_strain(m, c->index, c->x,
                      &(strain_output){.e = deformed[k],
                                       .J = w.J,
-                                      .s = c->H != NULL ? of_strains(m, s->sigma, c->index) : NULL,
-                                      .H = c->H});
+                                      .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
+                                      .H = c->K});
     }
 }
 
@@ -78,8 +78,8 @@ static void strains_together(const model *m, const model_state *s, int count,
         memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
         out[k] = (strain_output){.e = deformed[k],
                                  .J = linearise_slot(m, c->index).J,
-                                 .s = c->H != NULL ? of_strains(m, s->sigma, c->index) : NULL,
-                                 .H = c->H};
+                                 .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
+                                 .H = c->K};
     }
     m->type->strain_many(count, data, x, out);
 }
@@ -105,12 +105,63 @@ static void stresses_together(const model *m, const model_state *s, int count,
         element[k].outcome = outcome[k];
 }
 
+/* Their equations, in one go. */
+static void equations_together(const model *m, const model_state *s, int count,
+                               chunk_element element[])
+{
+    const element_data *data[CHUNK_MOST];
+    const double *e[CHUNK_MOST], *inner[CHUNK_MOST], *sigma[CHUNK_MOST];
+    node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
+    equations_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        chunk_element *c = &element[k];
+        const model_slot w = linearise_slot(m, c->index);
+        data[k] = m->kind[m->element[c->index].kind].data;
+        memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
+        e[k] = of_strains(m, s->e, c->index);
+        sigma[k] = of_strains(m, s->sigma, c->index);
+        inner[k] = inner_of(m, s, c->index);
+        out[k] = (equations_output){.J = w.J,
+                                    .C = w.C,
+                                    .memory = w.memory,
+                                    .incompatibility = w.incompatibility,
+                                    .sigma = w.sigma,
+                                    .force = c->force,
+                                    .present = c->present,
+                                    .K = c->K};
+        c->complete = 1;
+    }
+    m->type->equations_many(count, data, x, e, inner, sigma, out, outcome);
+    for (int k = 0; k < count; k++)
+        element[k].outcome = outcome[k];
+}
+
+/* sigma = stress(e) + C (D(x) - e), from the strains D(x). */
+static void mix(const model *m, const model_state *s, int index, const double deformed[])
+{
+    const model_slot w = linearise_slot(m, index);
+    const double *e = of_strains(m, s->e, index);
+    double more[ELEMENT_MAX_STRAINS];
+    for (int i = 0; i < m->strains; i++)
+        w.incompatibility[i] = deformed[i] - e[i];
+    dense_mul_vec(m->strains, m->strains, w.C, w.incompatibility, more);
+    for (int i = 0; i < m->strains; i++)
+        w.sigma[i] += more[i];
+}
+
 void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[])
 {
-    double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
     const int together = count > 1 && chunk_size(m) > 1;
-    for (int k = 0; k < count; k++)
+    for (int k = 0; k < count; k++) {
         kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
+        element[k].complete = 0;
+    }
+    if (together && m->type->equations_many != NULL && !m->rotates) {
+        equations_together(m, s, count, element);
+        return;
+    }
     if (together)
         strains_together(m, s, count, element, deformed);
     else
@@ -119,13 +170,6 @@ void chunk_evaluate(const model *m, const model_state *s, int count, chunk_eleme
         stresses_together(m, s, count, element);
     else
         stresses_one_by_one(m, s, count, element);
-    for (int k = 0; k < count; k++) {
-        const model_slot w = linearise_slot(m, element[k].index);
-        const double *e = of_strains(m, s->e, element[k].index);
-        for (int i = 0; i < m->strains; i++)
-            w.incompatibility[i] = deformed[k][i] - e[i];
-        dense_mul_vec(m->strains, m->strains, w.C, w.incompatibility, more);
-        for (int i = 0; i < m->strains; i++)
-            w.sigma[i] += more[i];
-    }
+    for (int k = 0; k < count; k++)
+        mix(m, s, element[k].index, deformed[k]);
 }

@@ -18,13 +18,17 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
 
 /* One element's evaluation. */
 typedef struct chunk_element {
-    int index; /* of the element: given */
-    double *H; /* sum sigma_i H_i; NULL: not wanted: given */
+    int index;     /* of the element: given */
+    double *force; /* [7 nodes]: given */
+    double *K;     /* [7 nodes x 7 nodes] sum sigma_i H_i; NULL: not wanted: given */
     node_state x[ELEMENT_MAX_NODES];
     status outcome;
+    int complete; /* 1: force is J^T sigma of the slot, and K has J^T C J too ... */
+    double present[ELEMENT_MAX_COORDINATES]; /* ... and this is J^T sigma of the state */
 } chunk_element;
 
-/* Strains and stresses of count elements in the state, into their slots (linearise_slot) and H. */
+/* Strains and stresses of count elements in the state, into their slots (linearise_slot), and what
+ * chunk_element says. */
 void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[]);
 
 #endif

@@ -52,35 +52,45 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* Internal less centrifugal forces of an element that was evaluated and, where wanted, their
- * tangent (K has H); both in model coordinates. */
-static status element_equations(model *m, const model_state *s, const chunk_element *of,
-                                int tangent, double path, element_part *part)
+/* force and K (which has H) of an element that was evaluated, less centrifugal forces; present:
+ * conjugate to the stresses of the state, which H belongs to. */
+static status add_material(model *m, const model_state *s, const chunk_element *of, int tangent,
+                           double path, double present[], element_part *part)
 {
     const int i = of->index;
-    const mesh_element *el = &m->element[i];
     const model_slot w = linearise_slot(m, i);
+    const size_t size = (size_t)m->coordinates * sizeof *present;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
-    double present[ELEMENT_MAX_COORDINATES] = {0}; /* conjugate to sigma, which H belongs to */
-    double *force = part->force, *K = part->K;
+    memset(part->force, 0, size);
+    if (m->rotates)
+        TRY(rotating_frame_add(m, of->x, i, path, part->force, tangent ? part->K : NULL,
+                               &part->why));
+    memcpy(present, part->force, size);
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, part->force);
+    if (tangent)
+        dense_add_congruence(m->strains, m->coordinates, w.J, w.C, part->K, work);
+    if (tangent && !m->element[i].plain)
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J,
+                                &s->sigma[(size_t)i * (size_t)m->strains], present);
+    return STATUS_OK;
+}
+
+/* Internal less centrifugal forces of an element that was evaluated and, where wanted, their
+ * tangent; both in model coordinates. */
+static status element_equations(model *m, const model_state *s, chunk_element *of, int tangent,
+                                double path, element_part *part)
+{
+    const mesh_element *el = &m->element[of->index];
+    const model_slot w = linearise_slot(m, of->index);
     if (of->outcome != STATUS_OK)
         return fault_set(&part->why, of->outcome,
-                         "element %d of member %d: outside what %s can evaluate", i, el->member,
-                         m->type->name);
-    memset(force, 0, (size_t)m->coordinates * sizeof *force);
-    if (m->rotates) {
-        TRY(rotating_frame_add(m, of->x, i, path, force, tangent ? K : NULL, &part->why));
-        memcpy(present, force, (size_t)m->coordinates * sizeof *force);
-    }
-    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, force);
-    if (tangent) {
-        dense_add_congruence(m->strains, m->coordinates, w.J, w.C, K, work);
-        if (!el->plain)
-            dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J,
-                                    &s->sigma[(size_t)i * (size_t)m->strains], present);
-        eliminate_matrix(m, s, el, present, K);
-    }
-    eliminate_forces(m, s, el, force);
+                         "element %d of member %d: outside what %s can evaluate", of->index,
+                         el->member, m->type->name);
+    if (!of->complete)
+        TRY(add_material(m, s, of, tangent, path, of->present, part));
+    if (tangent)
+        eliminate_matrix(m, s, el, of->present, part->K);
+    eliminate_forces(m, s, el, part->force);
     part->incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
     return STATUS_OK;
 }
@@ -138,7 +148,8 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
         chunk_element element[CHUNK_MOST];
         for (int k = 0; k < count; k++) {
             element[k].index = index[k];
-            element[k].H = loop->tangent ? part[index[k] - first].K : NULL;
+            element[k].force = part[index[k] - first].force;
+            element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
         }
         chunk_evaluate(loop->m, loop->s, count, element);
         for (int k = 0; k < count; k++) {

@@ -148,6 +148,30 @@ static status counted_inertia(const element_data *d, const node_state x[],
     return inner->inertia(d, x, frame, out);
 }
 
+/* The same of several elements. */
+static void counted_strains(int count, const element_data *const data[], const node_state x[],
+                            strain_output out[])
+{
+    strains += count;
+    inner->strain_many(count, data, x, out);
+}
+
+static void counted_stresses(int count, const element_data *const data[], const double *const e[],
+                             const double *const own[], stress_output out[], status outcome[])
+{
+    stresses += count;
+    inner->stress_many(count, data, e, own, out, outcome);
+}
+
+static void counted_equations(int count, const element_data *const data[], const node_state x[],
+                              const double *const e[], const double *const own[],
+                              const double *const s[], equations_output out[], status outcome[])
+{
+    strains += count;
+    stresses += count;
+    inner->equations_many(count, data, x, e, own, s, out, outcome);
+}
+
 /* A real cell: the counters are what the elements count. Strains that reactions are read from
  * are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
@@ -162,6 +186,9 @@ static void actual(const char *name, int elements, const char *formulation_name,
     counted.strain = counted_strain;
     counted.stress = counted_stress;
     counted.inertia = counted_inertia;
+    counted.strain_many = inner->strain_many != NULL ? counted_strains : NULL;
+    counted.stress_many = inner->stress_many != NULL ? counted_stresses : NULL;
+    counted.equations_many = inner->equations_many != NULL ? counted_equations : NULL;
     formulation_default(inner, &chosen);
     cell_request request = {.type = case_find(name, &f),
                             .formulation = &counted,
