@@ -210,6 +210,7 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
     const sweep_request request = {.cases = own->type,
                                    .select = r->select,
                                    .jobs = r->jobs,
+                                   .share = 1,
                                    .time_limit = r->time_limit,
                                    .interruptible = 1,
                                    .doublings = r->doublings,

@@ -79,7 +79,8 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
     k->length = length;
     memcpy(k->curvature, curvature, sizeof k->curvature);
     memcpy(k->strain, member->strain, sizeof k->strain);
-    k->data = calloc(1, m->type->data_size(&request));
+    k->data_size = m->type->data_size(&request);
+    k->data = calloc(1, k->data_size);
     if (k->data == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an element");
     *out = *end = m->kinds++;

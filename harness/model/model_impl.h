@@ -60,6 +60,7 @@ typedef struct mesh_kind {
     double length, curvature[3], strain[3];
     int next; /* kind of the same section, or NONE */
     element_data *data;
+    size_t data_size; /* [bytes] */
 } mesh_kind;
 
 /* An entry of an element's matrix that a pattern stores. */

@@ -59,6 +59,8 @@ static status run(const cell_request *request, model **m, cell_result *out, faul
     const double prepared = clock_processor_seconds() - start;
     out->solve.seconds_setup = prepared;
     TRY(ready);
+    if (request->is_known != NULL && request->is_known(request->context, *m))
+        return STATUS_OK;
     const status outcome = solve_scene(s, *m, &request->solve, &out->solve, f);
     out->solve.seconds_setup += prepared;
     out->counters = *model_counters(*m);

@@ -18,6 +18,9 @@ typedef struct cell_request {
     int elements;
     int keep_all;
     int threads; /* of the loop over elements; 0, 1: one */
+    /* Is the same thing solved already? Asked once the model is made; NULL: nobody is asked. */
+    int (*is_known)(void *context, const model *);
+    void *context;
 } cell_request;
 
 typedef struct cell_result {

@@ -26,7 +26,7 @@ static double share_done(const workload *w)
     for (int i = 0; i < w->count; i++) {
         const double cost = cost_of(w->s, &w->tasks[i]);
         all += cost;
-        done += w->done[i] ? cost : 0;
+        done += w->done[i] || w->same[i] >= 0 ? cost : 0;
     }
     return all > 0 ? done / all : 0;
 }
@@ -127,7 +127,19 @@ static status run_parallel(const sweep_request *request, workload *w, crew *c, f
     for (int i = 0; i < c->jobs; i++)
         if (c->workers[i].from != NULL)
             worker_end(w, &c->workers[i]);
-    TRY(outcome);
+    worker_settle(w);
+    return outcome;
+}
+
+/* Those whose answers are another's which then had none are run by themselves. */
+static status run_rounds(const sweep_request *request, workload *w, crew *c, fault *f)
+{
+    TRY(run_parallel(request, w, c, f));
+    if (!c->interrupted && w->finished < w->count && w->known != NULL) {
+        w->known = NULL;
+        atomic_store(&w->board->next, 0);
+        TRY(run_parallel(request, w, c, f));
+    }
     if (!c->interrupted && w->finished < w->count)
         return fault_set(f, STATUS_FAULT,
                          "the worker processes ended before all cells were done (%d of %d)",
@@ -167,7 +179,7 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
         asked.descriptor = request->stop;
     crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
               .asked = asked.descriptor};
-    const status outcome = run_parallel(request, w, &c, f);
+    const status outcome = run_rounds(request, w, &c, f);
     if (c.interrupted)
         keep_finished(w->s, w);
     if (request->interruptible)
@@ -198,17 +210,24 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
                   .count = (int)count,
                   .tasks = calloc(count + 1, sizeof *w.tasks),
                   .done = calloc(count + 1, 1),
+                  .same = malloc((count + 1) * sizeof *w.same),
                   .board = b};
+    claims *known = request->share ? claims_alloc((int)count) : NULL;
     status outcome = fault_set(f, STATUS_FAULT, "out of memory for the sweep");
-    if (w.tasks != NULL && w.done != NULL && b != MAP_FAILED) {
+    w.known = known;
+    if (w.tasks != NULL && w.done != NULL && w.same != NULL && b != MAP_FAILED) {
         list_tasks(s, w.tasks);
+        for (int i = 0; i < w.count; i++)
+            w.same[i] = -1;
         s->shapes = request->shapes;
         s->unfinished = 0;
         outcome = run_all(request, &w, f);
     }
     if (b != MAP_FAILED)
         munmap(b, sizeof *b);
+    claims_free(known);
     free(w.tasks);
     free(w.done);
+    free(w.same);
     return outcome;
 }

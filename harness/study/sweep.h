@@ -59,9 +59,11 @@ typedef struct sweep {
 typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* processes, >= 1 */
-    int time_limit;     /* [s] of one cell, measured by its process and from outside; 0: none */
-    int interruptible;  /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
-    int stop;           /* likewise once this descriptor can be read; 0: none */
+    int share;      /* 1: cells that are known to have the same answers are solved once: they have
+              the same times, too */
+    int time_limit; /* [s] of one cell, measured by its process and from outside; 0: none */
+    int interruptible; /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
+    int stop;          /* likewise once this descriptor can be read; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all that there are */
     int doublings;    /* so many meshes beyond the scene's finest, each of twice the elements */
     int formulations; /* restrict to these, or 0: all */

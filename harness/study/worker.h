@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <sys/types.h>
 
+#include "harness/study/claims.h"
 #include "harness/study/sweep.h"
 
 enum { WORKERS_MOST = 64 };
@@ -28,9 +29,11 @@ typedef struct workload {
     sweep *s;
     int time_limit; /* [s] of one cell; 0: none */
     int count;
-    task *tasks;  /* [count] */
-    char *done;   /* [count] 1: the cell has its result */
-    int finished; /* of them */
+    task *tasks;   /* [count] */
+    char *done;    /* [count] 1: the cell has its result */
+    int finished;  /* of them */
+    claims *known; /* of what is solved once; NULL: every cell is solved */
+    int *same;     /* [count] task with the same answers, or -1 */
     board *board;
 } workload;
 
@@ -41,8 +44,11 @@ typedef struct worker {
 } worker;
 
 status worker_start(const workload *, int self, worker *, fault *);
-/* Takes one result: the index of its task; -1: the worker has ended. */
+/* Takes one result, or whose it is: the index of its task; -1: the worker has ended. */
 int worker_receive(workload *, worker *);
+/* Copies the results of those that are solved once. What was solved without success is left: each
+ * has its own words for it. */
+void worker_settle(workload *);
 /* A worker that ended while it had a task: that cell failed. Returns 1 when it must be replaced. */
 int worker_bury(workload *, int self, worker *);
 /* Ends it when it has been at one cell for too long and cannot do so itself; its pipe closes. */
