@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/collocated.h"
+#include "elements/exact/alone.h"
 #include "elements/exact/lanes.h"
 #include "elements/exact/prestress.h"
 #include "elements/shared/lanes.h"
@@ -68,7 +68,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    exact_strain_of(&d->stages.line, x, out);
+    REAL_CHOSEN(exact_alone_strain)(&d->stages.line, x, out);
 }
 
 static void rest(const element_data *d, double inner[])
@@ -81,9 +81,7 @@ static void rest(const element_data *d, double inner[])
 static status stress(const element_data *data, const double e[], const double inner[],
                      stress_output *out)
 {
-    status outcome;
-    exact_collocated_stress(&data->stages, 1, &e, &inner, out, &outcome);
-    return outcome;
+    return REAL_CHOSEN(exact_alone_stress)(&data->stages, e, inner, out);
 }
 
 static void strain_many(int count, const element_data *const data[], const node_state x[],

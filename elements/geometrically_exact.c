@@ -2,6 +2,7 @@
  * three nodes, reduced integration, strains at the integration points. */
 #include <string.h>
 
+#include "elements/exact/alone.h"
 #include "elements/exact/lanes.h"
 #include "elements/exact/stiffness.h"
 #include "elements/exact/strain.h"
@@ -52,7 +53,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 static void strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    exact_strain_of(&d->gauss.line, x, out);
+    REAL_CHOSEN(exact_alone_strain)(&d->gauss.line, x, out);
 }
 
 static status stress(const element_data *d, const double e[], const double inner[],

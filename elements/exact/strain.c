@@ -8,11 +8,6 @@
 #include "elements/math/arc.h"
 #include "elements/math/quadrature.h"
 
-void exact_strain_of(const exact_strain_line *line, const node_state x[], strain_output *out)
-{
-    exact_deformed_strain(line, 1, x, out);
-}
-
 /* R^T r' and measures of rotation at the points, of nodes along the arc without stress. */
 static void observe_rest(exact_strain_line *line, const double rotation_vector[3],
                          const double e[3], const double at[],

@@ -27,6 +27,4 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line);
 
-void exact_strain_of(const exact_strain_line *line, const node_state x[], strain_output *out);
-
 #endif

@@ -80,27 +80,27 @@ static void integrate(const beam_constants *c, const basis *b, int stages, const
                       double K[FUNCTIONS * FUNCTIONS])
 {
     const int n = b->bubbles + 2;
-    double at[POINTS], rest[POINTS], weight[POINTS];
+    double at[POINTS], rest[POINTS], weight[POINTS], value[POINTS][FUNCTIONS],
+        slope[POINTS][FUNCTIONS], L[POINTS][STAGES];
     memset(mean, 0, (size_t)(stages * n) * sizeof *mean);
     memset(K, 0, (size_t)(n * n) * sizeof *K);
     graded_points(fmax(b->lambda, 1), at, rest, weight);
-    for (int pass = 0; pass < 2; pass++)
-        for (int k = 0; k < POINTS; k++) {
-            double value[FUNCTIONS], slope[FUNCTIONS], L[STAGES];
-            functions_at(b, at[k], rest[k], value, slope);
-            exact_line_lagrange(stages, x, at[k], L, NULL);
-            for (int i = 0; i < stages; i++)
-                for (int j = 0; j < n; j++)
-                    if (pass == 0)
-                        mean[i * n + j] += weight[k] * L[i] / w[i] * value[j];
-                    else
-                        value[j] -= L[i] * mean[i * n + j];
-            if (pass == 1)
-                for (int i = 0; i < n; i++)
-                    for (int j = 0; j < n; j++)
-                        K[i * n + j] += weight[k] * (c->EIw * slope[i] * slope[j] +
-                                                     c->GJ * value[i] * value[j]);
-        }
+    for (int k = 0; k < POINTS; k++) {
+        functions_at(b, at[k], rest[k], value[k], slope[k]);
+        exact_line_lagrange(stages, x, at[k], L[k], NULL);
+        for (int i = 0; i < stages; i++)
+            for (int j = 0; j < n; j++)
+                mean[i * n + j] += weight[k] * L[k][i] / w[i] * value[k][j];
+    }
+    for (int k = 0; k < POINTS; k++) {
+        for (int i = 0; i < stages; i++)
+            for (int j = 0; j < n; j++)
+                value[k][j] -= L[k][i] * mean[i * n + j];
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                K[i * n + j] += weight[k] * (c->EIw * slope[k][i] * slope[k][j] +
+                                             c->GJ * value[k][i] * value[k][j]);
+    }
 }
 
 void exact_warping_energy(const beam_constants *c, int stages, const double x[], const double w[],
