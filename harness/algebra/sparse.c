@@ -25,6 +25,13 @@ void sparse_zero(sparse *a)
     memset(a->value, 0, (size_t)a->column[a->n] * sizeof *a->value);
 }
 
+void sparse_copy_leading(const sparse *whole, sparse *leading)
+{
+    for (int j = 0; j < leading->n; j++)
+        memcpy(&leading->value[leading->column[j]], &whole->value[whole->column[j]],
+               (size_t)(leading->column[j + 1] - leading->column[j]) * sizeof *leading->value);
+}
+
 /* The upper triangle stands for both; its diagonal entry, where there is one, ends the column. */
 static void mul_symmetric(const sparse *a, const double x[], double y[])
 {

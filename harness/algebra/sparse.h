@@ -19,6 +19,8 @@ typedef struct sparse {
 status sparse_alloc_like(const sparse *pattern, sparse *out, fault *f);
 void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
+/* The first rows and columns of `whole`, whose others are the last in each of them. */
+void sparse_copy_leading(const sparse *whole, sparse *leading);
 void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
 
 typedef struct factor factor;

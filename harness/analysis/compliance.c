@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "harness/analysis/extract_path.h"
 #include "harness/equations/linearise.h"
@@ -33,28 +34,54 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* C and K [6 x 6]; columns of C that nothing asks for, and with them K, are not numbers. */
-static status compliance_at(analysis_context *c, const scene_compliance *what, const model_state *s,
-                            tangent *t, unsigned wanted, double C[36], double K[36], fault *f)
+/* What is prescribed at the node exerts on it: force and moment [6]. */
+static void reaction_of(const analysis_context *c, const scene_compliance *what,
+                        const model_state *s, double reaction[6])
 {
-    double reaction[6], load[6];
-    movable motions;
+    double load[6];
     linearise_node_force(c->model, s, what->node, reaction);
     loads_at_node(c->model, s, what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
-    TRY(tangent_at(c, what, s, reaction, t, f));
+}
+
+/* From the tangent about the node; columns of C that nothing asks for, and with them K, are not
+ * numbers. */
+static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
+                          tangent *t, unsigned wanted, station_matrices *out, fault *f)
+{
+    movable motions;
     tangent_movable(c->model, t, &motions);
     tangent_prescribed(t, reaction + 3);
     const unsigned turns = motions.components & 0x38, held = 0x3f & ~motions.components;
     if (turns && convention_changes(what->moments, reaction + 3))
         wanted = 0x3f;
-    TRY(tangent_compliance(c, t, wanted, motions.components, C, f));
+    TRY(tangent_compliance(c, t, wanted, motions.components, out->C, f));
     if (motions.count > 0 && (wanted | held) == 0x3f)
-        return convention_apply(what->moments, &motions, reaction + 3, C, K, f);
-    forget_columns(wanted | held, C);
-    forget_columns(0, K);
+        return convention_apply(what->moments, &motions, reaction + 3, out->C, out->K, f);
+    forget_columns(wanted | held, out->C);
+    forget_columns(0, out->K);
     return STATUS_OK;
+}
+
+static status compliance_at(analysis_context *c, const scene_compliance *what, const model_state *s,
+                            tangent *t, unsigned wanted, station_matrices *out, fault *f)
+{
+    double reaction[6];
+    reaction_of(c, what, s, reaction);
+    TRY(tangent_at(c, what, s, reaction, t, f));
+    return matrices_of(c, what, reaction, t, wanted, out, f);
+}
+
+status compliance_take(analysis_context *c, int analysis, const newton *n, tangent *t,
+                       station_matrices *out, fault *f)
+{
+    const scene_compliance *what = scene_compliance_of(&c->scene->analysis[analysis]);
+    double reaction[6];
+    reaction_of(c, what, n->state, reaction);
+    TRY(tangent_take(c, what, n->state, reaction, t->border.count > 0 ? &n->whole : &n->K, &n->K,
+                     n->factor, t, f));
+    return matrices_of(c, what, reaction, t, wanted_columns(c, analysis), out, f);
 }
 
 static status matrices_alloc(solve_result *r, const scene_compliance *what, int stations,
@@ -74,12 +101,10 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
-/* Is the compliance of a station wanted? A matrix that is not stays zero. */
-static int is_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
-                        int station)
+int compliance_wanted_at(const analysis_context *c, int analysis, int stations, const double path[],
+                         int station)
 {
-    return !c->options->values_only || path == NULL ||
-           extract_path_asks(c, analysis, path->stations, path->value, station);
+    return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
 }
 
 /* With what compliance_analysis frees; at the stations that the path has reached. */
@@ -103,9 +128,13 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     for (int i = 0; i < reached; i++) {
         const model_state *s = path != NULL ? path->state[i] : kinematics_rest(c->model);
-        if (is_wanted_at(c, analysis, path, i))
-            TRY(compliance_at(c, what, s, t, wanted, m->compliance + 36 * (size_t)i,
-                              m->stiffness + 36 * (size_t)i, f));
+        station_matrices at = {0};
+        if (out->taken != NULL && out->taken[i].known)
+            at = out->taken[i];
+        else if (path == NULL || compliance_wanted_at(c, analysis, path->stations, path->value, i))
+            TRY(compliance_at(c, what, s, t, wanted, &at, f));
+        memcpy(m->compliance + 36 * (size_t)i, at.C, sizeof at.C);
+        memcpy(m->stiffness + 36 * (size_t)i, at.K, sizeof at.K);
         o->value[i] = m->path[i] = path != NULL ? path->value[i] : 0;
         m->stations = ++o->reached;
     }

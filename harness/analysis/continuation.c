@@ -81,7 +81,7 @@ static status try_step(continuation *p, path_goal goal, double station, int last
 {
     kinematics_state_copy(p->c->model, p->n.state, p->n.backup);
     TRY(continuation_step_correct(p, goal, &t->record, f));
-    TRY(continuation_step_look(p, p->moved, &p->next, &t->record, f));
+    TRY(continuation_step_end(p, &p->next, &t->record, f));
     if (goal.by_arc && (p->here.control < station) != (p->next.control < station)) {
         continuation_step_go_back(p);
         history_drop_step(p->c->result, &t->record);

@@ -3,8 +3,9 @@
  * The load factor is one more unknown and one coordinate, or the arc, is given instead:
  *   K dx = r + f' dl,  g . dx = c,  hence dx = K^-1 r + dl K^-1 f',
  *   dl = (c - g . K^-1 r)/(g . K^-1 f').
- * K is factored at every point that was found, which gives the tangent of the path, the first
- * direction of the next step and, where K is symmetric, the number of its negative eigenvalues. */
+ * K as it was factored last on the way to a point gives the tangent of the path there, the first
+ * direction of the next step and, where K is symmetric, the number of its negative eigenvalues: the
+ * last correction is at most the criterion, and so is, but for a factor, what K has changed by. */
 #ifndef BEAMWORK_CONTINUATION_IMPL_H
 #define BEAMWORK_CONTINUATION_IMPL_H
 
@@ -55,6 +56,9 @@ status continuation_step_correct(continuation *, path_goal, step_record *, fault
  * driven] (NULL: to a larger load). */
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
                               fault *);
+/* After a correction that has converged: the point from the last factors, which belong to a state
+ * that is away by the last correction; nothing is left to correct. */
+status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
 /* The state goes back to that of `here`. */
 void continuation_step_go_back(continuation *);
 

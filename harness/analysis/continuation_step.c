@@ -5,6 +5,7 @@
 
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
+#include "harness/equations/advance.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
@@ -129,11 +130,10 @@ status continuation_step_correct(continuation *p, path_goal goal, step_record *r
     return STATUS_OK;
 }
 
-status continuation_step_look(continuation *p, const double along[], path_point *out,
-                              step_record *record, fault *f)
+/* The point from response = K^-1 f'. */
+static status point_of(continuation *p, const double along[], path_point *out,
+                       const step_record *record, fault *f)
 {
-    p->looked = 0;
-    TRY(directions(p, record, f));
     const double length = sqrt(continuation_step_dot(p, p->response, p->response));
     if (!(length > 0) || !isfinite(length))
         return fault_set(f, STATUS_SINGULAR, "the loads move nothing");
@@ -147,6 +147,22 @@ status continuation_step_look(continuation *p, const double along[], path_point 
     out->determinant = factor_count(p->n.factor).determinant;
     p->looked = 1;
     return STATUS_OK;
+}
+
+status continuation_step_look(continuation *p, const double along[], path_point *out,
+                              step_record *record, fault *f)
+{
+    p->looked = 0;
+    TRY(directions(p, record, f));
+    return point_of(p, along, out, record, f);
+}
+
+status continuation_step_end(continuation *p, path_point *out, const step_record *record, fault *f)
+{
+    memset(p->n.dx, 0, (size_t)p->n.all * sizeof *p->n.dx);
+    memset(p->n.residual, 0, (size_t)p->n.all * sizeof *p->n.residual);
+    advance_settle(p->c->model, p->n.state);
+    return point_of(p, p->moved, out, record, f);
 }
 
 void continuation_step_go_back(continuation *p)

@@ -102,6 +102,7 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
 /* Stable states on the way, the last ones first. */
 typedef struct search {
     newton n;
+    predictor guess; /* of the next state, from the stable ones since the last that was not */
     model_state *stable;
     sparse scale; /* diagonal of the first K */
     double begin, shift, p[POINTS],
@@ -117,6 +118,10 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
     TRY(start(c, analysis, "critical loads", &s->n, f));
     TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
     TRY(kinematics_state_alloc(c->model, &s->stable, f));
+    TRY(predictor_alloc(c->model, &s->guess, f));
+    predictor_forget(&s->guess);
+    TRY(predictor_add(c->model, s->n.state, 0, &s->guess, f));
+    s->n.predictor = &s->guess;
     s->begin = kinematics_state_path(s->n.state);
     sparse_zero(&s->scale);
     for (int j = 0; j < s->scale.n; j++)
@@ -129,6 +134,7 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
 static void search_free(search *s)
 {
     newton_free(&s->n);
+    predictor_free(&s->guess);
     kinematics_state_free(s->stable);
     sparse_free_values(&s->scale);
     eigen_free(&s->found);
@@ -164,19 +170,21 @@ static status tangent_at_path(search *s, double path, fault *f)
     double increment = path - s->p[0];
     kinematics_state_copy(s->n.c->model, s->stable, s->n.state);
     TRY(static_walk(&s->n, path, &increment, f));
-    return newton_direction(&s->n, path, &unused, f);
+    return arrival_tangent_stands(&s->n.arrival) ? STATUS_OK
+                                                 : newton_direction(&s->n, path, &unused, f);
 }
 
 /* The structure at `path`; *stable: it was stable there and has been taken. */
 static status go_to(search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
-    *stable = 0;
-    if (outcome == STATUS_SINGULAR) /* at the critical point */
-        return STATUS_OK;
-    TRY(outcome);
-    *stable = factor_count(s->n.factor).negative_pivots == 0;
-    return *stable ? take_state(s, f) : STATUS_OK;
+    *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
+    if (outcome != STATUS_OK && outcome != STATUS_SINGULAR) /* singular: at the critical point */
+        return outcome;
+    if (*stable)
+        return take_state(s, f);
+    predictor_forget(&s->guess);
+    return predictor_add(s->n.c->model, s->stable, 0, &s->guess, f);
 }
 
 /* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not

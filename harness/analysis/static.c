@@ -1,6 +1,7 @@
 /* Nonlinear equilibrium along a path, with steps that adapt. */
 #include "harness/analysis/static.h"
 
+#include "harness/analysis/compliance_walk.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
@@ -30,7 +31,7 @@ status static_walk(newton *n, double target, double *increment, fault *f)
                                          ? record.negative_pivots
                                          : count->negative_pivots;
             if (n->predictor != NULL)
-                predictor_add(n->c->model, n->state, record.iterations, n->predictor);
+                TRY(predictor_add(n->c->model, n->state, record.iterations, n->predictor, f));
             if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
                 *increment *= 2;
             rejected = 0;
@@ -63,7 +64,8 @@ static status sample(newton *n, double path, fault *f)
 }
 
 /* Steps to every station, whose states are kept. */
-static status walk(newton *n, const scene_walk *a, outcome_path *o, fault *f)
+static status walk(newton *n, const scene_walk *a, compliance_walk *on_the_way, outcome_path *o,
+                   fault *f)
 {
     analysis_context *c = n->c;
     const int between =
@@ -76,27 +78,33 @@ static status walk(newton *n, const scene_walk *a, outcome_path *o, fault *f)
         if (c->options->newton != SOLVE_DENSE)
             context_count_condition(c, n->factor, &n->K);
         TRY(outcome_keep(o, c->model, n->state, a->path.value[i], f));
+        TRY(compliance_walk_take(on_the_way, n, i, f));
     }
     return STATUS_OK;
 }
 
 /* With what static_analysis frees. */
-static status solve(analysis_context *c, const scene_walk *a, newton *n, predictor *t,
-                    outcome_path *o, fault *f)
+static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
+                    compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
+    const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
     TRY(newton_alloc(c, n, f));
     TRY(predictor_alloc(c->model, t, f));
     n->predictor = t;
     TRY(outcome_stations(o, a->path.stations, f));
-    return c->options->sample > 0 ? sample(n, a->path.value[0], f) : walk(n, a, o, f);
+    if (c->options->sample > 0)
+        return sample(n, a->path.value[0], f);
+    TRY(compliance_walk_begin(n, analysis, on_the_way, f));
+    return walk(n, a, *on_the_way, o, f);
 }
 
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     newton n;
     predictor t = {0};
-    const status result =
-        solve(c, scene_walk_of(&c->scene->analysis[analysis]), &n, &t, outcome_walk(o), f);
+    compliance_walk *on_the_way = NULL;
+    const status result = solve(c, analysis, &n, &t, &on_the_way, outcome_walk(o), f);
+    compliance_walk_end(on_the_way);
     predictor_free(&t);
     newton_free(&n);
     return result;

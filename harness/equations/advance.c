@@ -1,6 +1,7 @@
 #include "harness/equations/advance.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
@@ -9,7 +10,8 @@
 #include "harness/model/release.h"
 
 /* Strains, stresses and inner unknowns of one element. */
-static double advance_element(model *m, model_state *s, int i, const double dx[])
+static double advance_element(model *m, model_state *s, int i, const double dx[],
+                              advance_stress *stress)
 {
     const mesh_element *el = &m->element[i];
     model_slot w = linearise_slot(m, i);
@@ -20,7 +22,10 @@ static double advance_element(model *m, model_state *s, int i, const double dx[]
     dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
     dense_mul_vec(m->strains, m->strains, w.C, de, more);
     for (int k = 0; k < m->strains; k++) {
-        sigma[k] = w.sigma[k] + more[k];
+        const double next = w.sigma[k] + more[k];
+        stress->change = fmax(stress->change, fabs(next - sigma[k]));
+        stress->largest = fmax(stress->largest, fabs(next));
+        sigma[k] = next;
         de[k] += w.incompatibility[k];
         e[k] += de[k];
     }
@@ -49,11 +54,15 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     return largest;
 }
 
-double advance_state(model *m, model_state *s, const double dx[], double path)
+double advance_state(model *m, model_state *s, const double dx[], double path,
+                     advance_stress *stress)
 {
     double largest = 0;
+    advance_stress of_elements = {0, 0};
     for (int i = 0; i < m->elements; i++)
-        largest = fmax(largest, advance_element(m, s, i, dx));
+        largest = fmax(largest, advance_element(m, s, i, dx, &of_elements));
+    if (stress != NULL)
+        *stress = of_elements;
     phases_lap(&m->phases, PHASE_ELEMENTS);
     for (int i = 0; i < m->vertices; i++)
         if (m->vertex[i].body == i)
@@ -72,4 +81,14 @@ double advance_state(model *m, model_state *s, const double dx[], double path)
     kinematics_follow(m, s);
     s->path = path;
     return largest;
+}
+
+void advance_settle(model *m, const model_state *s)
+{
+    const size_t n = (size_t)m->strains;
+    for (int i = 0; i < m->elements; i++) {
+        const model_slot w = linearise_slot(m, i);
+        memcpy(w.sigma, &s->sigma[(size_t)i * n], n * sizeof *w.sigma);
+        memset(w.incompatibility, 0, n * sizeof *w.incompatibility);
+    }
 }

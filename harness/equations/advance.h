@@ -4,10 +4,18 @@
 
 #include "harness/model/model.h"
 
+/* Of all elements [N]. */
+typedef struct advance_stress {
+    double largest, change; /* after it; by it */
+} advance_stress;
+
 /* After linearise_state and K dx = residual: strains, stresses, inner unknowns of every element and
  * then the frames take their increments. dx[free + driven]. Returns the largest correction,
  * dimensionless: translations by the size of the scene, rotations in rad, warping by the element
- * length, inner unknowns as the element says. */
-double advance_state(model *, model_state *, const double dx[], double path);
+ * length, inner unknowns as the element says. stress: NULL where nobody asks. */
+double advance_state(model *, model_state *, const double dx[], double path, advance_stress *);
+/* The state is in equilibrium: the next increments start from it with the tangent of the last
+ * linearisation, and nothing that this had left open is closed again. */
+void advance_settle(model *, const model_state *);
 
 #endif

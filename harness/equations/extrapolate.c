@@ -10,8 +10,8 @@
 #include "harness/model/release.h"
 
 /* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
- * relative to its own step. */
-static const double far = 1.5, bent = 0.25;
+ * relative to the longest of its own steps. */
+static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
 /* Weights of the states in the polynomial through them, at `path`. */
 static void lagrange(int count, const model_state *const at[], double path, double weight[])
@@ -29,30 +29,41 @@ static void lagrange(int count, const model_state *const at[], double path, doub
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
-    return fabs(dense_dot(count, weight, value) - value[count]) <=
-           bent * fabs(value[count] - value[count - 1]) + rounding;
+    double step = 0;
+    for (int i = 0; i < count; i++)
+        step = fmax(step, fabs(value[i + 1] - value[i]));
+    return fabs(dense_dot(count, weight, value) - value[count]) <= bent * step + rounding;
+}
+
+/* Guesses from the last k = 2 ... most of states at[most], for one at `path`. */
+typedef struct guesses {
+    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: there is one */
+    double weight[MODEL_EXTRAPOLATED + 1][MODEL_EXTRAPOLATED];
+} guesses;
+
+static void keep_continuing(const double value[], guesses *g)
+{
+    for (int k = 2; k <= g->most; k++)
+        g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
 }
 
 /* Drivers and loads at the states' paths and at the next one. */
-static int smooth(const model *m, int count, const model_state *const at[], double path,
-                  const double weight[])
+static void keep_smooth(const model *m, const model_state *const at[], double path, guesses *g)
 {
     double value[MODEL_EXTRAPOLATED + 1];
-    int good = 1;
     for (int d = 0; d < m->scene->drivers; d++) {
         const scene_driver *driver = &m->scene->driver[d];
         if (driver->value == NULL)
             continue;
-        for (int i = 0; i <= count; i++)
-            value[i] = loads_driver_value(driver, i < count ? at[i]->path : path);
-        good &= continues(count, weight, value);
+        for (int i = 0; i <= g->most; i++)
+            value[i] = loads_driver_value(driver, i < g->most ? at[i]->path : path);
+        keep_continuing(value, g);
     }
     for (int l = 0; l < m->scene->loads; l++) {
-        for (int i = 0; i <= count; i++)
-            value[i] = loads_factor(&m->scene->load[l], i < count ? at[i]->path : path);
-        good &= continues(count, weight, value);
+        for (int i = 0; i <= g->most; i++)
+            value[i] = loads_factor(&m->scene->load[l], i < g->most ? at[i]->path : path);
+        keep_continuing(value, g);
     }
-    return good;
 }
 
 /* Prescribed components of a spatial increment are those of their drivers: only so do they and the
@@ -97,15 +108,18 @@ static int turns_by_itself(const model *m, int vertex)
                      : m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
 }
 
-/* Weights of the states for a guess at `path`; 0: there is none. */
-static int weigh(const model *m, int count, const model_state *const at[], double path,
-                 double weight[])
+/* From `least` to `most` states. */
+static void weigh(const model *m, int least, int most, const model_state *const at[], double path,
+                  guesses *g)
 {
-    const double step = path - at[count - 1]->path;
-    if (count < 2 || !(step <= far * (at[count - 1]->path - at[count - 2]->path)))
-        return 0;
-    lagrange(count, at, path, weight);
-    return smooth(m, count, at, path, weight);
+    g->most = most;
+    for (int k = 2; k <= most; k++) {
+        const double step = path - at[most - 1]->path;
+        g->good[k] = k >= least && step <= far * (at[most - 1]->path - at[most - 2]->path);
+        if (g->good[k])
+            lagrange(k, at + most - k, path, g->weight[k]);
+    }
+    keep_smooth(m, at, path, g);
 }
 
 static double largest_error(int count, const double weight[], const model_state *const at[],
@@ -122,22 +136,30 @@ static double largest_error(int count, const double weight[], const model_state 
     return largest;
 }
 
-double extrapolate_error(const model *m, int count, const model_state *const at[])
+void extrapolate_errors(const model *m, int most, const model_state *const at[], double error[])
 {
-    double weight[MODEL_EXTRAPOLATED];
-    weight[0] = 1;
-    if (count > 1 && !weigh(m, count, at, at[count]->path, weight))
-        return INFINITY;
-    return fmax(
-        largest_error(count, weight, at, at[0]->u, 3 * (size_t)m->vertices),
-        largest_error(count, weight, at, at[0]->e, (size_t)m->elements * (size_t)m->strains));
+    guesses g;
+    weigh(m, 2, most, at, at[most]->path, &g);
+    g.good[1] = 1;
+    g.weight[1][0] = 1;
+    for (int k = 1; k <= most; k++) {
+        const model_state *const *last = at + most - k;
+        error[k] = INFINITY;
+        if (g.good[k])
+            error[k] =
+                fmax(largest_error(k, g.weight[k], last, last[0]->u, 3 * (size_t)m->vertices),
+                     largest_error(k, g.weight[k], last, last[0]->e,
+                                   (size_t)m->elements * (size_t)m->strains));
+    }
 }
 
 int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
                       model_state *out)
 {
-    double weight[MODEL_EXTRAPOLATED];
-    if (!weigh(m, count, at, path, weight))
+    guesses g;
+    const double *weight = g.weight[count];
+    weigh(m, count, count, at, path, &g);
+    if (!g.good[count])
         return 0;
     for (size_t k = 0; k < out->size; k++) {
         double sum = 0;

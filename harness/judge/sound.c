@@ -3,8 +3,10 @@
 #include <stdio.h>
 
 /* Largest last correction of a step that counts as converged: the next one would be of the size
- * of its square. */
-static const double promised_correction = 1e-8;
+ * of its square; a larger one, up to the second, is the last where the one after it is predicted
+ * and negligible. */
+static const double promised_correction = 1e-8, largest_correction = 1e-6,
+                    negligible_correction = 1e-14;
 
 static int iterations_of_steps(const solve_result *r)
 {
@@ -27,7 +29,9 @@ static long rejected_before_steps(const solve_result *r)
 static int unfinished_step(const solve_result *r)
 {
     for (int i = 0; i < r->steps; i++)
-        if (!(r->step[i].correction <= promised_correction))
+        if (!(r->step[i].correction <= promised_correction) &&
+            !(r->step[i].correction <= largest_correction &&
+              r->step[i].remaining <= negligible_correction))
             return i;
     return -1;
 }
@@ -42,18 +46,27 @@ static int is_plain(const cell_result *cell, const scene *s, solve_newton newton
     return newton == SOLVE_MIXED && cell->counters.rejected_steps == 0;
 }
 
+/* A continuation begins each step with the tangent that the one before it ended with. */
+static long most_reused(const cell_result *cell, const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_CONTINUATION)
+            return cell->counters.steps;
+    return 0;
+}
+
 /* The first count that is less than the iterations need, or in a plain cell another one; NULL:
  * none. */
-static const char *wrong_count(const cell_result *cell, int plain)
+static const char *wrong_count(const cell_result *cell, long reused, int plain)
 {
     const counters *c = &cell->counters;
-    const long evaluations = c->iterations * cell->size.elements;
+    const long linearised = c->iterations - reused, evaluations = linearised * cell->size.elements;
     const struct {
         const char *name;
         long counted, needed;
     } row[] = {{"strain evaluations", c->strain_evaluations, evaluations},
                {"stress evaluations", c->stress_evaluations, evaluations},
-               {"factorisations", c->factorisations, c->iterations}};
+               {"factorisations", c->factorisations, linearised}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
         if (row[i].counted < row[i].needed || (plain && row[i].counted != row[i].needed))
             return row[i].name;
@@ -68,7 +81,7 @@ int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, cha
         return 1;
     const int iterations = iterations_of_steps(r), early = unfinished_step(r);
     const long rejected = rejected_before_steps(r);
-    const char *count = wrong_count(cell, is_plain(cell, s, newton));
+    const char *count = wrong_count(cell, most_reused(cell, s), is_plain(cell, s, newton));
     if (c->steps != r->steps)
         snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
     else if (c->rejected_steps != rejected)
@@ -78,8 +91,8 @@ int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, cha
         snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations,
                  r->iterations, c->iterations);
     else if (early >= 0)
-        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, not below %.0e", early,
-                 r->step[early].correction, promised_correction);
+        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, before one of %.1e",
+                 early, r->step[early].correction, r->step[early].remaining);
     else if (count != NULL)
         snprintf(why, FAULT_TEXT, "its %s do not fit %ld iterations with %d elements", count,
                  c->iterations, cell->size.elements);

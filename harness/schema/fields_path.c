@@ -106,6 +106,7 @@ static const schema_field fields_of_step[] = {
     {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
     {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
+    {"remaining", "1", FIELD_DOUBLE, "what another one would change, predicted", STEP(remaining)},
     {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", STEP(incompatibility)},
     {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", STEP(energy)},
     {0}};

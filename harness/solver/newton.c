@@ -22,8 +22,6 @@
 #include "harness/solver/singular.h"
 
 enum { MAX_ITERATIONS = 30 };
-/* Largest correction, dimensionless: the next one would be its square. */
-static const double default_criterion = 1e-8;
 
 static status allocate(newton *n, fault *f)
 {
@@ -52,12 +50,21 @@ status newton_alloc(analysis_context *c, newton *n, fault *f)
     n->c = c;
     n->free = size.free;
     n->all = size.free + size.driven;
-    n->criterion = c->options->criterion > 0 ? c->options->criterion : default_criterion;
+    arrival_start(c->options->criterion, &n->arrival);
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     const status outcome = allocate(n, f);
     c->setup += clock_processor_seconds() - start;
     return outcome;
+}
+
+status newton_keep_driven(newton *n, fault *f)
+{
+    const sparse *pattern;
+    if (n->whole.value != NULL)
+        return STATUS_OK;
+    TRY(assemble_pattern(n->c->model, 1, &pattern, f));
+    return sparse_alloc_like(pattern, &n->whole, f);
 }
 
 void newton_free(newton *n)
@@ -70,6 +77,7 @@ void newton_free(newton *n)
     free(n->unknown);
     free(n->pivot);
     sparse_free_values(&n->K);
+    sparse_free_values(&n->whole);
     factor_free(n->factor);
     kinematics_state_free(n->state);
     kinematics_state_free(n->backup);
@@ -124,7 +132,11 @@ static status meet_conditions(newton *n, int count, const model_condition condit
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
     phases *p = model_phases(n->c->model);
+    if (n->whole.value != NULL)
+        lin->K = &n->whole;
     TRY(linearise_state(n->c->model, n->state, lin, f));
+    if (n->whole.value != NULL)
+        sparse_copy_leading(&n->whole, &n->K);
     const status factored = context_factor(n->c, n->factor, &n->K, f);
     phases_lap(p, PHASE_FACTORISATION);
     TRY(factored);
@@ -217,12 +229,15 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 
 status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
 {
+    advance_stress stress;
     phases_start(model_phases(n->c->model));
-    *correction = advance_state(n->c->model, n->state, n->dx, path);
+    *correction = advance_state(n->c->model, n->state, n->dx, path, &stress);
     phases_stop(model_phases(n->c->model));
     model_counters(n->c->model)->iterations++;
+    arrival_take(*correction, &stress, record->iterations == 0, &n->arrival);
     const iteration_record one = {.correction = *correction,
                                   .incompatibility = record->incompatibility};
+    record->remaining = n->arrival.remaining;
     TRY(history_add_iteration(n->c->result, record, &one, n->energy, f));
     return isfinite(*correction)
                ? STATUS_OK
@@ -248,7 +263,7 @@ status newton_judge(const newton *n, newton_watch *w, double path, double correc
                     fault *f)
 {
     const double wild = 4; /* a correction of several radians or lengths leads nowhere */
-    *done = correction <= n->criterion;
+    *done = arrival_reached(&n->arrival);
     if (*done)
         return judge_turns(n, path, f);
     w->growing = correction > w->last && w->iteration > 1 ? w->growing + 1 : 0;

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "harness/solver/arrival.h"
 #include "harness/solver/context.h"
 #include "harness/solver/predictor.h"
 
@@ -13,20 +14,24 @@ typedef struct newton {
     model_state *state, *backup;
     predictor *predictor; /* NULL: every step begins at the last state */
     sparse K;
+    sparse whole; /* with the driven coordinates; no values: not asked for */
     factor *factor;
     double *residual, *dx;   /* [free + driven] */
     double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
     int *pivot;
     double *column; /* [conditions x (free + driven)] */
     double
-        *weight; /* [free + driven] of metric_of: what makes displacements and turns comparable */
-    double criterion, energy; /* energy: |r . K^-1 r| of the last residual r [J]; NAN: not known */
+        *weight;   /* [free + driven] of metric_of: what makes displacements and turns comparable */
+    double energy; /* |r . K^-1 r| of the last residual r [J]; NAN: not known */
+    arrival arrival;
     int max_iterations, free, all;
     long counted; /* factorisations that are in the model's counters */
 } newton;
 
 status newton_alloc(analysis_context *, newton *, fault *);
 void newton_free(newton *);
+/* From here on K is known of the driven coordinates too. */
+status newton_keep_driven(newton *, fault *);
 
 /* K, its factors and dx = K^-1 residual in the present state for the loads and drivers at `path`;
  * drivers are in dx. */

@@ -129,6 +129,7 @@ void outcome_free(analysis_outcome *o)
         free_side(&o->left.spectrum.negative);
         break;
     case SCENE_COMPLIANCE:
+        free(o->left.compliance.taken);
         free_path(&o->left.compliance.path);
         break;
     case SCENE_CONTINUATION:

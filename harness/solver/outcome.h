@@ -36,11 +36,18 @@ typedef struct outcome_path {
     model_state **state;   /* [stations]; NULL: of a compliance */
 } outcome_path;
 
+/* Of a node at one station, [6 x 6] both. */
+typedef struct station_matrices {
+    int known;
+    double C[36], K[36];
+} station_matrices;
+
 typedef struct outcome_compliance {
     outcome_path path;
     /* of the six components at the node, at every station [stations x 36]; rows of held components
      * are zero, columns that nothing asks for NAN; belongs to the result */
     const double *matrix;
+    station_matrices *taken; /* [stations] on the way along the path; NULL: none */
 } outcome_compliance;
 
 typedef struct outcome_rotation {

@@ -19,10 +19,8 @@ static const model_state *const *last(const predictor *t, int count, int k)
 status predictor_alloc(const model *m, predictor *t, fault *f)
 {
     *t = (predictor){0};
-    for (int i = 0; i <= MODEL_EXTRAPOLATED; i++)
-        TRY(kinematics_state_alloc(m, &t->at[i], f));
     t->count = 1; /* the undeformed state */
-    return STATUS_OK;
+    return kinematics_state_alloc(m, &t->at[0], f);
 }
 
 void predictor_free(predictor *t)
@@ -36,7 +34,7 @@ void predictor_forget(predictor *t)
     t->count = 0;
 }
 
-void predictor_add(const model *m, const model_state *s, int iterations, predictor *t)
+status predictor_add(const model *m, const model_state *s, int iterations, predictor *t, fault *f)
 {
     t->iterations = iterations;
     if (t->count == MODEL_EXTRAPOLATED + 1) {
@@ -45,10 +43,14 @@ void predictor_add(const model *m, const model_state *s, int iterations, predict
             t->at[i - 1] = t->at[i];
         t->at[--t->count] = oldest;
     }
+    if (t->at[t->count] == NULL)
+        TRY(kinematics_state_alloc(m, &t->at[t->count], f));
     kinematics_state_copy(m, s, t->at[t->count]);
     for (int k = 1; k <= MODEL_EXTRAPOLATED; k++)
-        t->error[k] = k <= t->count ? extrapolate_error(m, k, last(t, t->count, k)) : INFINITY;
+        t->error[k] = INFINITY;
+    extrapolate_errors(m, t->count, last(t, t->count, t->count), t->error);
     t->count++;
+    return STATUS_OK;
 }
 
 /* From as many states as would have guessed the last one best; from one more where the error still

@@ -60,8 +60,10 @@ typedef struct step_record {
     int iterations, rejected,
         negative_pivots; /* rejected: tries of longer steps that failed before this one */
     double residual, correction, incompatibility; /* of the last iteration */
-    int first;                                    /* of its iterations in solve_result.iteration */
-    double energy;                                /* r . K^-1 r of the first one [J] */
+    double remaining; /* what the next one would have changed, as the contraction so far predicts;
+                         NAN: not known */
+    int first;        /* of its iterations in solve_result.iteration */
+    double energy;    /* r . K^-1 r of the first one [J] */
 } step_record;
 
 /* Compliance and stiffness [6 x 6] (ux uy uz thx thy thz by Fx Fy Fz Mx My Mz; SI) of a node at

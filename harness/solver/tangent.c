@@ -22,14 +22,11 @@
 /* Solutions are refined where round-off would leave less than eight digits. */
 static const double harmless_condition = 1e8;
 
-/* The free block: the first columns of the whole, whose driven rows come last. */
+/* The free block out of the whole. */
 static void copy_inside(tangent *t)
 {
-    if (t->inside.value == t->K.value)
-        return;
-    for (int j = 0; j < t->free; j++)
-        memcpy(&t->inside.value[t->inside.column[j]], &t->K.value[t->K.column[j]],
-               (size_t)(t->inside.column[j + 1] - t->inside.column[j]) * sizeof *t->inside.value);
+    if (t->inside.value != t->K.value)
+        sparse_copy_leading(&t->K, &t->inside);
 }
 
 static status allocate(const analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
@@ -50,8 +47,7 @@ static status allocate(const analysis_context *c, const scene_compliance *a, tan
         TRY(sparse_alloc_like(inside, &t->inside, f));
     else
         t->inside = t->K;
-    TRY(sparse_alloc_like(whole, &t->geometric, f));
-    return factor_alloc(inside, &t->factor, f);
+    return sparse_alloc_like(whole, &t->geometric, f);
 }
 
 status tangent_alloc(analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
@@ -69,38 +65,35 @@ void tangent_free(tangent *t)
         sparse_free_values(&t->inside);
     sparse_free_values(&t->K);
     sparse_free_values(&t->geometric);
-    factor_free(t->factor);
+    factor_free(t->own);
     border_free(&t->border);
     free(t->residual);
 }
 
-/* K of the state and the factors of its free block. */
-static status factor_at(analysis_context *c, const scene_compliance *a, const model_state *s,
-                        const double reaction[6], tangent *t, fault *f)
+/* Factors of the free block. */
+static status factor_inside(analysis_context *c, tangent *t, fault *f)
 {
-    model_linearisation lin = {
-        .path = kinematics_state_path(s), .K = &t->K, .residual = t->residual};
-    TRY(linearise_state(c->model, s, &lin, f));
-    loads_release_moment(c->model, s, a->node, reaction + 3, &t->K);
-    copy_inside(t);
-    return context_factor(c, t->factor, &t->inside, f);
-}
-
-static void count_factors(const tangent *t, counters *n)
-{
+    counters *n = model_counters(c->model);
+    if (t->own == NULL) {
+        const double start = clock_processor_seconds();
+        const status allocated = factor_alloc(&t->inside, &t->own, f);
+        c->setup += clock_processor_seconds() - start;
+        TRY(allocated);
+    }
+    t->factor = t->own;
+    const status outcome = context_factor(c, t->factor, &t->inside, f);
     const factor_counts counts = factor_count(t->factor);
     n->factorisations++;
     n->factor_flops += counts.flops;
     n->negative_pivots =
         counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
+    return outcome;
 }
 
-status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
-                  const double reaction[6], tangent *t, fault *f)
+/* What follows from K and the factors of its free block. */
+static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
+                       const double reaction[6], tangent *t, fault *f)
 {
-    const status factored = factor_at(c, a, s, reaction, t, f);
-    count_factors(t, model_counters(c->model));
-    TRY(factored);
     t->state = s;
     t->refined = factor_condition(t->factor, &t->inside) > harmless_condition;
     if (t->refined) {
@@ -111,6 +104,32 @@ status tangent_at(analysis_context *c, const scene_compliance *a, const model_st
     t->coordinates =
         kinematics_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return STATUS_OK;
+}
+
+status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f)
+{
+    model_linearisation lin = {
+        .path = kinematics_state_path(s), .K = &t->K, .residual = t->residual};
+    TRY(linearise_state(c->model, s, &lin, f));
+    loads_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+    copy_inside(t);
+    TRY(factor_inside(c, t, f));
+    return complete(c, a, s, reaction, t, f);
+}
+
+status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
+                    const double reaction[6], const sparse *K, const sparse *inside, factor *fa,
+                    tangent *t, fault *f)
+{
+    const size_t size = (size_t)inside->column[inside->n] * sizeof *inside->value;
+    memcpy(t->K.value, K->value, (size_t)K->column[K->n] * sizeof *K->value);
+    loads_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+    copy_inside(t);
+    t->factor = fa;
+    if (memcmp(t->inside.value, inside->value, size) != 0)
+        TRY(factor_inside(c, t, f));
+    return complete(c, a, s, reaction, t, f);
 }
 
 /* Coordinates of the node that move: free or released. */

@@ -11,7 +11,8 @@ typedef struct tangent {
     sparse inside;    /* free x free */
     sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
     int refined;      /* 1: the condition asks for it */
-    factor *factor;
+    factor *own;      /* NULL: not needed so far */
+    factor *factor;   /* of `inside`: own, or that of the iteration that it was taken from */
     border border;
     int free, all;
     double *residual;
@@ -25,6 +26,11 @@ void tangent_free(tangent *t);
 /* reaction[6]: force and moment of the prescription on the node [N, N m]. */
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], tangent *t, fault *f);
+/* The same from K [the pattern of all coordinates when something is released, else of the free
+ * ones] of an iteration that ended at the state, and its factors. */
+status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
+                    const double reaction[6], const sparse *K, const sparse *inside, factor *,
+                    tangent *t, fault *f);
 /* Takes out of the reaction's moment what acts along free turns: there is no prescription that
  * exerts it. */
 void tangent_prescribed(const tangent *t, double moment[3]);

@@ -46,7 +46,7 @@ static double size_of(model *m, int coordinate, double step)
     if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
         linearise_state(m, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
-        out = advance_state(m, s, dx, 0);
+        out = advance_state(m, s, dx, 0, NULL);
     }
     kinematics_state_free(s);
     free(dx);

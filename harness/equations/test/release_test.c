@@ -140,7 +140,7 @@ static int solve(subject *t, double path, const char *what)
         size = 0;
         for (int k = 0; k < t->n; k++)
             size = fmax(size, fabs(t->residual[k]));
-        advance_state(t->m, t->s, t->residual, path);
+        advance_state(t->m, t->s, t->residual, path, NULL);
     }
     gsl_test(!(size <= 1e-11), "%s: no equilibrium at %g", what, path);
     gsl_test(!(size <= 100 * before * before + 1e-13), "%s: corrections %.1e after %.1e", what,
@@ -156,7 +156,7 @@ static void residual_at(subject *t, int k, double h, double out[])
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
     linearise_state(t->m, t->moved, &lin, &f); /* what advance_state works on */
-    advance_state(t->m, t->moved, dx, 1);
+    advance_state(t->m, t->moved, dx, 1, NULL);
     linearise_make_compatible(t->m, t->moved, &f);
     linearise_state(t->m, t->moved, &lin, &f);
 }

@@ -58,7 +58,7 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
     model_linearisation lin = {.path = 1, .residual = residual};
     kinematics_state_copy(s->m, from, to);
     gsl_test(linearise_state(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
-    advance_state(s->m, to, dx, 1);
+    advance_state(s->m, to, dx, 1, NULL);
 }
 
 /* A state far from rest, turned about no special axis. */

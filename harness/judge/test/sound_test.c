@@ -32,22 +32,24 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
         scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
-/* Three steps of four iterations. */
+/* Three steps of four iterations; a continuation begins each with the tangent at hand. */
 static void make(scene_analysis_kind kind, bench *b)
 {
     memset(b, 0, sizeof *b);
     scene_init(&b->s, "made_up");
     add_analysis(kind, &b->s);
     for (int i = 0; i < STEPS; i++)
-        b->step[i] = (step_record){.iterations = 4, .correction = 1e-9};
-    const long iterations = 4 * STEPS, evaluations = iterations * ELEMENTS;
+        b->step[i] = (step_record){.iterations = 4, .correction = 1e-9, .remaining = NAN};
+    const long iterations = 4 * STEPS,
+               linearised = iterations - (kind == SCENE_CONTINUATION ? STEPS : 0),
+               evaluations = linearised * ELEMENTS;
     b->cell.size.elements = ELEMENTS;
     b->cell.solve.steps = STEPS;
     b->cell.solve.step = b->step;
     b->cell.solve.iterations = (int)iterations;
     b->cell.counters = (counters){.strain_evaluations = evaluations,
                                   .stress_evaluations = evaluations,
-                                  .factorisations = iterations,
+                                  .factorisations = linearised,
                                   .solutions = iterations,
                                   .iterations = iterations,
                                   .steps = STEPS};
@@ -93,6 +95,14 @@ static void steps(void)
     for (int i = 0; i < STEPS; i++) {
         b.step[i].correction = 1e-7;
         expect(&b, 0, "a step that ended too soon");
+        b.step[i].remaining = 1e-14;
+        expect(&b, 1, "a step whose next correction is predicted and negligible");
+        b.step[i].remaining = 1e-13;
+        expect(&b, 0, "a step whose next correction is predicted and is not");
+        b.step[i].remaining = 1e-14;
+        b.step[i].correction = 2e-6;
+        expect(&b, 0, "a correction too large to predict from");
+        b.step[i].remaining = NAN;
         b.step[i].correction = NAN;
         expect(&b, 0, "a step without a correction");
         b.step[i].correction = 1e-8;

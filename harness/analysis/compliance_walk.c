@@ -1,0 +1,83 @@
+#include "harness/analysis/compliance_walk.h"
+
+#include <stdlib.h>
+
+#include "harness/analysis/compliance.h"
+#include "harness/solver/tangent.h"
+
+typedef struct follower {
+    int analysis;
+    tangent tangent;
+} follower;
+
+struct compliance_walk {
+    const scene_path *path;
+    int count;
+    follower of[];
+};
+
+static int follows(const scene *s, int analysis, int path)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    return a->kind == SCENE_COMPLIANCE && a->follows == path;
+}
+
+static status add(newton *n, int analysis, compliance_walk *w, fault *f)
+{
+    analysis_context *c = n->c;
+    outcome_compliance *o = &c->outcomes[analysis].left.compliance;
+    follower *of = &w->of[w->count++];
+    of->analysis = analysis;
+    TRY(tangent_alloc(c, scene_compliance_of(&c->scene->analysis[analysis]), &of->tangent, f));
+    if (of->tangent.border.count > 0)
+        TRY(newton_keep_driven(n, f));
+    o->taken = calloc((size_t)w->path->stations + 1, sizeof *o->taken);
+    return o->taken == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
+                            : STATUS_OK;
+}
+
+status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *f)
+{
+    const scene *s = n->c->scene;
+    int count = 0;
+    *out = NULL;
+    for (int i = 0; i < s->analyses; i++)
+        count += follows(s, i, path);
+    if (count == 0 || n->c->options->newton == SOLVE_DENSE || scene_rotates(&s->analysis[path]))
+        return STATUS_OK;
+    compliance_walk *w = calloc(1, sizeof *w + (size_t)count * sizeof w->of[0]);
+    if (w == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    *out = w;
+    w->path = &scene_walk_of(&s->analysis[path])->path;
+    for (int i = 0; i < s->analyses; i++)
+        if (follows(s, i, path))
+            TRY(add(n, i, w, f));
+    return STATUS_OK;
+}
+
+status compliance_walk_take(compliance_walk *w, const newton *n, int station, fault *f)
+{
+    analysis_context *c = n->c;
+    if (w == NULL || !arrival_tangent_stands(&n->arrival))
+        return STATUS_OK;
+    for (int i = 0; i < w->count; i++) {
+        follower *of = &w->of[i];
+        if (!compliance_wanted_at(c, of->analysis, w->path->stations, w->path->value, station))
+            continue;
+        station_matrices *out = &c->outcomes[of->analysis].left.compliance.taken[station];
+        fault why = {""};
+        const status outcome = compliance_take(c, of->analysis, n, &of->tangent, out, &why);
+        if (outcome == STATUS_FAULT)
+            return fault_set(f, outcome, "%s", why.text);
+        out->known = outcome == STATUS_OK;
+    }
+    return STATUS_OK;
+}
+
+void compliance_walk_end(compliance_walk *w)
+{
+    for (int i = 0; w != NULL && i < w->count; i++)
+        tangent_free(&w->of[i].tangent);
+    free(w);
+}
