@@ -157,10 +157,12 @@ int extrapolate_state(const model *m, int count, const model_state *const at[], 
                       model_state *out)
 {
     guesses g;
-    const double *weight = g.weight[count];
+    if (count < 2)
+        return 0;
     weigh(m, count, count, at, path, &g);
     if (!g.good[count])
         return 0;
+    const double *weight = g.weight[count];
     for (size_t k = 0; k < out->size; k++) {
         double sum = 0;
         for (int i = 0; i < count; i++)
