@@ -7,24 +7,17 @@
 #include <sys/mman.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/study/expense.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/progress.h"
 #include "harness/study/worker.h"
-
-/* What a cell costs, compared with others: its elements, and what it takes without any. */
-static double cost_of(const sweep *s, const task *t)
-{
-    const double beginning = 4; /* elements */
-    const series *one = &s->series[t->series];
-    return beginning + (double)one->mesh[t->mesh] * s->point[one->point].scene.members;
-}
 
 /* Of the whole work, by what cells cost. */
 static double share_done(const workload *w)
 {
     double done = 0, all = 0;
     for (int i = 0; i < w->count; i++) {
-        const double cost = cost_of(w->s, &w->tasks[i]);
+        const double cost = expense_of_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
         all += cost;
         done += w->done[i] || w->same[i] >= 0 ? cost : 0;
     }
@@ -187,18 +180,6 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome;
 }
 
-static void list_tasks(const sweep *s, task tasks[])
-{
-    int n = 0;
-    for (int i = 0; i < s->seriess; i++) {
-        const series *one = &s->series[i];
-        const int runs = one->missing[0] == '\0' && s->point[one->point].status == STATUS_OK;
-        if (runs)
-            for (int k = 0; k < one->meshes; k++)
-                tasks[n++] = (task){i, k};
-    }
-}
-
 /* Even one job runs in a process of its own, so that a crash is a result and answers do not depend
  * on the number. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
@@ -215,8 +196,8 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
     claims *known = request->share ? claims_alloc((int)count) : NULL;
     status outcome = fault_set(f, STATUS_FAULT, "out of memory for the sweep");
     w.known = known;
-    if (w.tasks != NULL && w.done != NULL && w.same != NULL && b != MAP_FAILED) {
-        list_tasks(s, w.tasks);
+    if (w.tasks != NULL && w.done != NULL && w.same != NULL && b != MAP_FAILED &&
+        expense_order(s, w.tasks) == 0) {
         for (int i = 0; i < w.count; i++)
             w.same[i] = -1;
         s->shapes = request->shapes;

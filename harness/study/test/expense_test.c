@@ -1,0 +1,77 @@
+/* Every cell is a task once; those of the dearest series come first, and of a series the finest. */
+#include <gsl/gsl_test.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/catalogue/case_find.h"
+#include "harness/catalogue/registry.h"
+#include "harness/study/expense.h"
+#include "harness/study/plan.h"
+
+static const int mesh[] = {1, 2, 4};
+
+/* All formulations on a case. */
+static void add(const char *name, sweep *s)
+{
+    formulation all[64];
+    double value[CASE_MAX_PARAMETERS] = {0};
+    fault f = {""};
+    int count = 0;
+    const case_type *type = case_find(name, &f);
+    for (; registry_formulations[count] != NULL; count++)
+        formulation_default(registry_formulations[count], &all[count]);
+    parameters_default(type, value);
+    gsl_test(plan_add(s, type, value, NULL, mesh, 3, &f) != STATUS_OK ||
+                 plan_extend(s, all, count, &f) != STATUS_OK,
+             "%s: planned %s", name, f.text);
+}
+
+static double expense_of(const sweep *s, int index)
+{
+    double all = 0;
+    for (int k = 0; k < 3; k++)
+        all += expense_of_cell(s, index, k);
+    return all;
+}
+
+static void order(void)
+{
+    sweep s = {0};
+    add("elastica", &s);
+    add("hexapod", &s);
+    add("c_column", &s);
+    add("rotating_cantilever", &s);
+    const int count = sweep_cells(&s);
+    task *tasks = calloc((size_t)count + 1, sizeof *tasks);
+    char *met = calloc((size_t)s.seriess * 3 + 1, 1);
+    int elements_free = 0, repeated = 0, cheaper_first = 0, coarser_first = 0;
+    gsl_test(count == 0 || tasks == NULL || met == NULL || expense_order(&s, tasks) != 0,
+             "%d cells in order", count);
+    for (int i = 0; i < count; i++) {
+        elements_free +=
+            tasks[i].mesh > 0 && expense_of_cell(&s, tasks[i].series, tasks[i].mesh) <=
+                                     expense_of_cell(&s, tasks[i].series, tasks[i].mesh - 1);
+        repeated += met[3 * tasks[i].series + tasks[i].mesh]++;
+        if (i == 0)
+            continue;
+        const task *a = &tasks[i - 1], *b = &tasks[i];
+        cheaper_first += expense_of(&s, a->series) < expense_of(&s, b->series);
+        coarser_first += a->series == b->series && a->mesh < b->mesh;
+    }
+    gsl_test_int(elements_free, 0, "more elements cost more");
+    gsl_test_int(repeated, 0, "each once");
+    gsl_test_int(cheaper_first, 0, "the dearest series first");
+    gsl_test_int(coarser_first, 0, "the finest mesh of a series first");
+    gsl_test(strcmp(s.point[s.series[tasks[0].series].point].type->name, "hexapod") != 0,
+             "first the one of 144 elements and a path, not %s",
+             s.point[s.series[tasks[0].series].point].type->name);
+    free(tasks);
+    free(met);
+    sweep_free(&s);
+}
+
+int main(void)
+{
+    order();
+    return gsl_test_summary();
+}
