@@ -11,25 +11,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/column_run.h"
+
 struct factor_symmetric {
     int n;
-    int *integers;                         /* what the next ten arrays are parts of */
-    int *order, *inverse;                  /* [n] P: C(i, j) = A(order[i], order[j]) */
-    int *column, *row;                     /* [n + 1], [entries] upper triangle of C */
-    int *source;                           /* [entries] of C: position in A */
-    int *L_column;                         /* [n + 1] */
+    int *integers;        /* what the next ten arrays and run_of_row are parts of */
+    int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]) */
+    int *column, *row;    /* [n + 1], [entries] upper triangle of C */
+    int *source;          /* [entries] of C: position in A */
+    int *L_column;        /* [n + 1] */
     int *parent, *in_column, *mark, *path; /* [n] elimination tree and workspace of LDL */
     double *numbers;                       /* what the next four arrays are parts of */
     double *D, *work;                      /* [n] */
     double *diagonal, *terms;              /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
     int *L_row;                            /* [L_column[n]] */
+    int *run_of_row;                       /* [n + 1] */
+    column_run *run;                       /* [run_of_row[n]] columns that rows of L have */
     double *L_value;
 };
 
 /* Cuts the workspace into its arrays; 0 when memory ran out. */
 static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
 {
-    fs->integers = malloc((6 * n + 2 * (n + 1) + 2 * entries) * sizeof *fs->integers);
+    fs->integers = malloc((6 * n + 3 * (n + 1) + 2 * entries) * sizeof *fs->integers);
     fs->numbers = malloc((4 * n + 1) * sizeof *fs->numbers);
     if (fs->integers == NULL || fs->numbers == NULL)
         return 0;
@@ -40,7 +44,8 @@ static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
         *lists[i] = next;
     fs->column = next;
     fs->L_column = fs->column + n + 1;
-    fs->row = fs->L_column + n + 1;
+    fs->run_of_row = fs->L_column + n + 1;
+    fs->row = fs->run_of_row + n + 1;
     fs->source = fs->row + entries;
     fs->D = fs->numbers;
     fs->work = fs->D + n;
@@ -80,6 +85,61 @@ static void permute(const sparse *a, factor_symmetric *fs)
         }
 }
 
+/* Columns of row k of L in the order in which they are subtracted: path[top], ..., path[n - 1], by
+ * the up-looking algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2). */
+static int find_row(factor_symmetric *fs, int k)
+{
+    int top = fs->n;
+    fs->mark[k] = k;
+    for (int p = fs->column[k]; p < fs->column[k + 1]; p++) {
+        int length = 0;
+        for (int i = fs->row[p]; fs->mark[i] != k; i = fs->parent[i]) {
+            fs->path[length++] = i;
+            fs->mark[i] = k;
+        }
+        while (length > 0)
+            fs->path[--top] = fs->path[--length];
+    }
+    return top;
+}
+
+/* Does column j have j + 1 and the rows of that? */
+static int is_nested(const factor_symmetric *fs, int j)
+{
+    return fs->parent[j] == j + 1 &&
+           fs->L_column[j + 1] - fs->L_column[j] == fs->L_column[j + 2] - fs->L_column[j + 1] + 1;
+}
+
+/* How many columns from path[top] on are a run. */
+static int run_length(const factor_symmetric *fs, int top)
+{
+    const int *path = fs->path + top, most = min_int(COLUMN_RUN_MOST, fs->n - top);
+    int count = 1;
+    while (count < most && path[count] == path[0] + count && is_nested(fs, path[count - 1]))
+        count++;
+    return count;
+}
+
+/* Runs of all rows, into run and, where that is there, L_row; returns their number. */
+static int find_runs(factor_symmetric *fs)
+{
+    int runs = 0;
+    for (int k = 0; k < fs->n; k++) {
+        fs->in_column[k] = 0;
+        fs->run_of_row[k] = runs;
+        for (int top = find_row(fs, k), count; top < fs->n; top += count, runs++) {
+            count = run_length(fs, top);
+            if (fs->run == NULL)
+                continue;
+            fs->run[runs] = (column_run){fs->path[top], count};
+            for (int i = fs->path[top]; i < fs->path[top] + count; i++)
+                fs->L_row[fs->L_column[i] + fs->in_column[i]++] = k;
+        }
+    }
+    fs->run_of_row[fs->n] = runs;
+    return runs;
+}
+
 /* Elimination tree and fill. */
 static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
 {
@@ -100,9 +160,15 @@ static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
     const size_t fill = (size_t)fs->L_column[n] + 1;
     fs->L_row = malloc(fill * sizeof *fs->L_row);
     fs->L_value = malloc(fill * sizeof *fs->L_value);
-    if (fs->L_row == NULL || fs->L_value == NULL)
+    for (int k = 0; k < n; k++)
+        fs->mark[k] = -1;
+    fs->run = malloc(((size_t)find_runs(fs) + 1) * sizeof *fs->run);
+    if (fs->L_row == NULL || fs->L_value == NULL || fs->run == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor",
                          counts->entries);
+    for (int k = 0; k < n; k++)
+        fs->mark[k] = -1;
+    find_runs(fs);
     return STATUS_OK;
 }
 
@@ -128,45 +194,30 @@ void factor_symmetric_free(factor_symmetric *fs)
         return;
     free(fs->integers);
     free(fs->numbers);
+    free(fs->run);
     free(fs->L_row);
     free(fs->L_value);
     free(fs);
 }
 
-/* Row k of L by the up-looking algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2),
- * in the order of sums of SuiteSparse's ldl_numeric, from values that stay in A. Returns D_k. */
+/* Row k of L, in the order of sums of SuiteSparse's ldl_numeric, from values that stay in A.
+ * Returns D_k. */
 static double factor_row(factor_symmetric *fs, const double a[], int k)
 {
-    int top = fs->n;
     double *y = fs->work;
     y[k] = 0;
-    fs->mark[k] = k;
     fs->in_column[k] = 0;
     fs->diagonal[k] = 0;
     for (int p = fs->column[k]; p < fs->column[k + 1]; p++) {
-        int i = fs->row[p], length = 0;
-        y[i] += a[fs->source[p]];
-        if (i == k)
+        y[fs->row[p]] += a[fs->source[p]];
+        if (fs->row[p] == k)
             fs->diagonal[k] = fabs(a[fs->source[p]]);
-        for (; fs->mark[i] != k; i = fs->parent[i]) {
-            fs->path[length++] = i;
-            fs->mark[i] = k;
-        }
-        while (length > 0)
-            fs->path[--top] = fs->path[--length];
     }
     double pivot = y[k];
     y[k] = 0;
-    for (; top < fs->n; top++) {
-        const int i = fs->path[top], end = fs->L_column[i] + fs->in_column[i]++;
-        const double yi = y[i], l = yi / fs->D[i];
-        y[i] = 0;
-        for (int p = fs->L_column[i]; p < end; p++)
-            y[fs->L_row[p]] -= fs->L_value[p] * yi;
-        pivot -= l * yi;
-        fs->L_row[end] = k;
-        fs->L_value[end] = l;
-    }
+    const column_run_columns L = {fs->L_column, fs->L_row, fs->in_column, fs->L_value, fs->D, y};
+    for (int r = fs->run_of_row[k]; r < fs->run_of_row[k + 1]; r++)
+        pivot = column_run_use(&L, fs->run[r], pivot);
     return pivot;
 }
 
