@@ -2,6 +2,7 @@
 #include "harness/equations/extrapolate.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
@@ -122,16 +123,29 @@ static void weigh(const model *m, int least, int most, const model_state *const 
     keep_smooth(m, at, path, g);
 }
 
+/* sum += weight x, one state after the other so that several coordinates go at once. */
+static void add_weighted(double weight, size_t size, const double x[], double sum[])
+{
+    for (size_t k = 0; k < size; k++)
+        sum[k] += weight * x[k];
+}
+
 static double largest_error(int count, const double weight[], const model_state *const at[],
                             const double *first, size_t size)
 {
+    enum { PART = 64 };
     const ptrdiff_t offset = first - at[0]->block;
     double largest = 0;
-    for (size_t k = 0; k < size; k++) {
-        double sum = -at[count]->block[offset + (ptrdiff_t)k];
+    for (size_t done = 0; done < size; done += PART) {
+        const size_t part = size - done < PART ? size - done : PART;
+        const ptrdiff_t from = offset + (ptrdiff_t)done;
+        double sum[PART];
+        for (size_t k = 0; k < part; k++)
+            sum[k] = -at[count]->block[from + (ptrdiff_t)k];
         for (int i = 0; i < count; i++)
-            sum += weight[i] * at[i]->block[offset + (ptrdiff_t)k];
-        largest = fmax(largest, fabs(sum));
+            add_weighted(weight[i], part, at[i]->block + from, sum);
+        for (size_t k = 0; k < part; k++)
+            largest = fabs(sum[k]) > largest ? fabs(sum[k]) : largest;
     }
     return largest;
 }
@@ -163,12 +177,9 @@ int extrapolate_state(const model *m, int count, const model_state *const at[], 
     if (!g.good[count])
         return 0;
     const double *weight = g.weight[count];
-    for (size_t k = 0; k < out->size; k++) {
-        double sum = 0;
-        for (int i = 0; i < count; i++)
-            sum += weight[i] * at[i]->block[k];
-        out->block[k] = sum;
-    }
+    memset(out->block, 0, out->size * sizeof *out->block);
+    for (int i = 0; i < count; i++)
+        add_weighted(weight[i], out->size, at[i]->block, out->block);
     for (int v = 0; v < m->vertices; v++)
         if (turns_by_itself(m, v))
             extrapolate_rotation(m, v, count, weight, at, out);
