@@ -8,6 +8,18 @@
 
 static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
+/* Unknowns from which on room is worth more than the order of elimination, found again. */
+enum { LARGE = 20000 };
+
+void candidates_count_rest(candidates *p)
+{
+    if (p->n < LARGE)
+        return;
+    sparse_free_values(&p->shifted);
+    factor_free(p->shifted_factor);
+    p->shifted_factor = NULL;
+}
+
 status candidates_count_above(candidates *p, double s, int *above, eigen_result *work, fault *f)
 {
     const sparse *K = p->problem->K;

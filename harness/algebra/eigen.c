@@ -101,6 +101,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%d of %d eigenvalues are missing after %d attempts", missing, asked,
                              pass);
+        candidates_count_rest(p);
         TRY(run_lanczos(p, missing, least, &r->solutions, f));
         missing = asked - p->count;
         if (missing <= 0)

@@ -13,6 +13,7 @@
 
 struct factor {
     int n;
+    factor_operator by;              /* without functions: none */
     factor_symmetric *symmetric;     /* one of the two */
     factor_unsymmetric *unsymmetric; /* NULL both: nothing to solve for */
     factor_counts counts;
@@ -37,10 +38,23 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f)
                               : factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
 }
 
+status factor_of(const factor_operator *by, factor **out, fault *f)
+{
+    factor *fa = *out = calloc(1, sizeof *fa);
+    if (fa == NULL) {
+        by->free(by->context);
+        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+    }
+    fa->by = *by;
+    return STATUS_OK;
+}
+
 void factor_free(factor *fa)
 {
     if (fa == NULL)
         return;
+    if (fa->by.free != NULL)
+        fa->by.free(fa->by.context);
     factor_symmetric_free(fa->symmetric);
     factor_unsymmetric_free(fa->unsymmetric);
     free(fa->residual);
@@ -102,7 +116,9 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
 
 void factor_solve(factor *fa, double x[])
 {
-    if (fa->symmetric != NULL)
+    if (fa->by.solve != NULL)
+        fa->by.solve(fa->by.context, 0, x);
+    else if (fa->symmetric != NULL)
         factor_symmetric_solve(fa->symmetric, x);
     else if (fa->unsymmetric != NULL)
         factor_unsymmetric_solve(fa->unsymmetric, x);
@@ -110,7 +126,9 @@ void factor_solve(factor *fa, double x[])
 
 void factor_solve_transposed(factor *fa, double x[])
 {
-    if (fa->unsymmetric != NULL)
+    if (fa->by.solve != NULL)
+        fa->by.solve(fa->by.context, 1, x);
+    else if (fa->unsymmetric != NULL)
         factor_unsymmetric_solve_transposed(fa->unsymmetric, x);
     else
         factor_solve(fa, x);
@@ -118,5 +136,5 @@ void factor_solve_transposed(factor *fa, double x[])
 
 factor_counts factor_count(const factor *fa)
 {
-    return fa->counts;
+    return fa->by.count != NULL ? fa->by.count(fa->by.context) : fa->counts;
 }

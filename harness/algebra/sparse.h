@@ -43,6 +43,17 @@ status factor_numeric(factor *fa, const sparse *a, fault *f);
 void factor_solve(factor *fa, double x[]);            /* in place */
 void factor_solve_transposed(factor *fa, double x[]); /* A^T x = b */
 factor_counts factor_count(const factor *fa);
+
+/* Solutions that somebody else knows how to find. */
+typedef struct factor_operator {
+    void *context;
+    void (*solve)(void *context, int transposed, double x[]);
+    factor_counts (*count)(const void *context);
+    void (*free)(void *context);
+} factor_operator;
+/* factor_solve, factor_solve_transposed and factor_count are those of the operator, which the
+ * factor owns; it factors no matrix. */
+status factor_of(const factor_operator *, factor **out, fault *f);
 /* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its
  * diagonal: Hager's estimate, a lower bound within a small factor. NAN when memory ran out. */
 double factor_condition(factor *fa, const sparse *a);

@@ -26,7 +26,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
         return fault_set(
             f, STATUS_REFUSED,
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");
-    TRY(newton_alloc(c, &p->n, f));
+    TRY(newton_alloc(c, 1, &p->n, f));
     TRY(outcome_stations(&o->path, p->path->stations, f));
     TRY(kinematics_state_alloc(c->model, &p->end, f));
     double **const vector[] = {&p->weight, &p->load,         &p->response,     &p->moved,

@@ -75,7 +75,7 @@ static status walk(newton *n, const scene_walk *a, compliance_walk *on_the_way, 
         const double from = i > 0 ? a->path.value[i - 1] : 0;
         double increment = (a->path.value[i] - from) / steps;
         TRY(static_walk(n, a->path.value[i], &increment, f));
-        if (c->options->newton != SOLVE_DENSE)
+        if (c->options->newton != SOLVE_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);
         TRY(outcome_keep(o, c->model, n->state, a->path.value[i], f));
         TRY(compliance_walk_take(on_the_way, n, i, f));
@@ -88,7 +88,7 @@ static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
                     compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
     const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
-    TRY(newton_alloc(c, n, f));
+    TRY(newton_alloc(c, 1, n, f));
     TRY(predictor_alloc(c->model, t, f));
     n->predictor = t;
     TRY(outcome_stations(o, a->path.stations, f));

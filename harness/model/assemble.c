@@ -9,7 +9,7 @@
 
 /* Only conservative tangents are stored as a triangle: those of dead moments about fixed axes, of
  * loads that follow and of some formulations are not. */
-static int is_symmetric(const model *m)
+int assemble_symmetric(const model *m)
 {
     int moments = 0, nonlinear = 0;
     for (int i = 0; i < m->scene->loads; i++)
@@ -230,7 +230,7 @@ status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
     if (p->made)
         return STATUS_OK;
     p->matrix.n = with_driven ? m->free + m->driven : m->free;
-    p->matrix.symmetric = is_symmetric(m);
+    p->matrix.symmetric = assemble_symmetric(m);
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)

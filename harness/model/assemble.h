@@ -7,6 +7,7 @@
 /* Patterns. `with_driven` 0: free x free; 1: all coordinates. Made at the first call and owned by
  * the model; matrices on it come from sparse_alloc_like. Symmetric unless the formulation's or the
  * loads' tangent is not. */
+int assemble_symmetric(const model *);
 status assemble_pattern(model *, int with_driven, const sparse **out, fault *f);
 
 #endif

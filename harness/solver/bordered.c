@@ -13,23 +13,24 @@ status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
 {
     const border *b = &t->border;
     const size_t all = (size_t)t->all + 1;
-    out->Z = calloc((size_t)(b->count * t->free) + 1, sizeof *out->Z);
+    const int columns = t->condensed != NULL ? 0 : b->count;
+    out->Z = calloc((size_t)(columns * t->free) + 1, sizeof *out->Z);
     out->x = calloc(4 * all, sizeof *out->x);
     if (out->Z == NULL || out->x == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     out->load = out->x + all;
     out->rest = out->load + all;
     out->weight = out->rest + all;
-    for (int i = 0; i < b->count; i++) {
+    for (int i = 0; i < columns; i++) {
         memcpy(out->Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *out->Z);
         factor_solve(t->factor, out->Z + i * t->free);
         n->solutions++;
     }
-    for (int i = 0; i < b->count; i++)
-        for (int j = 0; j < b->count; j++)
+    for (int i = 0; i < columns; i++)
+        for (int j = 0; j < columns; j++)
             out->S[i * b->count + j] = b->W[i * b->count + j] -
                                        dense_dot(t->free, b->V + i * t->free, out->Z + j * t->free);
-    return b->count > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
+    return columns > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
                ? fault_set(f, STATUS_SINGULAR,
                            "the structure is not held when the prescribed motion is released")
                : STATUS_OK;
@@ -47,6 +48,8 @@ void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
     double z[TANGENT_BORDER];
     factor_solve(t->factor, x);
     n->solutions++;
+    if (t->condensed != NULL)
+        return;
     for (int i = 0; i < b->count; i++)
         z[i] = x[b->coordinate[i]] - dense_dot(t->free, b->V + i * t->free, x);
     if (b->count > 0)
@@ -71,7 +74,8 @@ static void residual_of(const model *m, const tangent *t, const bordered *s)
 
 status bordered_refine(const model *m, tangent *t, counters *n, const bordered *s, fault *f)
 {
-    refinement r = {.corrections = 1, .last = 1}; /* x itself was the first */
+    /* x itself was the first, and of condensed members as good as the second */
+    refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(m, s->weight);
     while (state == REFINEMENT_GOES_ON) {

@@ -18,6 +18,22 @@ status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f
     return outcome;
 }
 
+status context_condensation(const analysis_context *c, int count, const int released[],
+                            condensation **out, fault *f)
+{
+    const int from = c->options->condensed > 0 ? c->options->condensed : CONDENSATION_ELEMENTS;
+    *out = NULL;
+    return c->options->condition ? STATUS_OK
+                                 : condensation_alloc(c->model, from, count, released, out, f);
+}
+
+status context_factor_condensed(analysis_context *c, condensation *s, fault *f)
+{
+    const status outcome = condensation_factor(s, f);
+    c->singular = outcome == STATUS_SINGULAR;
+    return outcome;
+}
+
 void context_count_condition(const analysis_context *c, factor *fa, const sparse *K)
 {
     counters *n = model_counters(c->model);

@@ -2,6 +2,7 @@
 #ifndef BEAMWORK_CONTEXT_H
 #define BEAMWORK_CONTEXT_H
 
+#include "harness/condensation/condensation.h"
 #include "harness/solver/outcome.h"
 #include "harness/solver/result.h"
 
@@ -19,6 +20,12 @@ typedef struct analysis_context {
 void context_set_frame(const analysis_context *, int analysis);
 /* The numeric factors of K, and into the context whether they exist. */
 status context_factor(analysis_context *, factor *, const sparse *K, fault *);
+/* What condenses members of many elements; *out NULL: none is, or the condition of the tangent was
+ * asked for, which is that of all coordinates. See condensation_alloc. */
+status context_condensation(const analysis_context *, int count, const int released[],
+                            condensation **out, fault *);
+/* The same of a tangent whose members are condensed. */
+status context_factor_condensed(analysis_context *, condensation *, fault *);
 /* When it was asked for: the condition of a matrix just factored, into the counters. */
 void context_count_condition(const analysis_context *, factor *, const sparse *K);
 /* The work of an eigenvalue problem, into the counters. */

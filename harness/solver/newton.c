@@ -23,11 +23,23 @@
 
 enum { MAX_ITERATIONS = 30 };
 
-static status allocate(newton *n, fault *f)
+/* What solves, and its matrix unless members are condensed. */
+static status allocate_tangent(newton *n, int condense, fault *f)
+{
+    const sparse *pattern;
+    if (condense && n->c->options->newton != SOLVE_DENSE)
+        TRY(context_condensation(n->c, 0, NULL, &n->condensed, f));
+    if (n->condensed != NULL)
+        return condensation_as_factor(n->condensed, &n->factor, f);
+    TRY(assemble_pattern(n->c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &n->K, f));
+    return factor_alloc(pattern, &n->factor, f);
+}
+
+static status allocate(newton *n, int condense, fault *f)
 {
     const model *m = n->c->model;
     const size_t all = (size_t)n->all + 1;
-    const sparse *pattern;
     n->residual = calloc(all, sizeof *n->residual);
     n->dx = calloc(all, sizeof *n->dx);
     n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
@@ -35,14 +47,12 @@ static status allocate(newton *n, fault *f)
     if (n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
     metric_of(m, n->weight);
-    TRY(assemble_pattern(n->c->model, 0, &pattern, f));
-    TRY(sparse_alloc_like(pattern, &n->K, f));
-    TRY(factor_alloc(pattern, &n->factor, f));
+    TRY(allocate_tangent(n, condense, f));
     TRY(kinematics_state_alloc(m, &n->state, f));
     return kinematics_state_alloc(m, &n->backup, f);
 }
 
-status newton_alloc(analysis_context *c, newton *n, fault *f)
+status newton_alloc(analysis_context *c, int condense, newton *n, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const double start = clock_processor_seconds();
@@ -53,7 +63,7 @@ status newton_alloc(analysis_context *c, newton *n, fault *f)
     arrival_start(c->options->criterion, &n->arrival);
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
-    const status outcome = allocate(n, f);
+    const status outcome = allocate(n, condense, f);
     c->setup += clock_processor_seconds() - start;
     return outcome;
 }
@@ -128,16 +138,27 @@ static status meet_conditions(newton *n, int count, const model_condition condit
     return STATUS_OK;
 }
 
+/* The tangent of the state and its factors. */
+static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
+{
+    if (n->whole.value != NULL)
+        lin->K = &n->whole;
+    if (n->condensed != NULL)
+        lin->K = NULL;
+    TRY(linearise_state(n->c->model, n->state, lin, f));
+    if (n->whole.value != NULL)
+        sparse_copy_leading(&n->whole, &n->K);
+    if (n->condensed == NULL)
+        return context_factor(n->c, n->factor, &n->K, f);
+    TRY(condensation_at(n->condensed, n->state, lin->path, f));
+    return context_factor_condensed(n->c, n->condensed, f);
+}
+
 /* dx of the condensed system. */
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
     phases *p = model_phases(n->c->model);
-    if (n->whole.value != NULL)
-        lin->K = &n->whole;
-    TRY(linearise_state(n->c->model, n->state, lin, f));
-    if (n->whole.value != NULL)
-        sparse_copy_leading(&n->whole, &n->K);
-    const status factored = context_factor(n->c, n->factor, &n->K, f);
+    const status factored = factor_tangent(n, lin, f);
     phases_lap(p, PHASE_FACTORISATION);
     TRY(factored);
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);

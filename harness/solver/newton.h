@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "harness/condensation/condensation.h"
 #include "harness/solver/arrival.h"
 #include "harness/solver/context.h"
 #include "harness/solver/predictor.h"
@@ -12,7 +13,8 @@
 typedef struct newton {
     analysis_context *c;
     model_state *state, *backup;
-    predictor *predictor; /* NULL: every step begins at the last state */
+    predictor *predictor;    /* NULL: every step begins at the last state */
+    condensation *condensed; /* NULL: no member is condensed; else K is not assembled */
     sparse K;
     sparse whole; /* with the driven coordinates; no values: not asked for */
     factor *factor;
@@ -28,7 +30,8 @@ typedef struct newton {
     long counted; /* factorisations that are in the model's counters */
 } newton;
 
-status newton_alloc(analysis_context *, newton *, fault *);
+/* condense 1: members of many elements are condensed to their ends. */
+status newton_alloc(analysis_context *, int condense, newton *, fault *);
 void newton_free(newton *);
 /* From here on K is known of the driven coordinates too. */
 status newton_keep_driven(newton *, fault *);

@@ -23,6 +23,7 @@ typedef struct solve_options {
     int steps_between;  /* overrides the scene's; 0: the scene's */
     int condition; /* 1: estimate the condition of the tangents (of a static path: at its stations)
                     */
+    int condensed; /* elements of a member from which on it is condensed to its ends; 0: default */
     int phases;    /* 1: read the clock between the parts of an iteration */
     int sample;  /* > 0: only so many iterations of each static path, for their time: there will be
                    no values */

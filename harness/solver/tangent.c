@@ -40,14 +40,18 @@ static status allocate(const analysis_context *c, const scene_compliance *a, tan
     if (t->residual == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     const int with_driven = t->border.count > 0;
-    TRY(assemble_pattern(c->model, 0, &inside, f));
+    TRY(context_condensation(c, t->border.count, t->border.coordinate, &t->condensed, f));
     TRY(assemble_pattern(c->model, with_driven, &whole, f));
+    TRY(sparse_alloc_like(whole, &t->geometric, f));
+    if (t->condensed != NULL)
+        return condensation_as_factor(t->condensed, &t->own, f);
+    TRY(assemble_pattern(c->model, 0, &inside, f));
     TRY(sparse_alloc_like(whole, &t->K, f));
     if (with_driven)
         TRY(sparse_alloc_like(inside, &t->inside, f));
     else
         t->inside = t->K;
-    return sparse_alloc_like(whole, &t->geometric, f);
+    return STATUS_OK;
 }
 
 status tangent_alloc(analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
@@ -81,7 +85,8 @@ static status factor_inside(analysis_context *c, tangent *t, fault *f)
         TRY(allocated);
     }
     t->factor = t->own;
-    const status outcome = context_factor(c, t->factor, &t->inside, f);
+    const status outcome = t->condensed != NULL ? context_factor_condensed(c, t->condensed, f)
+                                                : context_factor(c, t->factor, &t->inside, f);
     const factor_counts counts = factor_count(t->factor);
     n->factorisations++;
     n->factor_flops += counts.flops;
@@ -95,12 +100,14 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
                        const double reaction[6], tangent *t, fault *f)
 {
     t->state = s;
-    t->refined = factor_condition(t->factor, &t->inside) > harmless_condition;
+    t->refined =
+        t->condensed != NULL || factor_condition(t->factor, &t->inside) > harmless_condition;
     if (t->refined) {
         TRY(stiffness_parts_geometric(c->model, s, &t->geometric, f));
         loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
     }
-    border_fill(&t->border, t->free, &t->K);
+    if (t->condensed == NULL)
+        border_fill(&t->border, t->free, &t->K);
     t->coordinates =
         kinematics_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
     return STATUS_OK;
@@ -109,11 +116,16 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], tangent *t, fault *f)
 {
+    const int condensed = t->condensed != NULL;
     model_linearisation lin = {
-        .path = kinematics_state_path(s), .K = &t->K, .residual = t->residual};
+        .path = kinematics_state_path(s), .K = condensed ? NULL : &t->K, .residual = t->residual};
     TRY(linearise_state(c->model, s, &lin, f));
-    loads_release_moment(c->model, s, a->node, reaction + 3, &t->K);
-    copy_inside(t);
+    if (condensed)
+        TRY(condensation_at(t->condensed, s, lin.path, f));
+    loads_release_moment(c->model, s, a->node, reaction + 3,
+                         condensed ? condensation_ends(t->condensed) : &t->K);
+    if (!condensed)
+        copy_inside(t);
     TRY(factor_inside(c, t, f));
     return complete(c, a, s, reaction, t, f);
 }

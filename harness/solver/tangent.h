@@ -7,6 +7,8 @@
 #include "harness/solver/border.h"
 
 typedef struct tangent {
+    condensation *condensed; /* NULL: no member is condensed; else K is not assembled, and what is
+                                released is unknown with the rest */
     sparse K;         /* of all coordinates when something is released, else of the free ones */
     sparse inside;    /* free x free */
     sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
