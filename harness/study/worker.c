@@ -28,6 +28,7 @@ static void add_request(identity *out, const workload *w, const asked *a)
 {
     const point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
     const solve_options *o = &a->request->solve;
+    const void *const type = p->type;
     const double amount = p->edit.amount;
     const int count = parameters_count(p->type);
     const int numbers[] = {p->edit.kind,
@@ -44,7 +45,7 @@ static void add_request(identity *out, const workload *w, const asked *a)
                            a->request->keep_all,
                            a->request->threads,
                            p->scene.quantities};
-    identity_add(out, &p->type, sizeof p->type);
+    identity_add(out, &type, sizeof type);
     identity_add(out, p->parameter, (size_t)count * sizeof *p->parameter);
     identity_add(out, &amount, sizeof amount);
     identity_add(out, &o->criterion, sizeof o->criterion);
