@@ -4,12 +4,8 @@
  * element are internal modes, condensed in equilibrium (elements/beamw/condensed.c). */
 #include "elements/beamw/helicoidal.h"
 #include "elements/beamw/inertia.h"
+#include "elements/beamw/lanes.h"
 #include "elements/beamw/prepare.h"
-
-static const beamw_consistent_data *whole(const element_data *d)
-{
-    return (const beamw_consistent_data *)(const void *)d;
-}
 
 static size_t data_size(const element_request *request)
 {
@@ -22,11 +18,29 @@ static status prepare(const element_request *request, element_data *out, fault *
     return beamw_prepare_consistent(request, (beamw_consistent_data *)(void *)out, f);
 }
 
+static void strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    beamw_helicoidal_evaluate(d->l0, x, out);
+}
+
+static void strain_many(int count, const element_data *const data[], const node_state x[],
+                        strain_output out[])
+{
+    REAL_CHOSEN(beamw_lanes_helicoidal)(count, data, x, out);
+}
+
+static void stress_many(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    REAL_CHOSEN(beamw_lanes_consistent)(count, data, e, inner, out, outcome);
+}
+
 static status stress(const element_data *d, const double e[], const double inner[],
                      stress_output *out)
 {
-    return whole(d)->condensed ? beamw_condensed_stress(&whole(d)->internal, e, out)
-                               : beamw_variants_stress(d, e, inner, out);
+    return beamw_prepare_whole(d)->condensed
+               ? beamw_condensed_stress(&beamw_prepare_whole(d)->internal, e, out)
+               : beamw_variants_stress(d, e, inner, out);
 }
 
 const element_type element_beamw_consistent = {
@@ -42,8 +56,11 @@ const element_type element_beamw_consistent = {
     .judged = beamw_prepare_judged,
     .data_size = data_size,
     .prepare = prepare,
-    .strain = beamw_helicoidal_strain,
+    .strain = strain,
     .stress = stress,
+    .strain_many = strain_many,
+    .stress_many = stress_many,
+    .lanes = LANES_TOGETHER,
     .geometric = beamw_variants_geometric,
     .inertia = beamw_inertia_of,
 };

@@ -7,9 +7,47 @@
 #ifndef BEAMWORK_BEAMW_HELICOIDAL_H
 #define BEAMWORK_BEAMW_HELICOIDAL_H
 
-#include "elements/beamw/variants.h"
+#include "elements/beamw/screw_forms.h"
 
-/* As element_type.strain. */
-void beamw_helicoidal_strain(const element_data *d, const node_state x[], strain_output *out);
+/* e1 .. e6: sign U_translation + part psi_rotation l0. */
+static const struct {
+    int translation, rotation;
+    double sign, part;
+} beamw_helicoidal_strain[] = {{0, 0, 1, 0},   {0, 0, 0, 1},   {2, 1, -1, 0.5},
+                               {2, 1, 1, 0.5}, {1, 2, 1, 0.5}, {1, 2, -1, 0.5}};
+enum { BEAMW_HELICOIDAL_ALONG = 6 };
+
+/* As element_type.strain, of one element or of several in lanes; l0 [m]: its length at rest. */
+static inline void beamw_helicoidal_evaluate(double l0, const node_real x[2], strain_real *out)
+{
+    enum { N = SCREW_COORDINATES };
+    screw w;
+    beamw_screw_of(l0, x, &w);
+    if (out->e != NULL) {
+        for (int k = 0; k < BEAMW_HELICOIDAL_ALONG; k++)
+            out->e[k] =
+                beamw_helicoidal_strain[k].sign * w.U[beamw_helicoidal_strain[k].translation] +
+                beamw_helicoidal_strain[k].part * 2 * l0 * w.a[beamw_helicoidal_strain[k].rotation];
+        out->e[6] = l0 * l0 * x[0].a;
+        out->e[7] = l0 * l0 * x[1].a;
+    }
+    if (out->J != NULL) {
+        screw_gradient g;
+        beamw_screw_rates_gradient(&w, &g);
+        for (int k = 0; k < BEAMW_HELICOIDAL_ALONG; k++)
+            beamw_screw_rates_row(&g, beamw_helicoidal_strain[k].translation,
+                                  beamw_helicoidal_strain[k].sign,
+                                  beamw_helicoidal_strain[k].rotation,
+                                  beamw_helicoidal_strain[k].part * l0, out->J + N * k);
+        for (int i = 0; i < 2 * N; i++)
+            out->J[6 * N + i] = real_of(0);
+        out->J[6 * N + SCREW_AP] = out->J[7 * N + SCREW_AQ] = real_of(l0 * l0);
+    }
+    if (out->s != NULL && out->H != NULL) {
+        const real *s = out->s, f[3] = {s[0], s[4] - s[5], s[3] - s[2]};
+        const real t[3] = {l0 * s[1], l0 / 2 * (s[2] + s[3]), l0 / 2 * (s[4] + s[5])};
+        beamw_screw_forms_second(&w, f, t, out->H);
+    }
+}
 
 #endif

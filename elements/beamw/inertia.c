@@ -255,7 +255,7 @@ static void add_curvature(const element_data *d, const configuration *c)
             out[N * j + row[i]] -= product[j];
         }
     }
-    beamw_modes_strain(d->l0, c->x, &(strain_output){.s = c->s, .H = H});
+    beamw_modes_evaluate(d->l0, c->x, &(strain_output){.s = c->s, .H = H});
     for (int i = 0; i < N * N; i++)
         out[i] -= H[i];
 }
@@ -270,7 +270,7 @@ static void add_consistent(const element_data *d, const node_state x[2],
                 c.vector[node][k][i] = x[node].R[3 * i + k];
             c.mean[k][i] = (c.vector[0][k][i] + c.vector[1][k][i]) / 2;
         }
-    beamw_modes_strain(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
+    beamw_modes_evaluate(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
     for (int g = 0; g < BEAMW_GAUSS; g++)
         add_point(&c, d, g);
     if (out->N != NULL && frame != NULL)

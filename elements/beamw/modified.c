@@ -43,7 +43,6 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
         beamw_variants_add_product(d->Q[0], k / 5, t, t);
     }
     beamw_variants_add_product(d->Q[0], -(c->ys * c->ys + c->zs * c->zs) / (10 * l3), e2, e2);
-    d->modified = 1;
 }
 
 /* Which strains count.  Under a given stress the energy is right to third order when the strains of
@@ -200,5 +199,4 @@ void beamw_modified_reduce(const beamw_stiffness_fields *fields, double Q[BEAMW_
     }
     for (int k = 0; k < BEAMW_MODIFIED; k++)
         dense_add_congruence(N, BEAMW_STRAINS, T, Q[k], d->Q[k], work);
-    d->modified = 1;
 }

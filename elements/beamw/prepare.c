@@ -44,6 +44,7 @@ static status finish(const element_request *request, const beamw_stiffness_field
                               (beamw_inertia_kind)request->options[OPTION_MASS], fields, out);
     if (!(request->features & FEATURE_WARPING))
         beamw_variants_drop_warping(out);
+    beamw_variants_list(out);
     for (int i = 0; i < 64; i++)
         if (!isfinite(out->S[i]))
             return fault_set(f, STATUS_REFUSED,

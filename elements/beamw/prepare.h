@@ -5,6 +5,7 @@
 
 #include "elements/beamw/condensed.h"
 #include "elements/beamw/inertia.h"
+#include "elements/shared/lanes.h"
 
 typedef enum beamw_prepare_modes {
     BEAMW_PREPARE_FIRST_ORDER, /* ebar = e */
@@ -22,6 +23,11 @@ typedef struct beamw_consistent_data {
     beamw_condensed internal;
 } beamw_consistent_data;
 
+static inline const beamw_consistent_data *beamw_prepare_whole(const element_data *d)
+{
+    return (const beamw_consistent_data *)(const void *)d;
+}
+
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
@@ -37,7 +43,8 @@ extern const unsigned beamw_prepare_judged[];
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \
     .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
     .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \
-    .inertia = beamw_inertia_of
+    .strain_many = beamw_variants_strain_many, .stress_many = beamw_variants_stress_many,          \
+    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of
 enum {
     BEAMW_OFFERS = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
                    FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA

@@ -1,10 +1,10 @@
-/* With B = I + Q(e): sigma = B^T S ebar, dsigma/de = B^T S B + sum (S ebar)_i Q_i. */
 #include "elements/beamw/variants.h"
 
 #include <string.h>
 
+#include "elements/beamw/lanes.h"
 #include "elements/beamw/modes.h"
-#include "elements/math/dense.h"
+#include "elements/beamw/modified_stress.h"
 
 void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8])
 {
@@ -38,57 +38,58 @@ size_t beamw_variants_data_size(const element_request *request)
     return sizeof(element_data);
 }
 
+void beamw_variants_list(element_data *d)
+{
+    enum { E = BEAMW_STRAINS };
+    d->terms = d->springs = 0;
+    for (int k = 0; k < BEAMW_MODIFIED; k++)
+        for (int i = 0; i < E; i++)
+            for (int j = i; j < E; j++)
+                if (d->Q[k][E * i + j] != 0)
+                    d->term[d->terms++] = beamw_quadratic_of(d->Q[k][E * i + j], BEAMW_MODIFIED, E,
+                                                             k, i, j, E * i + j);
+    for (int i = 0; i < E; i++)
+        for (int j = 0; j < E; j++)
+            if (d->S[E * i + j] != 0) {
+                d->spring[d->springs].c = d->S[E * i + j];
+                d->spring[d->springs].i = (short)i;
+                d->spring[d->springs++].j = (short)j;
+            }
+}
+
 void beamw_variants_strain(const element_data *d, const node_state x[], strain_output *out)
 {
-    beamw_modes_strain(d->l0, x, out);
+    beamw_modes_evaluate(d->l0, x, out);
+}
+
+void beamw_variants_strain_many(int count, const element_data *const data[], const node_state x[],
+                                strain_output out[])
+{
+    REAL_CHOSEN(beamw_lanes_modes)(count, data, x, out);
 }
 
 status beamw_variants_stress(const element_data *d, const double e[], const double inner[],
                              stress_output *out)
 {
     (void)inner;
-    double B[8 * 8] = {0}, modified[8], conjugate[8];
-    memcpy(modified, e, sizeof modified);
-    for (int i = 0; i < 8; i++)
-        B[9 * i] = 1;
-    if (d->modified)
-        for (int k = 0; k < BEAMW_MODIFIED; k++) {
-            double row[8];
-            dense_mul_vec(8, 8, d->Q[k], e, row);
-            for (int j = 0; j < 8; j++) {
-                B[8 * k + j] += row[j];
-                modified[k] += row[j] * e[j] / 2;
-            }
-        }
-    dense_mul_vec(8, 8, d->S, modified, conjugate);
-    if (out->energy != NULL) {
-        *out->energy = 0;
-        for (int i = 0; i < 8; i++)
-            *out->energy += modified[i] * conjugate[i] / 2;
-    }
-    if (out->sigma != NULL) {
-        memset(out->sigma, 0, 8 * sizeof(double));
-        dense_add_transpose_mul(8, 8, 1, B, conjugate, out->sigma);
-    }
-    if (out->C != NULL) {
-        if (d->modified) {
-            double work[8 * 8];
-            beamw_variants_geometric(d, conjugate, out->C);
-            dense_add_congruence(8, 8, B, d->S, out->C, work);
-        } else {
-            memcpy(out->C, d->S, sizeof d->S);
-        }
-    }
-    if (out->residual != NULL)
-        *out->residual = 0;
+    beamw_modified_stress_evaluate(d, e, out);
     return STATUS_OK;
+}
+
+void beamw_variants_stress_many(int count, const element_data *const data[],
+                                const double *const e[], const double *const inner[],
+                                stress_output out[], status outcome[])
+{
+    REAL_CHOSEN(beamw_lanes_modified)(count, data, e, inner, out, outcome);
 }
 
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[])
 {
-    memset(G, 0, 64 * sizeof(double));
-    if (d->modified)
-        for (int k = 0; k < BEAMW_MODIFIED; k++)
-            for (int i = 0; i < 64; i++)
-                G[i] += sigma[k] * d->Q[k][i];
+    enum { E = BEAMW_STRAINS };
+    memset(G, 0, E * E * sizeof *G);
+    for (int t = 0; t < d->terms; t++)
+        G[d->term[t].entry] += sigma[d->term[t].row] * d->term[t].c;
+    for (int i = 0; i < E; i++)
+        for (int j = 0; j < i; j++)
+            G[E * i + j] = G[E * j + i];
 }

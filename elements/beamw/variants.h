@@ -3,21 +3,29 @@
 #ifndef BEAMWORK_BEAMW_VARIANTS_H
 #define BEAMWORK_BEAMW_VARIANTS_H
 
+#include "elements/beamw/quadratic.h"
 #include "elements/element.h"
 #include "elements/shared/lumped.h"
 
 enum {
     BEAMW_STRAINS = 8,
     BEAMW_MODIFIED = 6, /* e7 and e8 are never modified */
-    BEAMW_GAUSS = 4,    /* points of the consistent mass */
-    BEAMW_FIELDS = 6    /* and its functionals at each */
+    BEAMW_QUADRATIC_TERMS = BEAMW_MODIFIED * BEAMW_STRAINS * (BEAMW_STRAINS + 1) / 2,
+    BEAMW_GAUSS = 4, /* points of the consistent mass */
+    BEAMW_FIELDS = 6 /* and its functionals at each */
 };
 
 struct element_data {
-    double l0;                                              /* [m] */
-    double S[8 * 8];                                        /* [N/m] */
-    double Q[BEAMW_MODIFIED][8 * 8];                        /* [1/m], symmetric */
-    int modified;                                           /* 0: every Q is zero */
+    double l0;                                        /* [m] */
+    double S[8 * 8];                                  /* [N/m] */
+    double Q[BEAMW_MODIFIED][8 * 8];                  /* [1/m], symmetric */
+    int terms;                                        /* what is not zero in Q ... */
+    beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* ... entry: of [8 x 8], i <= j */
+    int springs;                                      /* and in S */
+    struct {
+        double c;
+        short i, j;
+    } spring[BEAMW_STRAINS * BEAMW_STRAINS];
     lumped_mass lumped;                                     /* inertia of half the element */
     double at[BEAMW_GAUSS], weight[BEAMW_GAUSS];            /* of the consistent mass, on [0, 1] */
     double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_STRAINS]; /* functionals of e: see inertia.c */
@@ -31,11 +39,18 @@ void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], co
  * a whole variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
+/* Once S and Q are known. */
+void beamw_variants_list(element_data *d);
 
 size_t beamw_variants_data_size(const element_request *);
 void beamw_variants_strain(const element_data *d, const node_state x[], strain_output *out);
+void beamw_variants_strain_many(int count, const element_data *const data[], const node_state x[],
+                                strain_output out[]);
 status beamw_variants_stress(const element_data *d, const double e[], const double inner[],
                              stress_output *out);
+void beamw_variants_stress_many(int count, const element_data *const data[],
+                                const double *const e[], const double *const inner[],
+                                stress_output out[], status outcome[]);
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

@@ -58,6 +58,15 @@ static inline int real_holds(real_truth t, int lane)
     (void)lane;
     return t;
 }
+static inline void real_deny(real_truth *t, int lane)
+{
+    (void)lane;
+    *t = 0;
+}
+static inline real real_choose(real_truth t, real a, real b)
+{
+    return t ? a : b;
+}
 
 #else
 
@@ -90,8 +99,22 @@ static inline int real_holds(real_truth t, int lane)
 {
     return t[lane] != 0;
 }
+static inline void real_deny(real_truth *t, int lane)
+{
+    (*t)[lane] = 0;
+}
+/* a where it holds, else b. */
+static inline real real_choose(real_truth t, real a, real b)
+{
+    return (real)((t & (real_truth)a) | (~t & (real_truth)b));
+}
 
 #endif
+
+static inline real real_abs(real a)
+{
+    return real_choose(a < 0, -a, a);
+}
 
 /* Is any lane left in which it holds? */
 static inline int real_any(real_truth t)

@@ -207,9 +207,42 @@ static void inside_follows(void)
     }
 }
 
+/* Stiffness and stresses where so much compression is left that bending hardly counts in the modes
+ * inside: their Hessian is factorised with pivots. */
+static void inside_compressed(void)
+{
+    static const double v[STRAINS] = {0.1, -0.7, 0.6, 0.5, -0.9, 0.4, 0.3, 0.8};
+    const double l0 = 2, h = 1e-7 * l0;
+    const section c = sheet();
+    double C[STRAINS * STRAINS], sigma[3][STRAINS], energy[3], Cv[STRAINS], work = 0;
+    subject s;
+    start(&s, &element_beamw_consistent, &c, l0,
+          FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_TRAPEZE);
+    for (int side = -1; side <= 1; side++) {
+        double e[STRAINS] = {-0.9, 0, 1e-3, 1.1e-3, -1e-3, -0.9e-3, 0, 0};
+        for (int i = 0; i < STRAINS; i++)
+            e[i] = l0 * e[i] + side * h * v[i];
+        gsl_test(s.type->stress(data_of(&s), e, NULL,
+                                &(stress_output){.energy = &energy[side + 1],
+                                                 .sigma = sigma[side + 1],
+                                                 .C = side == 0 ? C : NULL}) != STATUS_OK,
+                 "compressed inside: evaluated");
+    }
+    dense_mul_vec(STRAINS, STRAINS, C, v, Cv);
+    for (int i = 0; i < STRAINS; i++) {
+        const double size = vec3_norm(Cv);
+        work += sigma[1][i] * v[i];
+        gsl_test(!(fabs((sigma[2][i] - sigma[0][i]) / (2 * h) - Cv[i]) < 1e-6 * size),
+                 "compressed inside: C in the direction of e%d is %.10g, differences %.10g", i + 1,
+                 Cv[i], (sigma[2][i] - sigma[0][i]) / (2 * h));
+    }
+    gsl_test_rel(work, (energy[2] - energy[0]) / (2 * h), 1e-6, "compressed inside: work");
+}
+
 int main(void)
 {
     same_element();
+    inside_compressed();
     inside_follows();
     const double sizes[] = {1e-9, 1e-3, 0.3, 0.8, 0.81, 1, 2.3}; /* turns by 1.24 times that */
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)

@@ -6,12 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/beamw/lanes.h"
 #include "elements/exact/lanes.h"
 #include "elements/math/dense.h"
 #include "elements/sheet/lanes.h"
 #include "elements/test/nodes.h"
 #include "elements/test/sections.h"
 
+extern const element_type element_beamw, element_beamw_vlasov, element_beamw_first,
+    element_beamw_consistent;
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed, element_collocation,
     element_geometrically_exact;
@@ -31,24 +34,66 @@ static const struct {
     strains_function *strain;
     stresses_function *stress;
     equations_function *equations;
-    double option; /* the first one */
+    double option[3]; /* the first ones */
 } family[] = {
-    {&element_sheet_second, sheet_lanes_strain_plain, sheet_lanes_second_plain,
-     sheet_lanes_second_equations_plain, 0},
-    {&element_sheet_second_consistent, sheet_lanes_strain_plain, sheet_lanes_second_plain,
-     sheet_lanes_second_equations_plain, 0},
-    {&element_sheet_third, sheet_lanes_strain_plain, sheet_lanes_third_plain,
-     sheet_lanes_third_equations_plain, 0},
-    {&element_sheet_third_printed, sheet_lanes_strain_plain, sheet_lanes_third_plain,
-     sheet_lanes_third_equations_plain, 0},
-    {&element_collocation, exact_lanes_stages_strain_plain, exact_lanes_stages_stress_plain, NULL,
-     2},
-    {&element_collocation, exact_lanes_stages_strain_plain, exact_lanes_stages_stress_plain, NULL,
-     5},
-    {&element_geometrically_exact, exact_lanes_gauss_strain_plain, exact_lanes_gauss_stress_plain,
-     NULL, 0},
-    {&element_geometrically_exact, exact_lanes_gauss_strain_plain, exact_lanes_gauss_stress_plain,
-     NULL, 1},
+    {&element_beamw, beamw_lanes_modes_plain, beamw_lanes_modified_plain, NULL, {0}},
+    {&element_beamw_vlasov, beamw_lanes_modes_plain, beamw_lanes_modified_plain, NULL, {0}},
+    {&element_beamw_first, beamw_lanes_modes_plain, beamw_lanes_modified_plain, NULL, {0}},
+    {&element_beamw_consistent,
+     beamw_lanes_helicoidal_plain,
+     beamw_lanes_consistent_plain,
+     NULL,
+     {0}},
+    {&element_beamw_consistent,
+     beamw_lanes_helicoidal_plain,
+     beamw_lanes_consistent_plain,
+     NULL,
+     {0, 0, 1}},
+    {&element_beamw_consistent,
+     beamw_lanes_helicoidal_plain,
+     beamw_lanes_consistent_plain,
+     NULL,
+     {0, 1, 1}},
+    {&element_sheet_second,
+     sheet_lanes_strain_plain,
+     sheet_lanes_second_plain,
+     sheet_lanes_second_equations_plain,
+     {0}},
+    {&element_sheet_second_consistent,
+     sheet_lanes_strain_plain,
+     sheet_lanes_second_plain,
+     sheet_lanes_second_equations_plain,
+     {0}},
+    {&element_sheet_third,
+     sheet_lanes_strain_plain,
+     sheet_lanes_third_plain,
+     sheet_lanes_third_equations_plain,
+     {0}},
+    {&element_sheet_third_printed,
+     sheet_lanes_strain_plain,
+     sheet_lanes_third_plain,
+     sheet_lanes_third_equations_plain,
+     {0}},
+    {&element_collocation,
+     exact_lanes_stages_strain_plain,
+     exact_lanes_stages_stress_plain,
+     NULL,
+     {2}},
+    {&element_collocation,
+     exact_lanes_stages_strain_plain,
+     exact_lanes_stages_stress_plain,
+     NULL,
+     {5}},
+    {&element_geometrically_exact,
+     exact_lanes_gauss_strain_plain,
+     exact_lanes_gauss_stress_plain,
+     NULL,
+     {0}},
+    {&element_geometrically_exact,
+     exact_lanes_gauss_strain_plain,
+     exact_lanes_gauss_stress_plain,
+     NULL,
+     {1}},
 };
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
@@ -278,7 +323,7 @@ int main(void)
     for (size_t i = 0; i < sizeof family / sizeof family[0]; i++)
         for (int k = 0; k < 3; k++) {
             batch b = {.type = family[i].type, .name = family[i].type->name};
-            b.option[0] = family[i].option;
+            memcpy(b.option, family[i].option, sizeof family[i].option);
             b.nodes = element_nodes(b.type, b.option);
             b.strains = element_strains(b.type, b.option);
             set_up(&b, features[k]);
