@@ -3,7 +3,12 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/real.h"
 #include "harness/equations/ahead.h"
+
+/* Fewer elements than these cost less one by one: without AVX2 four lanes are two vectors (measured
+ * on sheets). */
+enum { together_from_avx2 = 2, together_from_plain = 3 };
 
 int chunk_size(const model *m)
 {
@@ -153,7 +158,7 @@ static void mix(const model *m, const model_state *s, int index, const double de
 void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[])
 {
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
-    const int together = count > 1 && chunk_size(m) > 1;
+    const int together = count >= REAL_CHOSEN(together_from) && chunk_size(m) > 1;
     for (int k = 0; k < count; k++) {
         kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
         element[k].complete = 0;
