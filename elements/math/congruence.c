@@ -4,16 +4,21 @@
 
 #include "elements/math/real.h"
 
-/* Rows are filled up with zeros to whole fours, two rows are summed at once: what is read of a
+/* Rows are filled up with zeros to whole vectors, two rows are summed at once: what is read of a
  * factor serves both. */
-typedef double four __attribute__((vector_size(32)));
-enum { FOUR = 4, FOURS = CONGRUENCE_WIDEST / FOUR };
+#ifdef REAL_AVX2 /* numbers of a vector of the processor: wider ones are slow */
+enum { WIDTH = 4 };
+#else
+enum { WIDTH = 2 };
+#endif
+typedef double part __attribute__((vector_size(WIDTH * 8)));
+enum { PARTS = CONGRUENCE_WIDEST / WIDTH };
 
 /* Two rows of out[.. x blocks] += sum over l of c[l stride] row l of B[count x blocks]. */
 static inline __attribute__((always_inline)) void
-two_rows(int count, int blocks, const double *c, int next, int stride, const four *B, four *out)
+two_rows(int count, int blocks, const double *c, int next, int stride, const part *B, part *out)
 {
-    four first[FOURS], second[FOURS];
+    part first[PARTS], second[PARTS];
     for (int b = 0; b < blocks; b++) {
         first[b] = out[b];
         second[b] = out[blocks + b];
@@ -32,10 +37,10 @@ two_rows(int count, int blocks, const double *c, int next, int stride, const fou
 }
 
 static inline __attribute__((always_inline)) void one_row(int count, int blocks, const double *c,
-                                                          int stride, const four *B, four *out)
+                                                          int stride, const part *B, part *out)
 {
     for (int b = 0; b < blocks; b++) {
-        four sum = out[b];
+        part sum = out[b];
         for (int l = 0; l < count; l++)
             sum += c[l * stride] * B[l * blocks + b];
         out[b] = sum;
@@ -45,7 +50,7 @@ static inline __attribute__((always_inline)) void one_row(int count, int blocks,
 /* out[rows x blocks] += sum over l of c[i next + l stride] row l of B. */
 static inline __attribute__((always_inline)) void add_rows(int rows, int count, int blocks,
                                                            const double *c, int next, int stride,
-                                                           const four *B, four *out)
+                                                           const part *B, part *out)
 {
     int i = 0;
     for (; i + 1 < rows; i += 2)
@@ -54,19 +59,19 @@ static inline __attribute__((always_inline)) void add_rows(int rows, int count, 
         one_row(count, blocks, c + i * next, stride, B, out + i * blocks);
 }
 
-/* A[rows x n] into rows of whole fours, and back. */
+/* A[rows x n] into rows of whole vectors, and back. */
 static inline __attribute__((always_inline)) void widen(int rows, int n, int blocks,
-                                                        const double *A, four *out)
+                                                        const double *A, part *out)
 {
     const size_t row = (size_t)n * sizeof *A;
     for (int i = 0; i < rows; i++) {
-        out[i * blocks + blocks - 1] = (four){0};
+        out[i * blocks + blocks - 1] = (part){0};
         memcpy(out + i * blocks, A + i * n, row);
     }
 }
 
 static inline __attribute__((always_inline)) void narrow(int rows, int n, int blocks,
-                                                         const four *in, double *A)
+                                                         const part *in, double *A)
 {
     const size_t row = (size_t)n * sizeof *A;
     for (int i = 0; i < rows; i++)
@@ -76,11 +81,11 @@ static inline __attribute__((always_inline)) void narrow(int rows, int n, int bl
 static inline __attribute__((always_inline)) void add(int m, int n, int blocks, const double *J,
                                                       const double *S, double *K)
 {
-    four wide[CONGRUENCE_WIDEST * FOURS], SJ[CONGRUENCE_WIDEST * FOURS],
-        sum[CONGRUENCE_WIDEST * FOURS];
+    part wide[CONGRUENCE_WIDEST * PARTS], SJ[CONGRUENCE_WIDEST * PARTS],
+        sum[CONGRUENCE_WIDEST * PARTS];
     widen(m, n, blocks, J, wide);
     for (int i = 0; i < m * blocks; i++)
-        SJ[i] = (four){0};
+        SJ[i] = (part){0};
     add_rows(m, m, blocks, S, m, 1, wide, SJ);
     widen(n, n, blocks, K, sum);
     add_rows(n, m, blocks, J, 1, n, SJ, sum);
@@ -90,11 +95,11 @@ static inline __attribute__((always_inline)) void add(int m, int n, int blocks, 
 void REAL_NAMED(congruence_add)(int m, int n, const double *J, const double *S, double *K)
 {
     if (m == 8 && n == 14)
-        add(8, 14, 4, J, S, K);
+        add(8, 14, (14 + WIDTH - 1) / WIDTH, J, S, K);
     else if (m == 8 && n == 8)
-        add(8, 8, 2, J, S, K);
+        add(8, 8, 8 / WIDTH, J, S, K);
     else if (m == 15 && n == 21)
-        add(15, 21, 6, J, S, K);
+        add(15, 21, (21 + WIDTH - 1) / WIDTH, J, S, K);
     else
-        add(m, n, (n + FOUR - 1) / FOUR, J, S, K);
+        add(m, n, (n + WIDTH - 1) / WIDTH, J, S, K);
 }
