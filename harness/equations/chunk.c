@@ -6,9 +6,9 @@
 #include "elements/math/real.h"
 #include "harness/equations/ahead.h"
 
-/* Fewer elements than these cost less one by one: without AVX2 four lanes are two vectors (measured
- * on sheets). */
-enum { together_from_avx2 = 2, together_from_plain = 3 };
+/* Fewer elements than these cost less one by one; without AVX2 any number does: there four lanes
+ * are two vectors (measured on sheets and collocation). */
+enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
 
 int chunk_size(const model *m)
 {

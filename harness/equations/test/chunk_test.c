@@ -68,6 +68,7 @@ static void same_answers(const element_type *type)
 }
 
 static const element_type *inner;
+static int asked; /* processors without AVX2 evaluate one at a time */
 static const double failing =
     0.4 + 0.2 * 3 / ELEMENTS; /* [m] where the fourth of the last begins */
 
@@ -83,6 +84,7 @@ static void failing_equations(int count, const element_data *const data[], const
                               const double *const e[], const double *const own[],
                               const double *const s[], equations_output out[], status outcome[])
 {
+    asked++;
     inner->equations_many(count, data, x, e, own, s, out, outcome);
     fail(count, x, element_nodes(inner, NULL), outcome);
 }
@@ -103,9 +105,13 @@ static void named(const element_type *type)
         const model_size size = model_sizes(m);
         double *residual = calloc((size_t)(size.free + size.driven) + 1, sizeof *residual);
         model_linearisation lin = {.residual = residual};
-        gsl_test(residual == NULL || linearise_state(m, state, &lin, &f) != STATUS_SINGULAR,
+        asked = 0;
+        const status outcome =
+            residual != NULL ? linearise_state(m, state, &lin, &f) : STATUS_FAULT;
+        gsl_test(outcome != (asked > 0 ? STATUS_SINGULAR : STATUS_OK),
                  "%s: an element that cannot be evaluated", type->name);
-        gsl_test(strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'", type->name, f.text);
+        gsl_test(asked > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",
+                 type->name, f.text);
         free(residual);
     } else {
         gsl_test(1, "%s: %s", type->name, f.text);
