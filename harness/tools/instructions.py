@@ -27,6 +27,8 @@ CELLS = (("spherical_joint", "sheet_third", 1), ("hexapod", "sheet_third", 1),
          ("c_cantilever", "geometrically_exact", 8), ("c_column", "beamw", 64))
 # name, file of what is called, its function, how often: by which count it is divided
 PARTS = (
+    # strains, stresses and J^T C J of several elements
+    ("all in lanes", "elements/", r"_equations", "strain_evaluations"),
     ("strain", "elements/", r"strain", "strain_evaluations"),
     ("stress", "elements/", r"stress", "stress_evaluations"),
     ("update", "elements/", r"update", "strain_evaluations"),
@@ -188,7 +190,7 @@ def operations(path, program, numbers):
 def as_they_stand(program, cell, profile, numbers):
     """{part: operations} of the equations of elements."""
     out = {}
-    for part in ("strain", "stress", "update"):
+    for part in ("all in lanes", "strain", "stress", "update"):
         entries = {callee[1] for caller, callee in profile.calls
                    if part_of(callee) == part and place(caller).startswith("harness/")}
         if entries:
