@@ -176,7 +176,7 @@ static void strains(batch *b, strains_function *many, int first, int count, int 
 static void stresses(batch *b, stresses_function *many, int first, int count, int what)
 {
     stress_output out[MANY];
-    const double *e[MANY], *inner[MANY];
+    const double *e[MANY] = {NULL}, *inner[MANY];
     status outcome[MANY];
     answers together[MANY], alone;
     int different = 0;
