@@ -160,7 +160,7 @@ asan: ## tests under the address and undefined-behaviour sanitizers, but for tho
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PYTHON_TESTS="$(filter-out reports/test,$(PYTHON_TESTS))" test
 
 tidy: ## clang-tidy, findings are errors
-	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\"' tidy
+	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
 
 format: ## rewrite the C sources in the house's layout
 	@git ls-files '*.c' '*.h' | xargs clang-format -i

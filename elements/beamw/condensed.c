@@ -55,10 +55,11 @@ static void list_terms(const parts *of, int inside, beamw_condensed *out)
 static void list(const parts *of, beamw_condensed *out)
 {
     out->linears = out->terms = 0;
-    for (short r = 0; r < ALL; r++)
-        for (short i = 0; i < E; i++)
+    for (int r = 0; r < ALL; r++)
+        for (int i = 0; i < E; i++)
             if (of->P[r][i] != 0)
-                out->linear[out->linears++] = (beamw_condensed_linear){of->P[r][i], r, i};
+                out->linear[out->linears++] =
+                    (beamw_condensed_linear){of->P[r][i], (short)r, (short)i};
     list_terms(of, 0, out);
     out->mixed = out->terms;
     list_terms(of, 1, out);

@@ -1,5 +1,6 @@
 #include "harness/catalogue/parameters.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -59,8 +60,8 @@ static void write_word(const parameter_type *p, int i, double value, int any,
                        parameters_words *words)
 {
     const size_t size = sizeof words->text[i];
-    if (i < words->known && words->any[i] == any &&
-        memcmp(&words->value[i], &value, sizeof value) == 0)
+    if (i < words->known && words->any[i] == any && words->value[i] == value &&
+        !signbit(words->value[i]) == !signbit(value)) /* "-0" is another word */
         return;
     words->value[i] = value;
     words->any[i] = any;

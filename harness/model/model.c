@@ -180,6 +180,11 @@ int model_left_out(const model *m, const char *const **lines)
     return m->lines;
 }
 
+unsigned model_leaves(const model *m)
+{
+    return m->type->leaves;
+}
+
 unsigned model_limits(const model *m)
 {
     return m->type->limits;

@@ -77,6 +77,7 @@ typedef struct model_state model_state;
 status model_set_threads(model *, int threads, fault *);
 
 unsigned model_limits(const model *); /* LIMIT_* of its formulation */
+unsigned model_leaves(const model *); /* LEAVES_* of it */
 /* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and
  * warping of every vertex in order along the members; returns vertices. u[vertices x 7],
  * position[vertices x 3] (undeformed). */

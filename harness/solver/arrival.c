@@ -17,9 +17,9 @@ static const double quadratic = 0.1;
  * on the mechanisms of cases/), which is less than the noise of most of them. */
 static const double same_tangent = 3e-11;
 
-void arrival_start(double criterion, arrival *a)
+void arrival_start(double criterion, int differences, arrival *a)
 {
-    *a = (arrival){.criterion = criterion,
+    *a = (arrival){.criterion = criterion > 0 || !differences ? criterion : small,
                    .correction = INFINITY,
                    .before = INFINITY,
                    .contraction = NAN,

@@ -16,7 +16,9 @@ typedef struct arrival {
     double remaining;          /* size of the next correction, predicted; NAN: not known */
 } arrival;
 
-void arrival_start(double criterion, arrival *);
+/* differences 1: derivatives are differences, whose noise keeps corrections from contracting: the
+ * first small one is the last. */
+void arrival_start(double criterion, int differences, arrival *);
 /* A correction was made, with what it did to the stresses; `first` of its step. */
 void arrival_take(double correction, const advance_stress *, int first, arrival *);
 /* 1: another correction would change nothing. */

@@ -17,11 +17,13 @@ SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def make(*arguments):
-    """make as it runs these tests, without its processes: they are counted elsewhere."""
+    """make as it runs these tests, without its processes: they are counted elsewhere. Its files by
+    the same names, or all of them would be linked again, which other tests run."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     clean = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")
              and not name.startswith("BEAMWORK")}
-    return subprocess.run(["make", "--no-print-directory", f"BUILD={BUILD}", *given, *arguments],
+    build = os.path.relpath(BUILD, ROOT)
+    return subprocess.run(["make", "--no-print-directory", f"BUILD={build}", *given, *arguments],
                           cwd=ROOT, env=clean, text=True, check=False, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT)
 

@@ -19,7 +19,8 @@ ABOUT = {
     "shear_theories",
     "own_theory",
 }
-STRESS_FUNCTION = {"data_size", "prepare", "stress", "geometric"}
+STRESS_FUNCTION = {"data_size", "prepare", "stress", "geometric", "stress_many",
+                   "equations_many"}
 
 
 def source(formulation):
