@@ -211,6 +211,15 @@ static status read_all(const reading *r, handshake *out)
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);
 }
 
+void handshake_free(element_type *t)
+{
+    free((void *)t->name);
+    free((void *)t->summary);
+    free((void *)t->source);
+    free((void *)t->family);
+    handshake_options_free(t->options[0]);
+}
+
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f)
 {
     json_error_t why;
@@ -225,5 +234,7 @@ status handshake_read(const char *who, const char *line, size_t length, handshak
     }
     const status outcome = read_all(&r, out);
     json_decref(r.said);
+    if (outcome != STATUS_OK)
+        handshake_free(&out->type);
     return outcome;
 }

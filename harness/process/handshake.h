@@ -14,9 +14,10 @@ typedef struct handshake {
     element_constants constants; /* of the type */
 } handshake;
 
-/* `who` begins every refusal. What the type points to stays allocated; on refusal a little of it
- * too: the program ends then. type.constants is left for the owner. REFUSED: what it says is not
- * the line of the protocol. */
+/* `who` begins every refusal. What the type points to stays allocated, but not on refusal.
+ * type.constants is left for the owner. REFUSED: what it says is not the line of the protocol. */
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
+/* What the type of a handshake points to; a type of zeros has nothing. */
+void handshake_free(element_type *);
 
 #endif

@@ -57,13 +57,13 @@ static status read_choice(const char *who, const json_t *one, parameter_type *ou
     const char *chosen = json_string_value(json_object_get(one, "default"));
     int found = 0;
     out->choices = join(list);
-    out->unit = "";
+    out->unit = copy_or(NULL, "");
     for (size_t i = 0; chosen != NULL && i < json_array_size(list) && !found; i++) {
         const char *word = json_string_value(json_array_get(list, i));
         found = word != NULL && strcmp(word, chosen) == 0;
         out->value = (double)i;
     }
-    return out->choices != NULL && found
+    return out->choices != NULL && out->unit != NULL && found
                ? STATUS_OK
                : refuse(who, out->name, "'choices' are words and 'default' is one of them", f);
 }
@@ -113,4 +113,15 @@ status handshake_options(const char *who, const json_t *list, const parameter_ty
     for (size_t i = 0; i < count; i++)
         TRY(read_one(who, json_array_get(list, i), &table[i], f));
     return STATUS_OK;
+}
+
+void handshake_options_free(const parameter_type *table)
+{
+    for (const parameter_type *p = table; p != NULL && p->name != NULL; p++) {
+        free((void *)p->name);
+        free((void *)p->summary);
+        free((void *)p->unit);
+        free((void *)p->choices);
+    }
+    free((void *)table);
 }

@@ -6,7 +6,9 @@
 
 #include "elements/element.h"
 
-/* *out: a table that stays, or NULL for none (list NULL or empty). REFUSED as handshake_read. */
+/* *out: a table to be freed, or NULL for none (list NULL or empty); also on refusal. REFUSED as
+ * handshake_read. */
 status handshake_options(const char *who, const json_t *list, const parameter_type **out, fault *f);
+void handshake_options_free(const parameter_type *table); /* or NULL */
 
 #endif

@@ -194,6 +194,7 @@ status process_load(const char *command, const element_type **out, fault *f)
     const status outcome = begin(p, command, f);
     if (outcome != STATUS_OK) {
         channel_end(&p->to);
+        handshake_free(&p->type);
         free(p);
         return outcome;
     }
