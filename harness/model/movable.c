@@ -5,7 +5,7 @@
 
 #include "elements/math/dense.h"
 
-enum { N = 6 };
+enum { N = 6, ALL = 0x3f };
 
 /* Axes of turns have an error of a few eps: smaller parts of unit columns are taken for
  * round-off. */
@@ -80,6 +80,25 @@ static unsigned components_of(int rank, double (*basis)[N])
     return components;
 }
 
+/* What moves where every column is a component of its own, or nothing, as those of a node are that
+ * is its own body; ALL + 1: another column is among them. */
+static unsigned components_alone(int columns, const double *T)
+{
+    unsigned components = 0;
+    for (int k = 0; k < columns; k++) {
+        int entries = 0;
+        for (int i = 0; i < N; i++) {
+            const double part = T[i * columns + k];
+            if (part == 0)
+                continue;
+            if (part != 1 || entries++ > 0)
+                return ALL + 1;
+            components |= 1u << i;
+        }
+    }
+    return components;
+}
+
 static int count_bits(unsigned bits)
 {
     int count = 0;
@@ -88,27 +107,38 @@ static int count_bits(unsigned bits)
     return count;
 }
 
-/* The basis of whole components. */
-static void unit_vectors(unsigned components, double (*basis)[N])
+/* The motions are those of whole components. */
+static void set_whole(unsigned components, movable *out)
 {
-    memset(basis, 0, N * sizeof *basis);
+    memset(out, 0, sizeof *out);
+    out->components = components;
+    out->count = count_bits(components);
+    out->whole = 1;
     for (int i = 0, k = 0; i < N; i++)
-        if (components >> i & 1u)
-            basis[k++][i] = 1;
+        if (components >> i & 1u) {
+            out->span[i * out->count + k] = out->dual[k * N + i] = 1;
+            out->component[k++] = i;
+        }
 }
 
 void movable_of(int columns, const double *T, double length, movable *out)
 {
     double column[N][N] = {{0}}, basis[N][N] = {{0}};
+    const unsigned alone = components_alone(columns, T);
+    if (alone <= ALL) {
+        set_whole(alone, out);
+        return;
+    }
     memset(out, 0, sizeof *out);
     out->count = orthonormal(N, unit_columns(columns, T, length, column), column, basis);
     out->components = components_of(out->count, basis);
-    const int whole = out->count == count_bits(out->components);
-    if (whole)
-        unit_vectors(out->components, basis);
+    if (out->count == count_bits(out->components)) {
+        set_whole(out->components, out);
+        return;
+    }
     for (int k = 0; k < out->count; k++)
         for (int i = 0; i < N; i++) {
-            const double unit = i < 3 && !whole ? length : 1,
+            const double unit = i < 3 ? length : 1,
                          part = out->components >> i & 1u ? basis[k][i] : 0;
             out->span[i * out->count + k] = part * unit;
             out->dual[k * N + i] = part / unit;

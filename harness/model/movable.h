@@ -7,6 +7,8 @@
 typedef struct movable {
     int count;           /* dimension */
     unsigned components; /* bit i: some motion has component i */
+    int whole;           /* 1: the motions are those of components, one by one ... */
+    int component[6];    /* ... [count] */
     double span[36]; /* [6 x count] a basis: unit vectors where these span it, else orthonormal with
                         lengths in units of `length` */
     double dual[36]; /* [count x 6] dual span = 1: the least combination of components that gives a

@@ -24,6 +24,13 @@ static void subtract_half_skew(const movable *v, const double m[3], double K[])
 {
     const double skew[9] = {0, -m[2], m[1], m[2], 0, -m[0], -m[1], m[0], 0};
     const int n = v->count;
+    if (v->whole) {
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                if (v->component[i] >= 3 && v->component[j] >= 3)
+                    K[i * n + j] -= skew[3 * (v->component[i] - 3) + v->component[j] - 3] / 2;
+        return;
+    }
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             for (int r = 0; r < 3; r++)
@@ -55,11 +62,45 @@ static void congruence(int m, int n, const double T[], const double A[], double 
             to[i * m + j] = dense_dot(n, half + i * n, T + j * n);
 }
 
-/* dual^T from dual. */
+/* to = dual C dual^T: on the motions alone. */
+static void gather(const movable *v, const double C[36], double to[])
+{
+    const int n = v->count;
+    if (!v->whole)
+        congruence(n, N, v->dual, C, to);
+    for (int i = 0; v->whole && i < n; i++)
+        for (int j = 0; j < n; j++)
+            to[i * n + j] = C[N * v->component[i] + v->component[j]];
+}
+
+/* Of whole components; the sums leave no negative zero. */
+static void scatter(const movable *v, const double from[], double to[36])
+{
+    const int n = v->count;
+    memset(to, 0, N * N * sizeof *to);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            to[N * v->component[i] + v->component[j]] += from[i * n + j];
+}
+
+/* C = span from span^T */
+static void scatter_compliance(const movable *v, const double from[], double C[36])
+{
+    if (v->whole)
+        scatter(v, from, C);
+    else
+        congruence(N, v->count, v->span, from, C);
+}
+
+/* K = dual^T from dual */
 static void scatter_stiffness(const movable *v, const double from[], double K[36])
 {
     const int n = v->count;
     double half[N * N];
+    if (v->whole) {
+        scatter(v, from, K);
+        return;
+    }
     memset(K, 0, N * N * sizeof *K);
     dense_mul(n, n, N, from, v->dual, half);
     dense_add_transpose_mul(N, n, N, v->dual, half, K);
@@ -69,7 +110,7 @@ status convention_apply(scene_moments convention, const movable *motions, const 
                         double C[36], double K[36], fault *f)
 {
     double A[N * N], B[N * N], inverse[N * N];
-    congruence(motions->count, N, motions->dual, C, A); /* on the motions alone */
+    gather(motions, C, A);
     if (invert(motions->count, A, B) != 0)
         return fault_set(f, STATUS_SINGULAR, "the compliance matrix is singular");
     if (convention_changes(convention, m)) {
@@ -80,7 +121,7 @@ status convention_apply(scene_moments convention, const movable *motions, const 
         if (invert(motions->count, A, inverse) != 0)
             return fault_set(f, STATUS_SINGULAR, "the stiffness with %s moments is singular",
                              scene_moments_name(convention));
-        congruence(N, motions->count, motions->span, inverse, C);
+        scatter_compliance(motions, inverse, C);
     }
     scatter_stiffness(motions, B, K);
     return STATUS_OK;

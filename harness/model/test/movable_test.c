@@ -98,6 +98,23 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
+/* Columns of one component each, one of them twice and one that is nothing: the same motions as
+ * those of columns that are not known to be such by their zeros. */
+static void components_alone(void)
+{
+    const double alone[24] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
+                              0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0};
+    double beside[24];
+    movable v, w;
+    memcpy(beside, alone, sizeof beside);
+    beside[0] = 1e-17;
+    movable_of(4, alone, 0.1, &v);
+    movable_of(4, beside, 0.1, &w);
+    gsl_test(v.count != 2 || !v.whole || v.component[0] != 2 || v.component[1] != 4,
+             "components alone: %d of them", v.count);
+    gsl_test(memcmp(&v, &w, sizeof v) != 0, "the same motions");
+}
+
 /* One driver behind two opposite turns moves nothing. */
 static void nothing(void)
 {
@@ -138,6 +155,7 @@ int main(void)
 {
     dimensions();
     whole_components();
+    components_alone();
     nothing();
     prescribed_moment();
     return gsl_test_summary();
