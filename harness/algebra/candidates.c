@@ -23,8 +23,8 @@ status candidates_alloc(candidates *p, const eigen_problem *problem, double sign
 
 void candidates_free(candidates *p)
 {
-    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness, p->x,
-                         p->Kx, p->work,      p->form,  p->correction};
+    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness,
+                         p->x,  p->work,      p->form,  p->correction};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     sparse_free_values(&p->shifted);
@@ -45,7 +45,7 @@ static status make_room(candidates *p, int room, fault *f)
     const size_t count = (size_t)room, numbers = count * (size_t)p->n;
     if (room > p->room &&
         !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
-          grow(&p->stiffness, count) && grow(&p->x, numbers) && grow(&p->Kx, numbers)))
+          grow(&p->stiffness, count) && grow(&p->x, numbers)))
         return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
     p->room = room > p->room ? room : p->room;
     return STATUS_OK;
@@ -86,18 +86,15 @@ static void sort_last(candidates *p)
     const size_t n = (size_t)p->n;
     for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
         double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness};
-        double *const vectors[] = {p->x, p->Kx};
         for (int k = 0; k < 4; k++) {
             const double kept = numbers[k][i];
             numbers[k][i] = numbers[k][i - 1];
             numbers[k][i - 1] = kept;
         }
-        for (int k = 0; k < 2; k++) {
-            memcpy(p->work, vectors[k] + (size_t)i * n, n * sizeof *p->work);
-            memcpy(vectors[k] + (size_t)i * n, vectors[k] + (size_t)(i - 1) * n,
-                   n * sizeof *p->work);
-            memcpy(vectors[k] + (size_t)(i - 1) * n, p->work, n * sizeof *p->work);
-        }
+        double *last = p->x + (size_t)i * n, *before = last - n;
+        memcpy(p->work, last, n * sizeof *last);
+        memcpy(last, before, n * sizeof *last);
+        memcpy(before, p->work, n * sizeof *last);
     }
 }
 
@@ -187,32 +184,64 @@ double candidates_scale(candidates *p, long *solutions)
     return candidates_is_rounding(p, largest, x) ? 0 : largest;
 }
 
-status candidates_add(candidates *p, int count, const double x[], double least, fault *f)
+/* The vector behind the last candidate becomes one, if its mu is large enough. */
+static void add_next(candidates *p, double least)
 {
     const eigen_problem *e = p->problem;
+    double *vector = p->x + (size_t)p->count * (size_t)p->n;
+    sparse_mul(e->K, vector, p->work);
+    const double length = sqrt(dense_dot(p->n, vector, p->work));
+    for (int i = 0; i < p->n; i++)
+        vector[i] /= length;
+    const double stiffness = K_form(p, vector);
+    const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / stiffness;
+    if (!(mu > least))
+        return;
+    p->mu[p->count] = mu;
+    p->stiffness[p->count] = stiffness;
+    p->matrix_mu[p->count] = p->sign * form_of(p, NULL, e->A, vector, p->form);
+    p->noise[p->count] = rounding(p, mu, vector);
+    p->count++;
+    sort_last(p);
+}
+
+/* x may be the candidates' own vectors. */
+static void add_all(candidates *p, int count, const double x[], double least)
+{
     const size_t n = (size_t)p->n;
-    TRY(make_room(p, p->count + count, f));
     for (int c = 0; c < count; c++) {
-        double *vector = p->x + (size_t)p->count * n, *product = p->Kx + (size_t)p->count * n;
-        memcpy(vector, x + (size_t)c * n, n * sizeof *vector);
-        sparse_mul(e->K, vector, product);
-        const double length = sqrt(dense_dot(p->n, vector, product));
-        for (size_t i = 0; i < n; i++) {
-            vector[i] /= length;
-            product[i] /= length;
-        }
-        const double stiffness = K_form(p, vector);
-        const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / stiffness;
-        if (!(mu > least))
-            continue;
-        p->mu[p->count] = mu;
-        p->stiffness[p->count] = stiffness;
-        p->matrix_mu[p->count] = p->sign * form_of(p, NULL, e->A, vector, p->form);
-        p->noise[p->count] = rounding(p, mu, vector);
-        p->count++;
-        sort_last(p);
+        memmove(p->x + (size_t)p->count * n, x + (size_t)c * n, n * sizeof *x);
+        add_next(p, least);
     }
+}
+
+status candidates_add(candidates *p, int count, const double x[], double least, fault *f)
+{
+    TRY(make_room(p, p->count + count, f));
+    add_all(p, count, x, least);
     return STATUS_OK;
+}
+
+status candidates_take(candidates *p, int count, double *x, double least, fault *f)
+{
+    if (p->room == 0) {
+        p->x = x;
+        TRY(make_room(p, count, f));
+        add_all(p, count, p->x, least);
+        return STATUS_OK;
+    }
+    const status outcome = candidates_add(p, count, x, least, f);
+    free(x);
+    return outcome;
+}
+
+double *candidates_products(const candidates *p)
+{
+    const size_t n = (size_t)p->n;
+    double *products = malloc(((size_t)p->count * n + 1) * sizeof *products);
+    for (int i = 0; i < p->count && products != NULL; i++)
+        sparse_mul(p->problem->K, p->x + (size_t)i * n, products + (size_t)i * n);
+    return products;
 }
 
 /* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y

@@ -14,7 +14,7 @@ typedef struct candidates {
                             all elements included */
     double *noise;       /* [room] part of it that rounding the sums changes */
     double *stiffness;   /* [room] x^T K x as the caller evaluates it */
-    double *x, *Kx;      /* [room x n] x^T K x = 1 by the matrix */
+    double *x;           /* [room x n] x^T K x = 1 by the matrix */
     double *work, *form; /* [n] each */
     int refinements;     /* of every solution */
     double *correction;  /* [n] while solutions are refined, else NULL */
@@ -41,6 +41,10 @@ void candidates_apply(candidates *p, const double x[], double y[]);
 double candidates_least(int n, double scale);
 /* Takes in vectors x[count x n], whatever their length; those with mu <= least are dropped. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
+/* The same of vectors that were allocated and are the candidates' from now on. */
+status candidates_take(candidates *p, int count, double *x, double least, fault *f);
+/* K times each candidate, [count x n], for the caller to free; NULL: out of memory. */
+double *candidates_products(const candidates *p);
 /* Residual of candidate i and estimated error of its mu, both in parts of mu. One solution. */
 void candidates_judge(candidates *p, int i, double *residual, double *error);
 

@@ -8,7 +8,7 @@
 
 static const double close = 1e-9; /* relative distance of eigenvalues that are not told apart */
 
-/* Unknowns from which on room is worth more than the order of elimination, found again. */
+/* Unknowns from which on room is worth more than having it at once again. */
 enum { LARGE = 20000 };
 
 void candidates_count_rest(candidates *p)
@@ -26,7 +26,7 @@ status candidates_count_above(candidates *p, double s, int *above, eigen_result 
     if (p->shifted.value == NULL)
         TRY(sparse_alloc_like(K, &p->shifted, f));
     if (p->shifted_factor == NULL)
-        TRY(factor_alloc(K, &p->shifted_factor, f));
+        TRY(factor_alloc_like(p->problem->K_factor, K, &p->shifted_factor, f));
     for (int i = 0; i < K->column[p->n]; i++)
         p->shifted.value[i] = K->value[i] - p->sign * p->problem->A->value[i] / s;
     const status outcome = factor_numeric(p->shifted_factor, &p->shifted, f);

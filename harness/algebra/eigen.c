@@ -35,28 +35,29 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Candidates from one run of Lanczos, in what the present ones leave; mu[count], x[count x n]. */
-static status take_lanczos(candidates *p, int count, double mu[], double x[], double least,
+/* Candidates from one run of Lanczos, in what the present ones leave; mu[count], Kx[candidates x
+ * n]. */
+static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
                            long *solutions, fault *f)
 {
     const eigen_problem *e = p->problem;
-    const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, p->Kx};
+    const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, Kx};
     int found = 0;
-    TRY(lanczos_largest(&l, count, &found, mu, x, solutions, f));
-    return candidates_add(p, found, x, least, f);
+    double *x;
+    TRY(lanczos_largest(&l, count, &found, mu, &x, solutions, f));
+    return candidates_take(p, found, x, least, f);
 }
 
 static status run_lanczos(candidates *p, int wanted, double least, long *solutions, fault *f)
 {
     const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
-    double *mu = malloc((size_t)count * sizeof *mu),
-           *x = malloc((size_t)count * (size_t)p->n * sizeof *x);
+    double *mu = malloc((size_t)count * sizeof *mu), *Kx = candidates_products(p);
     const status outcome =
-        mu != NULL && x != NULL
-            ? take_lanczos(p, count, mu, x, least, solutions, f)
+        mu != NULL && Kx != NULL
+            ? take_lanczos(p, count, mu, Kx, least, solutions, f)
             : fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count);
     free(mu);
-    free(x);
+    free(Kx);
     return outcome;
 }
 

@@ -17,10 +17,11 @@ struct factor {
     factor_symmetric *symmetric;     /* one of the two */
     factor_unsymmetric *unsymmetric; /* NULL both: nothing to solve for */
     factor_counts counts;
-    double *residual, *other; /* [n] */
+    double *residual, *other; /* [n]; other: unsymmetric */
 };
 
-status factor_alloc(const sparse *pattern, factor **out, fault *f)
+/* All but the factors. */
+static status begin(const sparse *pattern, factor **out, fault *f)
 {
     factor *fa = *out = calloc(1, sizeof *fa);
     if (fa == NULL)
@@ -28,14 +29,32 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f)
     fa->n = pattern->n;
     fa->counts.condition = fa->counts.determinant = 1;
     fa->counts.negative_pivots = pattern->symmetric ? 0 : -1;
+    fa->residual = malloc(((size_t)fa->n + 1) * sizeof *fa->residual);
+    if (!pattern->symmetric)
+        fa->other = malloc(((size_t)fa->n + 1) * sizeof *fa->other);
+    return fa->residual != NULL && (pattern->symmetric || fa->other != NULL)
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for factors");
+}
+
+status factor_alloc(const sparse *pattern, factor **out, fault *f)
+{
+    TRY(begin(pattern, out, f));
+    factor *fa = *out;
     if (fa->n == 0)
         return STATUS_OK;
-    fa->residual = malloc((size_t)fa->n * sizeof *fa->residual);
-    fa->other = malloc((size_t)fa->n * sizeof *fa->other);
-    if (fa->residual == NULL || fa->other == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for factors");
     return pattern->symmetric ? factor_symmetric_alloc(pattern, &fa->symmetric, &fa->counts, f)
                               : factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
+}
+
+status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, fault *f)
+{
+    if (of->symmetric == NULL)
+        return factor_alloc(pattern, out, f);
+    TRY(begin(pattern, out, f));
+    (*out)->counts.entries = of->counts.entries;
+    (*out)->counts.flops = of->counts.flops;
+    return factor_symmetric_alloc_like(of->symmetric, &(*out)->symmetric, f);
 }
 
 status factor_of(const factor_operator *by, factor **out, fault *f)

@@ -15,14 +15,14 @@
 
 struct factor_symmetric {
     int n;
+    int lent;             /* 1: `integers`, L_row and run are another one's */
     int *integers;        /* what the next ten arrays and run_of_row are parts of */
     int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]) */
     int *column, *row;    /* [n + 1], [entries] upper triangle of C */
     int *source;          /* [entries] of C: position in A */
     int *L_column;        /* [n + 1] */
     int *parent, *in_column, *mark, *path; /* [n] elimination tree and workspace of LDL */
-    double *numbers;                       /* what the next four arrays are parts of */
-    double *D, *work;                      /* [n] */
+    double *D, *work;                      /* [n]; D begins the block of these four */
     double *diagonal, *terms;              /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
     int *L_row;                            /* [L_column[n]] */
     int *run_of_row;                       /* [n + 1] */
@@ -30,12 +30,22 @@ struct factor_symmetric {
     double *L_value;
 };
 
-/* Cuts the workspace into its arrays; 0 when memory ran out. */
+/* 0: memory ran out, here and below. */
+static int lay_out_numbers(factor_symmetric *fs, size_t n)
+{
+    fs->D = malloc((4 * n + 1) * sizeof *fs->D);
+    if (fs->D == NULL)
+        return 0;
+    fs->work = fs->D + n;
+    fs->terms = fs->work + n;
+    fs->diagonal = fs->terms + n;
+    return 1;
+}
+
 static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
 {
     fs->integers = malloc((6 * n + 3 * (n + 1) + 2 * entries) * sizeof *fs->integers);
-    fs->numbers = malloc((4 * n + 1) * sizeof *fs->numbers);
-    if (fs->integers == NULL || fs->numbers == NULL)
+    if (fs->integers == NULL || !lay_out_numbers(fs, n))
         return 0;
     int **const lists[] = {&fs->order,     &fs->inverse, &fs->parent,
                            &fs->in_column, &fs->mark,    &fs->path};
@@ -47,10 +57,6 @@ static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
     fs->run_of_row = fs->L_column + n + 1;
     fs->row = fs->run_of_row + n + 1;
     fs->source = fs->row + entries;
-    fs->D = fs->numbers;
-    fs->work = fs->D + n;
-    fs->terms = fs->work + n;
-    fs->diagonal = fs->terms + n;
     return 1;
 }
 
@@ -188,14 +194,30 @@ status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, fac
     return analyse(fs, counts, f);
 }
 
+status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f)
+{
+    factor_symmetric *fs = *out = malloc(sizeof *fs);
+    if (fs == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+    *fs = *of;
+    fs->lent = 1;
+    fs->L_value = malloc(((size_t)fs->L_column[fs->n] + 1) * sizeof *fs->L_value);
+    return lay_out_numbers(fs, (size_t)fs->n) && fs->L_value != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for %d entries of a factor",
+                           fs->L_column[fs->n]);
+}
+
 void factor_symmetric_free(factor_symmetric *fs)
 {
     if (fs == NULL)
         return;
-    free(fs->integers);
-    free(fs->numbers);
-    free(fs->run);
-    free(fs->L_row);
+    if (!fs->lent) {
+        free(fs->integers);
+        free(fs->run);
+        free(fs->L_row);
+    }
+    free(fs->D);
     free(fs->L_value);
     free(fs);
 }

@@ -9,6 +9,9 @@ typedef struct factor_symmetric factor_symmetric;
 
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
                               fault *f);
+/* Of a matrix with the same pattern: order, pattern and workspace are those of `of`, which must
+ * outlive it; only one of the two is factored at a time. */
+status factor_symmetric_alloc_like(const factor_symmetric *of, factor_symmetric **out, fault *f);
 void factor_symmetric_free(factor_symmetric *fs);
 /* OK or SINGULAR; allocates nothing. *weakest: unknown whose pivot lost most digits; *ratio: its
  * size by that of the terms it is the sum of. */

@@ -31,14 +31,14 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
     w->vectors = 2 * wanted + EXTRA_VECTORS < room ? 2 * wanted + EXTRA_VECTORS : room;
     w->size = w->vectors * (w->vectors + 8);
     const size_t N = (size_t)n, vectors = (size_t)w->vectors;
-    w->numbers = malloc((N + N * vectors + 3 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
+    w->numbers = malloc((4 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
+    w->basis = malloc(N * vectors * sizeof *w->basis);
     w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
-    if (w->numbers == NULL || w->integers == NULL)
+    if (w->numbers == NULL || w->integers == NULL || w->basis == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors,
                          n);
     w->start = w->numbers;
-    w->basis = w->start + N;
-    w->vector = w->basis + N * vectors;
+    w->vector = w->start + N;
     w->work = w->vector + 3 * N;
     w->value = w->work + w->size;
     w->parameter = w->integers;
@@ -50,6 +50,7 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
 static void workspace_free(workspace *w)
 {
     free(w->numbers);
+    free(w->basis);
     free(w->integers);
 }
 
@@ -111,8 +112,19 @@ static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
     }
 }
 
-/* ARPACK's values and vectors, the largest first. */
-static status take_vectors(workspace *w, int n, int wanted, int found, double mu[], double x[],
+/* ARPACK's order is the reverse of ours. */
+static void reverse(size_t n, int count, double x[])
+{
+    for (int low = 0, high = count - 1; low < high; low++, high--)
+        for (size_t k = 0; k < n; k++) {
+            const double kept = x[(size_t)low * n + k];
+            x[(size_t)low * n + k] = x[(size_t)high * n + k];
+            x[(size_t)high * n + k] = kept;
+        }
+}
+
+/* ARPACK's values and vectors, the largest first. The vectors are what is left of the basis. */
+static status take_vectors(workspace *w, int n, int wanted, int found, double mu[], double **x,
                            fault *f)
 {
     int info = 0;
@@ -121,18 +133,18 @@ static status take_vectors(workspace *w, int n, int wanted, int found, double mu
     if (info != 0)
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "the eigenvectors were not found (ARPACK says %d)", info);
-    for (int i = 0; i < found; i++) {
-        const int from = found - 1 - i;
-        mu[i] = w->value[from];
-        memcpy(x + (size_t)i * (size_t)n, w->basis + (size_t)from * (size_t)n,
-               (size_t)n * sizeof *x);
-    }
+    for (int i = 0; i < found; i++)
+        mu[i] = w->value[found - 1 - i];
+    reverse((size_t)n, found, w->basis);
+    double *less = realloc(w->basis, (size_t)found * (size_t)n * sizeof *less);
+    *x = less != NULL ? less : w->basis;
+    w->basis = NULL;
     return STATUS_OK;
 }
 
 /* With what lanczos_largest frees. */
 static status solve(const lanczos_problem *p, workspace *w, int wanted, int *found, double mu[],
-                    double x[], long *solutions, fault *f)
+                    double **x, long *solutions, fault *f)
 {
     const int n = p->K->n;
     TRY(workspace_alloc(w, n, wanted, n - p->known, f));
@@ -166,10 +178,11 @@ static void mind_forks(void)
     pthread_atfork(lock, unlock, unlock);
 }
 
-status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
+status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f)
 {
     workspace w;
+    *x = NULL;
     pthread_once(&forks, mind_forks);
     lock();
     const status outcome = solve(p, &w, wanted, found, mu, x, solutions, f);

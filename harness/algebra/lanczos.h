@@ -15,9 +15,9 @@ typedef struct lanczos_problem {
 } lanczos_problem;
 
 /* `wanted` <= n - known - 1 eigenvalues mu[wanted] in descending order with K-orthonormal vectors
- * x[wanted x n]; `found` of them, at least one, where the iteration ended before the others had
- * converged. */
-status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double x[],
+ * (*x)[wanted x n], which the caller frees; `found` of them, at least one, where the iteration
+ * ended before the others had converged. */
+status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f);
 
 #endif

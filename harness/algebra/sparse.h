@@ -37,6 +37,9 @@ typedef struct factor_counts {
 /* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs
  * give the inertia; unsymmetric: KLU. */
 status factor_alloc(const sparse *pattern, factor **out, fault *f);
+/* For a matrix with the pattern that `of` was made for: a symmetric one takes the order of `of`,
+ * which must outlive it and not be factored at the same time. */
+status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, fault *f);
 void factor_free(factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
 status factor_numeric(factor *fa, const sparse *a, fault *f);

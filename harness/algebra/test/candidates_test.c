@@ -1,6 +1,7 @@
 /* Candidates for eigenvalues: sorted, counted by the inertia, and completed by what they leave. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "elements/math/pi.h"
 #include "harness/algebra/candidates.h"
@@ -16,7 +17,7 @@ static void test_missed_copies(void)
     strings s;
     eigen_result work = {0};
     candidates p;
-    double x[2 * N] = {0}, mu[2], all[COPIES * N] = {0};
+    double x[N] = {0}, mu[2], all[COPIES * N] = {0}, *more;
     int missing = -1, above = -1, found = 0;
     strings_init(&s, COPIES, MASSES, 0);
     eigen_problem e = {.K = &s.K,
@@ -50,13 +51,15 @@ static void test_missed_copies(void)
     gsl_test_int((int)candidates_count_missing(&p, 2, &missing, &work, NULL), STATUS_OK,
                  "values that lie above the second one are counted");
     gsl_test_int(missing, COPIES - 1, "and two are missing");
-    const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, p.Kx};
-    gsl_test(lanczos_largest(&rest, 2, &found, mu, x, &work.solutions, NULL) != STATUS_OK ||
+    double *products = candidates_products(&p);
+    const lanczos_problem rest = {e.K, e.A, e.K_factor, 1, p.count, p.x, products};
+    gsl_test(lanczos_largest(&rest, 2, &found, mu, &more, &work.solutions, NULL) != STATUS_OK ||
                  found != 2,
              "Lanczos goes on where the candidates leave off");
     gsl_test_rel(mu[0], first, 1e-12, "second copy");
     gsl_test_rel(mu[1], first, 1e-12, "third copy");
-    gsl_test(candidates_add(&p, 2, x, 0, NULL) != STATUS_OK, "both are taken in");
+    gsl_test(candidates_take(&p, 2, more, 0, NULL) != STATUS_OK, "both are taken in");
+    free(products);
     gsl_test(candidates_count_missing(&p, COPIES + 1, &missing, &work, NULL) != STATUS_OK ||
                  missing != 0,
              "now nothing is missing");
