@@ -6,6 +6,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/cli/cli.h"
 #include "harness/command/help.h"
+#include "harness/contest/contest.h"
 #include "harness/record/csv.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
@@ -94,7 +95,7 @@ static int bench_request(command_request *r)
     judgement j = {0};
     fault f = {""};
     if (r->against != NULL)
-        return cli_against(r);
+        return contest_run(r);
     if (r->scene_count > 0 && case_input_find(r) == NULL)
         return r->refusal;
     if (r->error != NULL || r->keep_all)

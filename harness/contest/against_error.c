@@ -1,4 +1,4 @@
-#include "harness/cli/against_error.h"
+#include "harness/contest/against_error.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,9 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/cli/contestant.h"
+#include "harness/command/case_input.h"
 #include "harness/command/defaults.h"
 #include "harness/command/errors.h"
+#include "harness/contest/contestant.h"
 #include "harness/judge/families.h"
 #include "harness/judge/meeting.h"
 #include "harness/judge/reach.h"

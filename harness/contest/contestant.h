@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "harness/cli/cli.h"
+#include "harness/command/command.h"
 #include "harness/schema/schema.h"
 #include "harness/timing/against.h"
 

@@ -1,4 +1,4 @@
-#include "harness/cli/contestant.h"
+#include "harness/contest/contestant.h"
 
 #include <jansson.h>
 #include <stdio.h>

@@ -1,12 +1,14 @@
-/* bench --against: one cell in alternation with another formulation, or with the same cell of
- * another program. */
+#include "harness/contest/contest.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/cli/against_error.h"
-#include "harness/cli/contestant.h"
+#include "harness/command/case_input.h"
 #include "harness/command/defaults.h"
+#include "harness/command/message.h"
+#include "harness/contest/against_error.h"
+#include "harness/contest/contestant.h"
 
 static void show(const command_request *r, const contestant *a, const contestant *b,
                  const against *v)
@@ -90,7 +92,7 @@ static status against_other(command_request *r, const case_type *type, fault *f)
     return against_meshes(r, type, f);
 }
 
-int cli_against(command_request *r)
+int contest_run(command_request *r)
 {
     fault f = {""};
     if (r->case_count + r->scene_count != 1 || r->formulations > 1 || r->meshes > 2)
