@@ -25,7 +25,7 @@ static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *
 static void count(const sweep *s, const verdict *v, coverage *row)
 {
     for (int k = 0; k < COVERAGE_MESHES && k < s->series[v->series].meshes; k++) {
-        const mesh_limit l = verdict_limit(s, v->series, v->quantity, k);
+        const mesh_limit l = k == 0 ? v->fit : verdict_limit(s, v->series, v->quantity, k);
         if (l.meshes < 3)
             continue;
         row->series[k]++;

@@ -14,6 +14,7 @@
 #include "harness/judge/sound.h"
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
+#include "harness/truth/truth_index.h"
 
 /* Beyond what the rule explains?  A limit that was derived binds by its own distance. */
 static int is_beyond(const rule *r, const verdict *v)
@@ -78,10 +79,9 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
 static void mark_met(truths *t, const point *p, const formulation *chosen, const char *quantity,
                      int judged)
 {
-    for (int i = 0; i < t->rows; i++) {
+    for (int i = truth_index_first(t, p->type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         truth *row = &t->row[i];
-        if (row->type == p->type && strcmp(row->quantity, quantity) == 0 &&
-            truth_holds(row, p->type, p->parameter) &&
+        if (truth_holds(row, p->type, p->parameter) &&
             (row->formulation[0] == '\0' || strcmp(row->formulation, chosen->key) == 0)) {
             row->met = 1;
             row->judged |= judged;

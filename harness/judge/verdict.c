@@ -7,6 +7,7 @@
 
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
+#include "harness/truth/truth_index.h"
 
 static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "biased",
@@ -192,12 +193,11 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     const series *one = &s->series[v->series];
     const point *p = &s->point[one->point];
     const char *theories = theories_of(&p->scene, one->formulation.type);
-    for (int i = 0; i < t->rows; i++) {
+    const char *quantity = p->scene.quantity[v->quantity].name;
+    for (int i = truth_index_first(t, p->type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         const truth *row = &t->row[i];
-        if (row->type == p->type && strcmp(row->kind, "published") == 0 &&
-            row->formulation[0] == '\0' && !row->on_curve && row != v->truth &&
-            strcmp(row->quantity, p->scene.quantity[v->quantity].name) == 0 &&
-            strcmp(row->model, "same") == 0 &&
+        if (strcmp(row->kind, "published") == 0 && row->formulation[0] == '\0' && !row->on_curve &&
+            row != v->truth && strcmp(row->model, "same") == 0 &&
             (theories == NULL || row->theory[0] == '\0' || strcmp(row->theory, theories) == 0) &&
             truth_holds(row, p->type, p->parameter) &&
             fabs(v->fit.limit - row->value) > v->fit.limit_uncertainty + row->uncertainty)

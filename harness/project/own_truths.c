@@ -10,6 +10,7 @@
 #include "harness/language/line.h"
 #include "harness/project/own_names.h"
 #include "harness/project/own_table.h"
+#include "harness/truth/truth_index.h"
 #include "harness/truth/truth_rows.h"
 
 static const char head[] = "case,parameters,formulation,theory,elements,quantity,at,value,unit,"
@@ -228,6 +229,8 @@ status own_truths_read(const char *path, const case_type *const run[], const cas
     status outcome = own_table_read(path, head, &rows, m, f);
     if (outcome == STATUS_OK)
         outcome = add_rows(&rows, &r, f);
+    if (outcome == STATUS_OK)
+        outcome = truth_index_make(t, f);
     own_table_free(&rows);
     return outcome;
 }

@@ -6,6 +6,7 @@
 
 #include "harness/catalogue/choice.h"
 #include "harness/truth/truth.h"
+#include "harness/truth/truth_index.h"
 
 const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
@@ -49,10 +50,10 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
                              const char *quantity, const char *model, const char *theories)
 {
     const truth *best = NULL;
-    for (int i = 0; i < t->rows; i++) {
+    for (int i = truth_index_first(t, type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         const truth *row = &t->row[i];
-        const int fits = row->type == type && row->formulation[0] == '\0' && !row->on_curve &&
-                         strcmp(row->quantity, quantity) == 0 && strcmp(row->model, model) == 0 &&
+        const int fits = row->formulation[0] == '\0' && !row->on_curve &&
+                         strcmp(row->model, model) == 0 &&
                          (truth_gates(row) || strcmp(model, "same") != 0);
         const int follows = fits && (theories == NULL || row->theory[0] == '\0' ||
                                      choice_index(theories, row->theory) >= 0);
@@ -67,11 +68,10 @@ const truth *truth_of_theory(const truths *t, const case_type *type, const doubl
 const truth *truth_agreed(const truths *t, const case_type *type, const double value[],
                           const char *quantity)
 {
-    for (int i = 0; i < t->rows; i++) {
+    for (int i = truth_index_first(t, type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         const truth *row = &t->row[i];
-        if (row->type == type && strcmp(row->kind, "agreement") == 0 && !row->on_curve &&
-            strcmp(row->quantity, quantity) == 0 && strcmp(row->model, "same") == 0 &&
-            truth_holds(row, type, value))
+        if (strcmp(row->kind, "agreement") == 0 && !row->on_curve &&
+            strcmp(row->model, "same") == 0 && truth_holds(row, type, value))
             return row;
     }
     return NULL;
@@ -80,11 +80,10 @@ const truth *truth_agreed(const truths *t, const case_type *type, const double v
 const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *key)
 {
-    for (int i = 0; i < t->rows; i++) {
+    for (int i = truth_index_first(t, type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         const truth *row = &t->row[i];
-        if (row->type == type && strcmp(row->kind, "predicted") == 0 && !row->on_curve &&
-            strcmp(row->quantity, quantity) == 0 && truth_holds(row, type, value) &&
-            is_of_formulation(row->formulation, key))
+        if (strcmp(row->kind, "predicted") == 0 && !row->on_curve &&
+            truth_holds(row, type, value) && is_of_formulation(row->formulation, key))
             return row;
     }
     return NULL;

@@ -7,6 +7,7 @@
 #include "harness/catalogue/registry.h"
 #include "harness/truth/accepted.h"
 #include "harness/truth/columns.h"
+#include "harness/truth/truth_index.h"
 #include "harness/truth/truth_rows.h"
 #include "harness/truth/truths_file.h"
 
@@ -105,7 +106,9 @@ static status read_file(const char *path, const wanted *what, truths *out, fault
 static status read_new(const char *path, const wanted *what, truths *out, fault *f)
 {
     memset(out, 0, sizeof *out);
-    const status outcome = read_file(path, what, out, f);
+    status outcome = read_file(path, what, out, f);
+    if (outcome == STATUS_OK)
+        outcome = truth_index_make(out, f);
     if (outcome != STATUS_OK)
         truths_free(out);
     return outcome;
@@ -141,6 +144,7 @@ void truths_free(truths *t)
             free(all[k]);
     }
     rules_free(t->rule, t->rules);
+    truth_index_free(t);
     free(t->row);
     memset(t, 0, sizeof *t);
 }

@@ -29,8 +29,11 @@ typedef struct truth {
 typedef struct truths {
     int rows, rules;
     truth *row;
-    rule *rule;    /* the ledger */
-    int strangers; /* cases of the file that the program does not have */
+    /* of truth_index.h: the first row of each case and quantity, the next one of the same */
+    int indexed, places; /* rows that it knows: the first ones */
+    int *first, *next;   /* [places], [indexed] */
+    rule *rule;          /* the ledger */
+    int strangers;       /* cases of the file that the program does not have */
     char stranger[64];
 } truths;
 
