@@ -27,10 +27,11 @@ PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py
 
 REGISTRY := $(BUILD)/registry.c
 PRICES := $(BUILD)/price_table.c
+EXPENSES := $(BUILD)/expense_table.c
 LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
 TRUTHS := $(BUILD)/truths.h5
-OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o)
+OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
 WIDE := elements/math/congruence.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c))
 ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
@@ -104,6 +105,10 @@ bench: all ## time every formulation on every case into build/bench.h5
 
 prices: all needs-report ## what counted work costs, fitted to measured times: half an hour on a quiet machine; harness/timing/prices.csv
 	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/timing/prices.csv
+
+.PHONY: expense
+expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; harness/study/expense.csv
+	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv
 
 bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense reference
 	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
@@ -188,6 +193,9 @@ $(REGISTRY): FORCE
 $(PRICES): harness/timing/prices.csv harness/tools/price_table.sh
 	@harness/tools/price_table.sh $@ $<
 
+$(EXPENSES): harness/study/expense.csv harness/tools/expense_table.sh
+	@harness/tools/expense_table.sh $@ $<
+
 # The list of objects: when a source disappears, the archive is made anew.
 $(BUILD)/objects.list: FORCE
 	@mkdir -p $(@D); echo '$(CC) $(CFLAGS) $(OBJECTS)' | cmp -s - $@ || echo '$(CC) $(CFLAGS) $(OBJECTS)' >$@
@@ -210,7 +218,8 @@ $(BUILD)/%.avx2.o: %.c
 	$(call SAY,compile $< for AVX2)$(CC) $(BASE_CFLAGS) -mavx2 -DREAL_AVX2 $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
 $(PRICES:.c=.o): harness/timing/price.h
-$(REGISTRY:.c=.o) $(PRICES:.c=.o): $(BUILD)/%.o: $(BUILD)/%.c
+$(EXPENSES:.c=.o): harness/study/expense.h
+$(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
 
 $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list

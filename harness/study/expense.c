@@ -1,11 +1,7 @@
 #include "harness/study/expense.h"
 
 #include <stdlib.h>
-
-/* Evaluations of each element, counted in `verify` and rounded. */
-static const double of_load_step = 4, of_compliance = 5, of_eigenvalues = 10, of_modes = 20,
-                    of_curve = 60;
-static const double beginning = 4; /* elements that what a cell takes without any is worth */
+#include <string.h>
 
 /* Of the path that an analysis walks, or that of the one it follows. */
 static double stations_of(const scene *s, const scene_analysis *a)
@@ -15,41 +11,73 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-static double steps_of(const point *p, const scene_analysis *a)
+static double steps_of(const scene_analysis *a, int steps)
 {
-    const int between = p->steps > 0 ? p->steps : scene_walk_of(a)->steps_between;
+    const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
     return scene_path_of(a)->stations * (double)between;
 }
 
-static double times_of(const point *p, const scene_analysis *a)
+static void count_analysis(const scene *s, const scene_analysis *a, int steps, double times[])
 {
     switch (a->kind) {
     case SCENE_LINEAR:
-        return 1;
-    case SCENE_BUCKLING: /* about a loaded state a path to the critical point */
-        return a->follows != SCENE_NONE ? of_curve : of_eigenvalues;
+        times[EXPENSE_linear]++;
+        break;
+    case SCENE_BUCKLING:
+        times[a->follows != SCENE_NONE ? EXPENSE_loaded_buckling : EXPENSE_buckling]++;
+        break;
     case SCENE_MODAL:
-        return of_eigenvalues;
+        times[EXPENSE_modal]++;
+        break;
     case SCENE_STATIC:
-        return of_load_step * steps_of(p, a);
+        times[EXPENSE_load_step] += steps_of(a, steps);
+        break;
     case SCENE_COMPLIANCE:
-        return of_compliance * stations_of(&p->scene, a);
+        times[EXPENSE_compliance] += stations_of(s, a);
+        break;
     case SCENE_CONTINUATION:
-        return of_curve;
+        times[EXPENSE_continuation]++;
+        break;
     case SCENE_ROTATION:
-        return of_load_step * steps_of(p, a) + of_modes * stations_of(&p->scene, a);
+        times[EXPENSE_rotation_step] += steps_of(a, steps);
+        times[EXPENSE_rotation_station] += stations_of(s, a);
+        break;
     }
-    return 0;
+}
+
+void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS])
+{
+    for (int k = 0; k < EXPENSE_KINDS; k++)
+        times[k] = k == EXPENSE_cell;
+    for (int i = 0; i < s->analyses; i++)
+        count_analysis(s, &s->analysis[i], steps, times);
+}
+
+static expense_price own_factor(const element_type *type)
+{
+    const expense_factor *row = expense_factors;
+    while (row->formulation != NULL && strcmp(row->formulation, type->name) != 0)
+        row++;
+    return row->factor;
+}
+
+double expense_of_scene(const scene *s, int steps, const element_type *type, int elements)
+{
+    const expense_price own = own_factor(type);
+    const double all = (double)elements * s->members;
+    double times[EXPENSE_KINDS], sum = 0;
+    expense_count(s, steps, times);
+    for (int k = 0; k < EXPENSE_KINDS; k++)
+        sum += times[k] *
+               (expense_work[k].once * own.once + expense_work[k].element * own.element * all);
+    return sum;
 }
 
 double expense_of_cell(const sweep *s, int series_index, int mesh)
 {
     const series *one = &s->series[series_index];
     const point *p = &s->point[one->point];
-    double times = 1;
-    for (int i = 0; i < p->scene.analyses; i++)
-        times += times_of(p, &p->scene.analysis[i]);
-    return times * (beginning + (double)one->mesh[mesh] * p->scene.members);
+    return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
 /* A series that is run. */

@@ -70,8 +70,43 @@ static void order(void)
     sweep_free(&s);
 }
 
+/* What the analyses of a case at its defaults do. */
+static void counted(const char *name, expense_kind kind, double wanted)
+{
+    fault f = {""};
+    double value[CASE_MAX_PARAMETERS] = {0}, times[EXPENSE_KINDS];
+    const case_type *type = case_find(name, &f);
+    scene s;
+    parameters_default(type, value);
+    gsl_test(cell_scene(type, value, NULL, &s, &f) != STATUS_OK, "%s: %s", name, f.text);
+    expense_count(&s, 0, times);
+    gsl_test_rel(times[kind], wanted, 1e-15, "%s: kind %d of work", name, (int)kind);
+    gsl_test_rel(times[EXPENSE_cell], 1, 1e-15, "%s: one cell", name);
+    expense_count(&s, 7, times);
+    if (kind == EXPENSE_load_step)
+        gsl_test_rel(times[kind], 7, 1e-15, "%s: load steps that are asked for", name);
+    scene_free(&s);
+}
+
+/* Every price is known, and some formulation has a row of its own. */
+static void prices(void)
+{
+    double all = 0;
+    for (int k = 0; k < EXPENSE_KINDS; k++) {
+        gsl_test(expense_work[k].once < 0 || expense_work[k].element < 0, "price %d", k);
+        all += expense_work[k].element;
+    }
+    gsl_test(all <= 0, "elements cost something");
+    gsl_test(expense_factors[0].formulation == NULL, "formulations have rows");
+}
+
 int main(void)
 {
     order();
+    counted("bend_45", EXPENSE_load_step, 4);
+    counted("warping_torsion", EXPENSE_linear, 1);
+    counted("tip_body", EXPENSE_modal, 1);
+    counted("lee_frame", EXPENSE_continuation, 1);
+    prices();
     return gsl_test_summary();
 }

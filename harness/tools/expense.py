@@ -1,0 +1,162 @@
+"""What a cell is expected to cost before it is solved, fitted to the counted work of cells that
+were solved (`make expense`; the file of the last `make verify`).
+
+Cost [s] = sum over what an analysis does of times * (once * o + element * e * elements), elements
+of all members together. `once` and `element` belong to the kind of work, the factors o and e to the
+formulation: one that has no row has ones. How good it is is asked of cells that took no part: the
+cases in five groups, each predicted from the other four.
+"""
+import argparse
+import collections
+import math
+import pathlib
+
+import h5py
+import numpy as np
+import yaml
+from scipy.optimize import nnls
+
+# As harness/study/expense.h counts them.
+WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "compliance",
+        "continuation", "rotation_step", "rotation_station")
+FOLDS = 5
+ROUNDS = 15
+DEAR = 0.75  # relative errors count by cost^(1 - DEAR): dear cells more, cheap ones too
+LARGE = 0.3  # of the logarithm: errors beyond it count less
+
+
+def stations_of(analyses, body):
+    """Of the path that an analysis walks, or that of the one it is about."""
+    while "stations" not in body and "about" in body:
+        ((_, body),) = analyses[body["about"]].items()
+        body = body or {}
+    return len(body.get("stations", [1]))
+
+
+def work_of(scene):
+    """{kind: times} of a scene, and its members."""
+    analyses, times = scene.get("analyses") or {}, collections.Counter(cell=1)
+    for analysis in analyses.values():
+        ((kind, body),) = analysis.items()
+        body = body or {}
+        stations = stations_of(analyses, body)
+        if kind == "static":
+            times["load_step"] += stations * body.get("steps", 1)
+        elif kind == "rotation":
+            times["rotation_step"] += stations * body.get("steps", 1)
+            times["rotation_station"] += stations
+        elif kind == "compliance":
+            times[kind] += stations
+        elif kind == "buckling":
+            times["loaded_buckling" if "about" in body else kind] += 1
+        else:
+            times[kind] += 1
+    return times, len(scene["members"])
+
+
+def read(path):
+    """[{case, name, times, elements, cost, seconds}] of all cells that were solved or failed."""
+    out = []
+    with h5py.File(path) as file:
+        for case, group in file["cases"].items():
+            works = {row["point"]: work_of(yaml.safe_load(row["scene"].decode()))
+                     for row in group["scenes"][()]}
+            for row in group["cells"][()]:
+                seconds = float(row["seconds_setup"] + row["seconds_solve"])
+                if row["point"] not in works or row["cost"] <= 0 or seconds <= 0:
+                    continue
+                times, members = works[row["point"]]
+                out.append({"case": case, "name": row["formulation"].decode().partition(":")[0],
+                            "times": [times[kind] for kind in WORK], "seconds": seconds,
+                            "elements": int(row["elements"]) * members, "cost": float(row["cost"])})
+    return out
+
+
+def columns_of(cells):
+    """times [cells, kinds], elements [cells], names [cells]"""
+    return (np.array([c["times"] for c in cells], float),
+            np.array([c["elements"] for c in cells], float), np.array([c["name"] for c in cells]))
+
+
+def predict(cells, prices, factors):
+    """[s]; prices [kinds, 2], factors {name: (once, element)}."""
+    times, elements, names = columns_of(cells)
+    factor = np.array([factors.get(name, (1.0, 1.0)) for name in names])
+    return times @ prices[:, 0] * factor[:, 0] + times @ prices[:, 1] * elements * factor[:, 1]
+
+
+def fit(cells):
+    """Prices and factors in turn, by least squares of weighted errors, none below zero."""
+    times, elements, names = columns_of(cells)
+    cost = np.array([c["cost"] for c in cells])
+    factors = {name: (1.0, 1.0) for name in sorted(set(names))}
+    weight = base = cost**-DEAR
+    for _ in range(ROUNDS):
+        factor = np.array([factors[name] for name in names])
+        matrix = np.hstack([times * factor[:, :1], times * (elements * factor[:, 1])[:, None]])
+        found, _ = nnls(matrix * weight[:, None], cost * weight)
+        prices = found.reshape(2, -1).T
+        parts = np.column_stack([times @ prices[:, 0], times @ prices[:, 1] * elements])
+        for name in factors:
+            own = names == name
+            pair, _ = nnls(parts[own] * weight[own, None], (cost * weight)[own])
+            factors[name] = tuple(map(float, pair))
+        off = np.abs(np.log(np.maximum(predict(cells, prices, factors), 1e-12) / cost))
+        weight = base / np.sqrt(np.maximum(1, off / LARGE))
+    # The mean of the factors is one: that is what a formulation without a row has.
+    mean = np.mean(list(factors.values()), axis=0)
+    return prices * mean, {name: (o / mean[0], e / mean[1]) for name, (o, e) in factors.items()}
+
+
+def spread(predicted, cost):
+    """Factors between the two, in the median and for nine of ten, the common one taken out."""
+    off = np.log(np.maximum(predicted, 1e-12) / cost)
+    off = np.abs(off - np.median(off))
+    return math.exp(np.quantile(off, 0.5)), math.exp(np.quantile(off, 0.9))
+
+
+def validate(cells):
+    """Each predicted by a fit without its case."""
+    cases, out = sorted({c["case"] for c in cells}), np.zeros(len(cells))
+    for fold in range(FOLDS):
+        left = set(cases[fold::FOLDS])
+        found = fit([c for c in cells if c["case"] not in left])
+        at = [i for i, c in enumerate(cells) if c["case"] in left]
+        out[at] = predict([cells[i] for i in at], *found)
+    return out
+
+
+def write(path, cells):
+    """The table; in its head how good it is."""
+    prices, factors = fit(cells)
+    cost = np.array([c["cost"] for c in cells])
+    said = [(name, *spread(predicted, against)) for name, predicted, against in (
+        ("counted cost by expected", predict(cells, prices, factors), cost),
+        ("of cases that took no part", validate(cells), cost),
+        ("measured time by expected", predict(cells, prices, factors),
+         np.array([c["seconds"] for c in cells])))]
+    lines = [
+        "# Expected seconds of a cell on the reference machine, written by `make expense`.",
+        "# work: seconds for each time that it is due, once and for each element; formulation:"
+        " factors of both.",
+        f"# {len(cells)} cells of {len({c['case'] for c in cells})} cases; factor in the median, for"
+        " nine of ten: " + "; ".join(f"{n} {a:.2f}, {b:.2f}" for n, a, b in said) + ".",
+        "table,name,once,element"]
+    lines += [f"work,{kind},{once:.3e},{element:.3e}"
+              for kind, (once, element) in zip(WORK, prices)]
+    lines += [f"formulation,{name},{once:.2f},{element:.2f}"
+              for name, (once, element) in factors.items()]
+    pathlib.Path(path).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print(lines[2])
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    arguments.add_argument("results", help="of verify, with all cases")
+    arguments.add_argument("-o", "--output", required=True, help="the table, as CSV")
+    r = arguments.parse_args()
+    write(r.output, read(r.results))
+
+
+if __name__ == "__main__":
+    main()

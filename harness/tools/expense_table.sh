@@ -1,0 +1,19 @@
+#!/bin/sh
+# Writes the table of expected costs (harness/study/expense.h) from expense.csv.
+# usage: expense_table.sh OUT.c expense.csv   Rewrites OUT.c only when it changes.
+set -eu
+mkdir -p "$(dirname "$1")"
+awk -F, '
+BEGIN {
+    print "/* Generated from harness/study/expense.csv. */"
+    print "#include \"harness/study/expense.h\""
+    print "#include <stddef.h>"
+}
+/^#/ || /^table,/ { next }
+$1 == "work" { work = work sprintf("    [EXPENSE_%s] = {%s, %s},\n", $2, $3, $4) }
+$1 == "formulation" { factor = factor sprintf("    {\"%s\", {%s, %s}},\n", $2, $3, $4) }
+END {
+    printf "const expense_price expense_work[EXPENSE_KINDS] = {\n%s};\n", work
+    printf "const expense_factor expense_factors[] = {\n%s    {NULL, {1, 1}}};\n", factor
+}' "$2" >"$1.new"
+if cmp -s "$1.new" "$1"; then rm "$1.new"; else mv "$1.new" "$1"; fi
