@@ -17,13 +17,9 @@ status chain_alloc(int links, int joint, int y, chain **out, fault *f)
     s->c = joint;
     s->y = y;
     s->inside = y - joint;
-    s->size = joint * (2 * y + 3 * joint) + y * y;
-    s->kept = malloc((size_t)links * (size_t)s->size * sizeof *s->kept);
+    s->kept = malloc((size_t)links * (size_t)chain_kept_size(joint, y) * sizeof *s->kept);
     s->a = malloc(((size_t)links + 1) * (size_t)joint * sizeof *s->a);
-    s->none = malloc(2 * (size_t)links * (size_t)y * sizeof *s->none);
-    s->more = s->none != NULL ? s->none + (size_t)links * (size_t)y : NULL;
-    s->g = malloc((size_t)links * (size_t)joint * sizeof *s->g);
-    return s->kept != NULL && s->a != NULL && s->g != NULL && s->none != NULL
+    return s->kept != NULL && s->a != NULL
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT, "out of memory for a member of %d elements", links);
 }
@@ -34,8 +30,6 @@ void chain_free(chain *s)
         return;
     free(s->kept);
     free(s->a);
-    free(s->g);
-    free(s->none);
     free(s);
 }
 
@@ -111,6 +105,12 @@ static void transpose(int m, int n, const double A[], double out[])
             out[j * m + i] = A[i * n + j];
 }
 
+static void pack(int n, const double A[], double packed[])
+{
+    for (int i = 0; i < n; i++, packed += i)
+        memcpy(packed, &A[i * n], (size_t)(i + 1) * sizeof *packed);
+}
+
 static void symmetrise(int n, double A[])
 {
     for (int i = 0; i < n; i++)
@@ -125,17 +125,15 @@ status chain_add(chain *s, const chain_link *link, fault *f)
     double Z[CHAIN_JOINT * CHAIN_JOINT], BZ[CHAIN_JOINT * CHAIN_JOINT],
         ZF[CHAIN_JOINT * CHAIN_JOINT], turned[CHAIN_JOINT * CHAIN_JOINT],
         more[CHAIN_JOINT * CHAIN_JOINT];
-    const kept_link k = chain_kept(s, s->count);
+    const kept_link k = chain_kept(s, s->count, c, y);
     memcpy(k.A, link->A, (size_t)(y * c) * sizeof *k.A);
-    memcpy(k.own, link->F, (size_t)(y * y) * sizeof *k.own);
-    memcpy(k.B, link->B, (size_t)(c * c) * sizeof *k.B);
-    memcpy(k.F, s->F, (size_t)(c * c) * sizeof *k.F);
-    transpose(y, c, link->A, k.turned);
+    pack(y, link->F, k.own);
     TRY(carry(s, link->B, Z, f));
-    transpose(c, c, Z, k.Z);
+    memcpy(k.Z, Z, (size_t)(c * c) * sizeof *k.Z);
     /* B and A of the row */
     dense_mul(c, c, c, link->B, Z, BZ);
     symmetrise(c, BZ);
+    pack(c, BZ, k.BZ);
     congruence(c, c, s->A, BZ, more);
     for (int i = 0; i < c * c; i++)
         s->B[i] += more[i];
@@ -144,6 +142,7 @@ status chain_add(chain *s, const chain_link *link, fault *f)
     /* F of the row */
     dense_mul(c, c, c, Z, s->F, ZF);
     symmetrise(c, ZF);
+    pack(c, ZF, k.ZF);
     transpose(c, c, A_q, turned);
     congruence(c, c, turned, ZF, s->F);
     for (int i = 0; i < c; i++)

@@ -42,7 +42,8 @@ int chain_negative(const chain *);
 /* Loads r[links x y] on all coordinates but those of the ends (the last joint is not read), in the
  * order of the links; ends[2 joint]: forces by which they act on the ends. */
 void chain_reduce(chain *, const double r[], double ends[]);
-/* x[links x y] of these loads and of motions of the ends[2 joint]; the last joint is an end. */
+/* x[links x y] of these loads and of motions of the ends[2 joint]; the last joint is an end. x may
+ * be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
 
 #endif

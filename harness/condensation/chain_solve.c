@@ -1,149 +1,203 @@
 /* Loads to the ends of a chain, and motions of the ends to all that is inside.
  *
- * Two sweeps find the forces between the links. Motions follow from these link by link, for between
- * neighbours they must differ by no more than what deforms a link: differences of motions found one
- * by one would cost as many digits as an assembled stiffness. */
+ * Two sweeps find the forces between the links: with w the forces on the joint before a link and by
+ * the link on it,
+ *   x = Z a + Z F w,   w - B x = Z^T w - B Z a.
+ * Motions follow from these link by link, for between neighbours they must differ by no more than
+ * what deforms a link: differences of motions found one by one would cost as many digits as an
+ * assembled stiffness. Sizes that are known where a sweep is inlined leave no loops inside it. */
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/condensation/chain_impl.h"
 #include "harness/condensation/symmetric.h"
 
-/* out[n] += M^T x, M[m x n] */
-static void add_transposed(int m, int n, const double M[], const double x[], double out[])
-{
-    dense_add_transpose_mul(n, m, 1, M, x, out);
-}
+#define INLINED static inline __attribute__((always_inline))
 
-/* Motion of the joint before a link, which g acts on by the link: x = Z (a + F (r + v)); r NULL:
- * the joint is an end. */
-static void joint_motion(const chain *s, const kept_link *k, const double a[], const double r[],
-                         const double v[], double x[])
+/* out[m] = M x */
+INLINED void mul(int m, int n, const double M[], const double x[], double out[])
 {
-    double g[CHAIN_JOINT] = {0}, t[CHAIN_JOINT] = {0};
-    for (int i = 0; i < s->c; i++) {
-        g[i] = v[i] + (r != NULL ? r[i] : 0);
-        t[i] = a[i];
-        x[i] = 0;
+    for (int i = 0; i < m; i++) {
+        double sum = 0;
+        for (int j = 0; j < n; j++)
+            sum += M[i * n + j] * x[j];
+        out[i] = sum;
     }
-    add_transposed(s->c, s->c, k->F, g, t);
-    add_transposed(s->c, s->c, k->Z, t, x);
 }
 
-/* The load on the joint before a link; NULL: none, it is an end. */
-static const double *load_before(const chain *s, const double r[], int link)
+/* out[n] = M^T x, M[m x n] */
+INLINED void mul_transposed(int m, int n, const double M[], const double x[], double out[])
 {
-    return link == 0 ? NULL : r + (size_t)(link - 1) * (size_t)s->y + s->inside;
+    for (int j = 0; j < n; j++)
+        out[j] = 0;
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < n; j++)
+            out[j] += M[i * n + j] * x[i];
+}
+
+/* out[n] = S x, S packed */
+INLINED void mul_packed(int n, const double S[], const double x[], double out[])
+{
+    for (int i = 0; i < n; i++) {
+        double sum = 0;
+        for (int j = 0; j < n; j++)
+            sum += S[i > j ? chain_packed(i) + j : chain_packed(j) + i] * x[j];
+        out[i] = sum;
+    }
+}
+
+/* The load on the joint before a link, as it adds to the forces w there; none on an end. */
+INLINED void add_load_before(int c, int y, const double r[], int link, double w[])
+{
+    if (link > 0)
+        for (int i = 0; i < c; i++)
+            w[i] += r[(size_t)link * (size_t)y - (size_t)(c - i)];
 }
 
 /* a of every joint from that of the first. */
-static void forward(chain *s, const double r[], const double first[])
+INLINED void forward(chain *s, int c, int y, const double r[], const double first[])
 {
-    const int c = s->c, in = s->inside, y = s->y;
+    const int in = y - c;
     memcpy(s->a, first, (size_t)c * sizeof *s->a);
     for (int e = 0; e < s->links; e++) {
-        const kept_link k = chain_kept(s, e);
-        const double *g = r + (size_t)e * (size_t)s->y;
-        double v[CHAIN_JOINT] = {0}, x[CHAIN_JOINT], *next = s->a + (size_t)(e + 1) * (size_t)c;
-        add_transposed(in, c, k.A, g, v);
-        joint_motion(s, &k, s->a + (size_t)e * (size_t)c, load_before(s, r, e), v, x);
-        double motion[CHAIN_LINK] = {0};
-        add_transposed(c, y, k.turned, x, motion);
-        memcpy(next, motion + in, (size_t)c * sizeof *next);
-        for (int i = 0; i < in; i++)
-            for (int j = 0; j < c; j++)
-                next[j] += k.own[i * y + in + j] * g[i];
+        const kept_link k = chain_kept(s, e, c, y);
+        const double *g = r + (size_t)e * (size_t)y, *a = s->a + (size_t)e * (size_t)c;
+        double w[CHAIN_JOINT], x[CHAIN_JOINT], more[CHAIN_JOINT], next[CHAIN_JOINT];
+        mul_transposed(in, c, k.A, g, w);
+        add_load_before(c, y, r, e, w);
+        mul(c, c, k.Z, a, x);
+        mul_packed(c, k.ZF, w, more);
+        for (int i = 0; i < c; i++)
+            x[i] += more[i];
+        mul(c, c, k.A + in * c, x, next);
+        for (int i = 0; i < c; i++)
+            for (int j = 0; j < in; j++)
+                next[i] += k.own[chain_packed(in + i) + j] * g[j];
+        memcpy(s->a + (size_t)(e + 1) * (size_t)c, next, (size_t)c * sizeof *next);
     }
 }
 
-/* Forces between the links when g[joint] acts on the last joint; begin[joint]: what the first one
- * exerts on the row. */
-static void backward(chain *s, const double r[], const double last[], double begin[])
+/* Forces between the links when g[joint] acts on the last joint, into s->a behind its first;
+ * begin[joint]: what the first joint exerts on the row. r NULL: nothing else acts, nor do joints
+ * move without forces. */
+INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
 {
-    const int c = s->c, in = s->inside, y = s->y;
-    double g[CHAIN_LINK];
+    const int in = y - c;
+    double g[CHAIN_LINK] = {0};
     memcpy(g + in, last, (size_t)c * sizeof *g);
     for (int e = s->links; e-- > 0;) {
-        const kept_link k = chain_kept(s, e);
-        const double *before = load_before(s, r, e);
-        double v[CHAIN_JOINT] = {0}, p[CHAIN_JOINT], held[CHAIN_JOINT] = {0};
-        memcpy(s->g + (size_t)e * (size_t)c, g + in, (size_t)c * sizeof *g);
-        memcpy(g, r + (size_t)e * (size_t)y, (size_t)in * sizeof *g);
-        add_transposed(y, c, k.A, g, v);
-        joint_motion(s, &k, s->a + (size_t)e * (size_t)c, before, v, p);
-        add_transposed(c, c, k.B, p, held);
+        const kept_link k = chain_kept(s, e, c, y);
+        double *a = s->a + (size_t)e * (size_t)c, w[CHAIN_JOINT], held[CHAIN_JOINT];
+        memcpy(a + c, g + in, (size_t)c * sizeof *a);
+        if (r != NULL)
+            memcpy(g, r + (size_t)e * (size_t)y, (size_t)in * sizeof *g);
+        mul_transposed(y, c, k.A, g, w);
+        if (r != NULL)
+            add_load_before(c, y, r, e, w);
+        mul_transposed(c, c, k.Z, w, g + in);
+        if (r == NULL)
+            continue;
+        mul_packed(c, k.BZ, a, held);
         for (int i = 0; i < c; i++)
-            g[in + i] = v[i] + (before != NULL ? before[i] : 0) - held[i];
+            g[in + i] -= held[i];
     }
     for (int i = 0; i < c; i++)
         begin[i] = -g[in + i];
 }
 
-/* Motions x[links x y] from that of the first joint and the forces: links deform as these say, to
- * the last digit. */
-static void deform(const chain *s, const double r[], const double first[], double x[])
+/* Motions from that of the first joint and the forces: links deform as these say, to the last
+ * digit. Into x[links x y], or where r is NULL on top of them; r may be x. */
+INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
+                    double x[])
 {
-    const int c = s->c, in = s->inside, y = s->y;
-    const double *p = first;
+    const int in = y - c;
+    double p[CHAIN_JOINT];
+    memcpy(p, first, (size_t)c * sizeof *p);
     for (int e = 0; e < s->links; e++) {
-        const kept_link k = chain_kept(s, e);
-        double g[CHAIN_LINK], *here = x + (size_t)e * (size_t)y;
-        memcpy(g, r + (size_t)e * (size_t)y, (size_t)in * sizeof *g);
-        memcpy(g + in, s->g + (size_t)e * (size_t)c, (size_t)c * sizeof *g);
-        memset(here, 0, (size_t)y * sizeof *here);
-        add_transposed(c, y, k.turned, p, here);
-        add_transposed(y, y, k.own, g, here);
-        p = here + in;
+        const kept_link k = chain_kept(s, e, c, y);
+        double g[CHAIN_LINK] = {0}, here[CHAIN_LINK], more[CHAIN_LINK],
+               *to = x + (size_t)e * (size_t)y;
+        if (r != NULL)
+            memcpy(g, r + (size_t)e * (size_t)y, (size_t)in * sizeof *g);
+        memcpy(g + in, s->a + (size_t)(e + 1) * (size_t)c, (size_t)c * sizeof *g);
+        mul(y, c, k.A, p, here);
+        mul_packed(y, k.own, g, more);
+        for (int i = 0; i < y; i++) {
+            here[i] += more[i];
+            to[i] = r != NULL ? here[i] : to[i] + here[i];
+        }
+        memcpy(p, here + in, (size_t)c * sizeof *p);
     }
 }
 
-/* Forces on the last joint that take it to x. */
-static void force_to(const chain *s, const double x[], double g[])
+/* Forces on the last joint that take it to x, from where no force leaves it. */
+static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];
     symmetric_inverse(s->c, s->F, stiffness);
     for (int i = 0; i < s->c; i++)
-        moved[i] = x[i] - s->a[(size_t)s->links * (size_t)s->c + (size_t)i];
+        moved[i] = x[i] - from[i];
     dense_mul_vec(s->c, s->c, stiffness, moved, g);
 }
 
-void chain_reduce(chain *s, const double r[], double ends[])
+static const double still[CHAIN_JOINT] = {0};
+
+/* Where the last joint is without forces behind it. */
+static const double *last_of(const chain *s)
 {
-    const double clamped[CHAIN_JOINT] = {0};
+    return s->a + (size_t)s->links * (size_t)s->c;
+}
+
+INLINED void reduce(chain *s, int c, int y, const double r[], double ends[])
+{
     double last[CHAIN_JOINT], begin[CHAIN_JOINT];
-    forward(s, r, clamped);
-    force_to(s, clamped, last);
-    backward(s, r, last, begin);
-    for (int i = 0; i < s->c; i++) {
+    forward(s, c, y, r, still);
+    force_to(s, still, last_of(s), last);
+    backward(s, c, y, r, last, begin);
+    for (int i = 0; i < c; i++) {
         ends[i] = -begin[i];
-        ends[s->c + i] = -last[i];
+        ends[c + i] = -last[i];
     }
 }
 
 /* What rounding leaves between the last joint and its end goes to all links. */
-static void close_gap(chain *s, const double end[], double x[])
+INLINED void close_gap(chain *s, int c, int y, const double end[], double x[])
 {
-    const int c = s->c;
-    const size_t all = (size_t)s->links * (size_t)s->y;
-    const double still[CHAIN_JOINT] = {0};
     double gap[CHAIN_JOINT], last[CHAIN_JOINT], begin[CHAIN_JOINT];
     for (int i = 0; i < c; i++)
-        gap[i] = end[i] - x[all - (size_t)c + (size_t)i];
-    memset(s->none, 0, all * sizeof *s->none);
-    memset(s->a, 0, ((size_t)s->links + 1) * (size_t)c * sizeof *s->a);
-    force_to(s, gap, last);
-    backward(s, s->none, last, begin);
-    deform(s, s->none, still, s->more);
-    for (size_t i = 0; i < all; i++)
-        x[i] += s->more[i];
+        gap[i] = end[i] - x[(size_t)s->links * (size_t)y - (size_t)(c - i)];
+    force_to(s, gap, still, last);
+    backward(s, c, y, NULL, last, begin);
+    deform(s, c, y, NULL, still, x);
+}
+
+INLINED void expand(chain *s, int c, int y, const double r[], const double ends[], double x[])
+{
+    double last[CHAIN_JOINT], begin[CHAIN_JOINT];
+    forward(s, c, y, r, ends);
+    force_to(s, ends + c, last_of(s), last);
+    backward(s, c, y, r, last, begin);
+    deform(s, c, y, r, ends, x);
+    close_gap(s, c, y, ends + c, x);
+}
+
+/* Elements of two nodes, with and without warping. */
+void chain_reduce(chain *s, const double r[], double ends[])
+{
+    if (s->c == 7 && s->y == 7)
+        reduce(s, 7, 7, r, ends);
+    else if (s->c == 6 && s->y == 6)
+        reduce(s, 6, 6, r, ends);
+    else
+        reduce(s, s->c, s->y, r, ends);
 }
 
 void chain_expand(chain *s, const double r[], const double ends[], double x[])
 {
-    double last[CHAIN_JOINT], begin[CHAIN_JOINT];
-    forward(s, r, ends);
-    force_to(s, ends + s->c, last);
-    backward(s, r, last, begin);
-    deform(s, r, ends, x);
-    close_gap(s, ends + s->c, x);
+    if (s->c == 7 && s->y == 7)
+        expand(s, 7, 7, r, ends, x);
+    else if (s->c == 6 && s->y == 6)
+        expand(s, 6, 6, r, ends, x);
+    else
+        expand(s, s->c, s->y, r, ends, x);
 }

@@ -90,10 +90,9 @@ static status build(condensation *s, int count, const int released[], int *few, 
     if (!*few)
         return STATUS_OK;
     s->r = malloc(longest * sizeof *s->r);
-    s->x = malloc(longest * sizeof *s->x);
     s->small = malloc(((size_t)s->unknowns + 1) * sizeof *s->small);
     s->driven = malloc(((size_t)m->driven + 1) * sizeof *s->driven);
-    if (s->driven == NULL || s->unknown == NULL || s->r == NULL || s->x == NULL || s->small == NULL)
+    if (s->driven == NULL || s->unknown == NULL || s->r == NULL || s->small == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     s->K.symmetric = s->inside.symmetric = assemble_symmetric(m);
     TRY(condensation_patterns(s, ends, f));
@@ -136,8 +135,8 @@ void condensation_free(condensation *s)
     free_sparse(&s->K);
     free_sparse(&s->inside);
     factor_free(s->factor);
-    void *const all[] = {s->member, s->number, s->unknown, s->from, s->r,
-                         s->x,      s->small,  s->driven,  s->end};
+    void *const all[] = {s->member, s->number, s->unknown, s->from,
+                         s->r,      s->small,  s->driven,  s->end};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     free(s);

@@ -26,7 +26,7 @@ struct condensation {
     sparse inside; /* of the unknowns */
     int *from;     /* [entries of inside] in K */
     factor *factor;
-    double *r, *x;  /* of the longest member: loads and motions, [links x y] */
+    double *r;      /* of the longest member: loads, then motions, [links x y] */
     double *small;  /* [unknowns] */
     double *driven; /* [driven] */
     double *end;    /* [members x MEMBER_COLUMNS] forces of the ends */

@@ -25,7 +25,7 @@ static void scatter_motions(const condensation *s, const member *of, double x[])
             for (int j = 0; j < c && !(i + 1 == of->links && k + 1 == nodes); j++) {
                 const int index = s->m->element[of->first + i].index[NODE_COORDINATES * k + j];
                 if (index != NONE)
-                    x[index] = s->x[(i * (nodes - 1) + k - 1) * c + j];
+                    x[index] = s->r[(i * (nodes - 1) + k - 1) * c + j];
             }
 }
 
@@ -56,7 +56,7 @@ static void expand(condensation *s, double x[])
         for (int k = 0; k < 2 * c; k++)
             ends[k] = local[NODE_COORDINATES * (k / c) + k % c];
         gather_loads(s, of, x);
-        chain_expand(of->chain, s->r, ends, s->x);
+        chain_expand(of->chain, s->r, ends, s->r);
         scatter_motions(s, of, x);
     }
 }
