@@ -79,15 +79,16 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 	@$(PROGRAM) import $< -o $@ >/dev/null
 
-# RESULTS=FILE: results of one's own, as 'verify --shapes --scene my.yaml -o FILE' writes them.
-report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, into build/report_NAME/index.html
+# RESULTS=FILE: results of one's own, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
+# sweep; SWEEP="FILE ...": sweeps beside the results.
+report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE beside it
 ifndef RESULTS
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
 	@test $(BUILD)/elements.json -nt $(PROGRAM) || $(MAKE) --no-print-directory certificates >/dev/null
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
 endif
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json

@@ -1,4 +1,6 @@
-"""python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--beside THEIRS.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG."""
+"""python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--beside THEIRS.h5]
+[--sweep SWEEP.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG. A sweep may
+stand in the place of results."""
 import argparse
 import sys
 
@@ -7,7 +9,7 @@ from reports import data
 
 def main():
     parser = argparse.ArgumentParser(prog="reports", description=__doc__)
-    parser.add_argument("results")
+    parser.add_argument("results", help="of 'beamwork verify -o', or a sweep")
     parser.add_argument("truths")
     parser.add_argument("-o", dest="folder", required=True)
     parser.add_argument("--bench",
@@ -16,10 +18,13 @@ def main():
                         action="append",
                         default=[],
                         help="what other programs found, stored by 'beamwork import'")
+    parser.add_argument("--sweep", action="append", default=[],
+                        help="what 'beamwork sweep -o' stored, beside the results")
     given = parser.parse_args()
     try:
         from reports import pages
-        count = pages.build(given.results, given.truths, given.folder, given.bench, given.beside)
+        count = pages.build(given.results, given.truths, given.folder, given.bench, given.beside,
+                            given.sweep)
     except (data.Unreadable, OSError) as why:
         print(f"report: {why}", file=sys.stderr)
         return 4

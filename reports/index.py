@@ -54,7 +54,7 @@ def write(site):
                profile=panel(site, compared, profiles.PICTURES[0], LEVEL, "profile", FIGURE)
                if compared.any else None, rows=rows[:MOST_ROWS], compared=compared,
                counts=tally.count_verdicts(site.cases),
-               tables={c.name: table_of(c) for c in site.cases},
+               glances=site.glances, tables={c.name: table_of(c) for c in site.cases},
                verdicts=formulation_rows(site.cases))
 
 

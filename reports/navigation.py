@@ -6,6 +6,7 @@ from dataclasses import dataclass
 GROUPS = (
     ("beamwork", ("index.html",)),
     ("Answers", ("answers.html", "explorer.html")),
+    ("Sweeps", ()),
     ("Cases", ("cases.html", "pictures.html", "paths.html", "rotation.html", "mechanisms.html")),
     ("Formulations", ("formulations.html", "certificates.html", "newton.html")),
     ("Profiles", ("profiles.html",)),
@@ -15,6 +16,7 @@ GROUPS = (
     ("Glossary", ("glossary.html",)),
     ("About", ("environment.html", "checks.html", "convergence.html")),
 )
+SWEEP = "sweep_"  # how the files of sweeps begin
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,9 @@ def groups(pages):
     found = []
     for title, files in GROUPS:
         own = [(file, titles[file]) for file in files if file in titles]
+        if title == "Sweeps":
+            own += [(file, name) for file, name in pages if file.startswith(SWEEP)]
+            placed |= {file for file, _ in own}
         if title == GROUPS[-1][0]:
             own += [(file, name) for file, name in pages if file not in placed]
         if own:

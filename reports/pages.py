@@ -5,6 +5,8 @@
 
 and, if it has something for the pages of cases, def section(site, case), which returns [(heading, markup)].
 
+A page whose files depend on what is drawn also has def navigation(site), which returns more of them.
+
 A page that needs more than every result file holds also has def present(site): without its data it is left out
 of the site, of the bar (navigation.py) and of links (has_page in templates).
 """
@@ -15,6 +17,7 @@ from reports.site import Site
 
 PAGES = (
     "index",
+    "sweep_page",
     "lists",
     "answers_page",
     "profile_page",
@@ -41,6 +44,7 @@ PAGES = (
     "glossary",
 )
 
+ALONE = ("sweep_page", "glossary")  # of a sweep without results
 _tasks = [
 ]  # of the run at hand; inherited by the processes of the pool, so that no record is copied
 
@@ -51,16 +55,18 @@ def _run(index):
 
 def present(site):
     """The modules whose data are there."""
-    modules = [importlib.import_module(f"reports.{name}") for name in PAGES]
+    names = ALONE if site.alone else PAGES
+    modules = [importlib.import_module(f"reports.{name}") for name in names]
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]
 
 
-def build(results, truths, folder, bench=None, others=()):
+def build(results, truths, folder, bench=None, others=(), sweeps=()):
     """Writes the whole site; returns the number of tasks."""
-    site = Site(results, truths, folder, bench, others)
+    site = Site(results, truths, folder, bench, others, sweeps)
     modules = present(site)
     for module in modules:
         site.navigation += module.NAVIGATION
+        site.navigation += module.navigation(site) if hasattr(module, "navigation") else []
         site.sections += [module.section] if hasattr(module, "section") else []
     _tasks[:] = [task for module in modules for task in module.tasks(site)]
     with multiprocessing.get_context("fork").Pool() as pool:

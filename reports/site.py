@@ -8,6 +8,7 @@ from markupsafe import Markup, escape
 
 from reports import answers, beside, data, figures, glossary, markers, navigation, style, verdicts
 from reports.style import Styles, plt
+from reports.sweep import stored
 
 LEVELS = (0.1, 0.01, 0.001, 0.0001)
 ASSETS = pathlib.Path(__file__).parent / "assets"
@@ -49,12 +50,20 @@ def file_of(key):
     return "formulation_" + key.replace(":", "_").replace("=", "_").replace(",", "_")
 
 
+def file_name(path):
+    """A name that may stand in an address, from that of a file."""
+    return "".join(c if c.isalnum() or c in "-_" else "_" for c in pathlib.Path(path).stem)
+
+
 class Site:
     """One report. cases: data.Case records; about, bench: environment of the results and of the
-    times (None: no benchmark); kinds: truths by kind."""
+    times (None: no benchmark); kinds: truths by kind; sweeps: stored.Sweep records. results may be
+    a sweep, too: then there are no cases."""
 
-    def __init__(self, results, truths, folder, bench=None, others=()):
-        self.about, self.cases = data.read_results(results, bench)
+    def __init__(self, results, truths, folder, bench=None, others=(), sweeps=()):
+        self.alone = stored.is_sweep(results)
+        self.sweeps = [stored.read(p) for p in ([results] if self.alone else []) + list(sweeps)]
+        self.about, self.cases = ({}, []) if self.alone else data.read_results(results, bench)
         for path in others:
             data.read_about(path)
             beside.add(self.cases, path)
@@ -64,7 +73,7 @@ class Site:
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
         self.marks = {s.key: s.marks for c in self.cases for p in c.points for s in p.series
                       if s.marks}
-        self.navigation, self.sections, self.said = [], [], []
+        self.navigation, self.sections, self.said, self.glances = [], [], [], []
         os.makedirs(folder, exist_ok=True)
         self.write_assets()
         loader = jinja2.FileSystemLoader(pathlib.Path(__file__).parent / "templates")
@@ -87,6 +96,7 @@ class Site:
                                       defect_words=answers.defect_words,
                                       bar=self.bar,
                                       has_page=self.has_page,
+                                      linked=frozenset(self.styles.order),
                                       marks=self.marks,
                                       colour=self.styles.fill,
                                       shape=self.styles.shape,
@@ -107,6 +117,11 @@ class Site:
         """(groups of the bar, the one that the page belongs to or None)."""
         found = navigation.groups(self.navigation)
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
+
+    def page_of(self, sweep):
+        """The file of a sweep's page; the first one is the first page where there is no other."""
+        alone = self.alone and sweep is self.sweeps[0]
+        return "index.html" if alone else f"sweep_{file_name(sweep.path)}.html"
 
     def case(self, name):
         """The case of this name, or None."""

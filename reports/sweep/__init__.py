@@ -1,0 +1,1 @@
+"""Sweeps: over which range of its parameters a formulation is within a tolerance."""

@@ -1,0 +1,154 @@
+"""What the page of a sweep says first: for every formulation the ranges in which it is within the
+tolerance, from the counts of one pass."""
+from dataclasses import dataclass, field
+
+from reports.sweep import boxes, gather, stored
+
+ENOUGH = 0.9  # of the largest range, with which fewer elements are told first
+WIDER = 1.01  # of the first one, for which a range of more elements is told, too
+
+
+@dataclass
+class Range:
+    """Where a formulation with so many elements is within. box: or None; reached: points that are
+    within, anywhere; known: with a reference; exceptions: points of the box that are not."""
+
+    mesh: int
+    box: object
+    reached: int
+    known: int
+    exceptions: list = field(default_factory=list)
+
+    @property
+    def good(self):
+        return self.box.good if self.box else 0
+
+
+@dataclass
+class Answer:
+    """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the one that is
+    told first, None where there is none; fewer: one of fewer elements; wider: one of more;
+    absent: it offers at no point what is needed."""
+
+    key: str
+    of: list
+    single: dict
+    first: Range = None
+    fewer: Range = None
+    wider: Range = None
+    absent: bool = False
+
+    def choose(self):
+        """What is told first: nearly the widest range with the fewest elements."""
+        most = max((r.good for r in self.of), default=0)
+        if not most:
+            return
+        self.first = next(r for r in self.of if r.good >= ENOUGH * most)
+        before = [r for r in self.of if r.mesh < self.first.mesh and r.box]
+        self.fewer = max(before, key=lambda r: r.good, default=None)
+        self.wider = next((r for r in self.of if r.good == most > WIDER * self.first.good), None)
+
+    @property
+    def told(self):
+        return [r for r in (self.first, self.fewer, self.wider) if r]
+
+    def same(self):
+        """What answers that say the same have in common."""
+        said = [(r.mesh, r.box, [e.point for e in r.exceptions]) for r in self.told]
+        return said or self.absent or self.key
+
+
+def ranges(found, meshes, f, q):
+    """[Range] of a formulation and a quantity for every mesh."""
+    reach, out = found.reach[:, f, q], []
+    for m, n in enumerate(meshes):
+        good = reach[:, :m + 1].sum(axis=1)
+        if out and good.sum() == out[-1].reached:
+            out.append(Range(n, out[-1].box, out[-1].reached, out[-1].known))
+            continue
+        bad = reach.sum(axis=1) - good
+        box = boxes.largest(found.parts, good.reshape(found.shape), bad.reshape(found.shape))
+        out.append(Range(n, box, int(good.sum()), int(reach.sum())))
+    return out
+
+
+def answer(sweep, found, f):
+    """The Answer of a formulation."""
+    count = len(sweep.quantities)
+    of = ranges(found, sweep.meshes, f, count)
+    single = {q.name: ranges(found, sweep.meshes, f, i) for i, q in enumerate(sweep.quantities)
+              } if count > 1 else {}
+    made = Answer(sweep.keys[f], of, single)
+    made.choose()
+    absent = found.status[f][:, sweep.outcomes(stored.ABSENT)].sum()
+    made.absent = bool(absent == found.status[f].sum())
+    return made
+
+
+def of_sweep(sweep, found):
+    """[Answer]: the nearly widest ranges first, of these the fewest elements; exceptions named."""
+    made = [answer(sweep, found, f) for f in range(len(sweep.keys))]
+    told = [(a, r) for a in made for r in a.told]
+    asked = [(r.box, sweep.keys.index(a.key), len(sweep.quantities), sweep.meshes.index(r.mesh))
+             for a, r in told]
+    for (_, r), named in zip(told, gather.exceptions(sweep, found.parts, asked)):
+        r.exceptions = named
+    most = max((a.first.good for a in made if a.first), default=0)
+
+    def order(a):
+        if not a.first:
+            return 2, 0, 0, a.key
+        wide = a.first.good >= ENOUGH * most
+        return not wide, a.first.mesh if wide else 0, -a.first.good, a.key
+
+    return sorted(made, key=order)
+
+
+def together(made):
+    """[[Answer]] of those that say the same, told in one sentence."""
+    groups = []
+    for each in made:
+        for group in groups:
+            if group[0].same() == each.same():
+                group.append(each)
+                break
+        else:
+            groups.append([each])
+    return groups
+
+
+def unknown(sweep, found, q):
+    """(points, Box or None) without a reference for a quantity."""
+    known = found.known[:, q]
+    without = found.points - known
+    if not without.any():
+        return 0, None
+    box = boxes.largest(found.parts, without.reshape(found.shape), known.reshape(found.shape))
+    return int(without.sum()), box
+
+
+def outcomes(sweep, found):
+    """[(formulation, outcome, cells, of so many, [(axis, low, high)])] of what has no solution; of
+    axes those that it does not occur all over."""
+    out = []
+    for f, key in enumerate(sweep.keys):
+        for s, name in enumerate(sweep.statuses):
+            cells = int(found.status[f, :, s].sum())
+            if name == "ok" or not cells:
+                continue
+            low, high = found.failed[f, s]
+            where = [(p, float(a), float(b)) for p, a, b in zip(found.parts, low, high)
+                     if not p.axis.words and (a > p.low[0] or b < p.high[-1])]
+            out.append((key, name.replace("_", " "), cells, int(found.status[f].sum()), where))
+    return sorted(out, key=lambda row: -row[2])
+
+
+def references(sweep, found):
+    """[(quantity, {kind: points}, largest doubt, doubtful points, points without, Box of these)]"""
+    rows = []
+    for q, quantity in enumerate(sweep.quantities):
+        kinds = {name: int(n) for name, n in zip(sweep.kinds, found.kinds[q])
+                 if n and not name.startswith(stored.NONE)}
+        without, box = unknown(sweep, found, q)
+        rows.append((quantity, kinds, float(found.doubt[q]), int(found.doubtful[q]), without, box))
+    return rows

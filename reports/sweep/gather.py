@@ -1,0 +1,189 @@
+"""One pass over a sweep: what the page needs of any number of points, counted in the cells of a
+lattice. The last quantity of every table stands for all of them together."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from reports.sweep import lattice, stored
+
+NAMED = 3  # exceptions of a box that are kept, the worst ones
+
+
+@dataclass
+class Gathered:
+    """F formulations, M meshes, Q quantities and their whole, C cells.
+
+    reach: points by the first mesh from which on all are within the tolerance [C, F, Q+1, M+2]; M:
+    none, M+1: none, and the finest mesh has no solution. Only points at which the formulation is
+    measured. known: points with a reference [C, Q+1]. worst: largest error [C, F, Q+1, M], infinite
+    without a solution, -1 where nothing is measured.
+    wins, winner_cost: points where a formulation is the cheapest within the tolerance in all
+    quantities, and the sum of what that costs, s [C, F]. kinds: references by kind [Q, kinds];
+    doubt: largest relative one [Q]; doubtful: references whose doubt exceeds the tolerance [Q];
+    status: cells by outcome [F, M, S]; failed: least and largest value of each axis where an
+    outcome occurs [F, S, 2, A]; points: all [C]."""
+
+    parts: list
+    reach: np.ndarray
+    known: np.ndarray
+    worst: np.ndarray
+    wins: np.ndarray
+    winner_cost: np.ndarray
+    kinds: np.ndarray
+    doubt: np.ndarray
+    doubtful: np.ndarray
+    status: np.ndarray
+    failed: np.ndarray
+    points: np.ndarray
+
+    @property
+    def judged(self):
+        """Points with a reference."""
+        return int(self.known[:, -1].sum())
+
+    @property
+    def shape(self):
+        return tuple(len(p) for p in self.parts)
+
+
+def empty(sweep, parts):
+    cells = int(np.prod([len(p) for p in parts]))
+    f, m, q, s = (len(x) for x in (sweep.keys, sweep.meshes, sweep.quantities, sweep.statuses))
+    failed = np.full((f, s, 2, len(parts)), np.inf)
+    failed[:, :, 1] = -np.inf
+    return Gathered(parts, np.zeros((cells, f, q + 1, m + 2), np.int32),
+                    np.zeros((cells, q + 1), np.int32),
+                    np.full((cells, f, q + 1, m), -1, np.float32), np.zeros((cells, f), np.int32),
+                    np.zeros((cells, f)), np.zeros((q, len(sweep.kinds)), np.int64), np.zeros(q),
+                    np.zeros(q, np.int64), np.zeros((f, m, s), np.int64), failed,
+                    np.zeros(cells, np.int32))
+
+
+def cell_of(parts, at):
+    """The cell of each point."""
+    found = np.zeros(len(at), np.int64)
+    for part, values in zip(parts, at.T):
+        found = found * len(part) + part.index(values)
+    return found
+
+
+def known_in(sweep, piece):
+    """Is there a reference? [points, Q+1]; of all: of one at least."""
+    own = ~np.isin(piece.kind, sweep.without)
+    return np.concatenate([own, own.any(axis=1, keepdims=True)], axis=1)
+
+
+def asked_in(sweep, piece):
+    """Is a formulation measured by it? Not where it does not offer what is needed, and not by a
+    reference of another theory, against which it has a value and no error. [points, F, Q+1]"""
+    own = np.repeat(known_in(sweep, piece)[:, None, :-1], len(sweep.keys), axis=1)
+    own &= ~np.isin(piece.status, sweep.outcomes(stored.ABSENT)).any(axis=2)[..., None]
+    own &= ~(np.isfinite(piece.value) & np.isnan(piece.error)).any(axis=2)
+    return np.concatenate([own, own.any(axis=2, keepdims=True)], axis=2)
+
+
+def errors_in(piece, asked):
+    """[points, F, Q+1, M]: -1 where nothing is measured, infinite without a solution."""
+    own = np.where(np.isnan(piece.error), np.inf, np.abs(piece.error)).transpose(0, 1, 3, 2)
+    own = np.where(asked[:, :, :-1, None], own, -1)
+    whole = own.max(axis=2, initial=-1, keepdims=True)
+    return np.concatenate([own, whole], axis=2)
+
+
+def reached_in(sweep, piece, asked):
+    """The first mesh from which on all are within, as in Gathered.reach; [points, F, Q+1]."""
+    count = len(sweep.meshes)
+    own = np.searchsorted(sweep.meshes, piece.least)
+    own = np.where(piece.least == 0, count, own)
+    whole = np.where(asked[:, :, :-1], own, 0).max(axis=2, initial=0, keepdims=True)
+    found = np.concatenate([own, whole], axis=2)
+    failed = ~np.isin(piece.status[:, :, -1], sweep.outcomes(["ok"]))
+    return np.where((found == count) & failed[..., None], count + 1, found)
+
+
+def take_winners(into, sweep, piece, cell, asked, reached):
+    """Who is the cheapest within the tolerance in all quantities."""
+    count = len(sweep.meshes)
+    mesh = np.minimum(reached[:, :, -1], count - 1)
+    cost = np.take_along_axis(piece.cost, mesh[..., None], axis=2)[..., 0]
+    cost = np.where((reached[:, :, -1] < count) & asked[:, :, -1] & np.isfinite(cost), cost, np.inf)
+    best = cost.argmin(axis=1)
+    least = cost[np.arange(len(best)), best]
+    won = np.isfinite(least)
+    np.add.at(into.wins, (cell[won], best[won]), 1)
+    np.add.at(into.winner_cost, (cell[won], best[won]), least[won])
+
+
+def take_outcomes(into, sweep, piece):
+    """Kinds of references, doubts, and what came of the cells."""
+    for k in range(len(sweep.kinds)):
+        into.kinds[:, k] += (piece.kind == k).sum(axis=0)
+    there = ~np.isin(piece.kind, sweep.without)
+    doubt = np.where(there & np.isfinite(piece.doubt), piece.doubt, 0)
+    into.doubt = np.maximum(into.doubt, doubt.max(axis=0, initial=0))
+    into.doubtful += (doubt > sweep.tolerance).sum(axis=0)
+    for s in range(len(sweep.statuses)):
+        here = piece.status == s
+        into.status[:, :, s] += here.sum(axis=0)
+        for f in range(len(sweep.keys)):
+            points = here[:, f].any(axis=1)
+            if points.any():
+                low, high = into.failed[f, s]
+                into.failed[f, s] = (np.minimum(low, piece.at[points].min(axis=0)),
+                                     np.maximum(high, piece.at[points].max(axis=0)))
+
+
+def take(into, sweep, piece):
+    """Adds some points."""
+    asked, cell = asked_in(sweep, piece), cell_of(into.parts, piece.at)
+    reached = reached_in(sweep, piece, asked)
+    _, f, q, classes = into.reach.shape
+    np.add.at(into.points, cell, 1)
+    np.add.at(into.known, cell, known_in(sweep, piece))
+    flat = ((cell[:, None, None] * f + np.arange(f)[None, :, None]) * q +
+            np.arange(q)[None, None, :]) * classes + reached
+    counted = np.bincount(flat[asked], minlength=into.reach.size)
+    into.reach += counted.astype(np.int32).reshape(into.reach.shape)
+    order = np.argsort(cell, kind="stable")
+    starts = np.flatnonzero(np.diff(cell[order], prepend=-1))
+    most = np.maximum.reduceat(errors_in(piece, asked)[order], starts, axis=0)
+    own = cell[order][starts]
+    into.worst[own] = np.maximum(into.worst[own], most)
+    take_winners(into, sweep, piece, cell, asked, reached)
+    take_outcomes(into, sweep, piece)
+
+
+def of_sweep(sweep):
+    """Gathered, with every point read once more."""
+    into = empty(sweep, lattice.of_sweep(sweep))
+    for piece in sweep.pieces():
+        take(into, sweep, piece)
+    return into
+
+
+@dataclass
+class Outlier:
+    """A point in a box that is not within. error: of the mesh that the box speaks of."""
+
+    point: int
+    at: np.ndarray
+    error: float
+
+
+def exceptions(sweep, parts, boxes):
+    """The worst points that contradict boxes: [[Outlier]] for [(box, f, q, m)]."""
+    found = [[] for _ in boxes]
+    wanted = [i for i, (box, *_) in enumerate(boxes) if box.bad]
+    for piece in sweep.pieces() if wanted else ():
+        known = asked_in(sweep, piece)
+        reached, errors = reached_in(sweep, piece, known), errors_in(piece, known)
+        index = np.stack([p.index(v) for p, v in zip(parts, piece.at.T)], axis=1)
+        for i in wanted:
+            box, f, q, m = boxes[i]
+            out = np.flatnonzero(box.holds(index) & known[:, f, q] & (reached[:, f, q] > m))
+            worst = errors[out, f, q, m:].max(axis=1)
+            for k in out[np.argsort(-worst, kind="stable")[:NAMED]]:
+                found[i].append(Outlier(piece.first + int(k), piece.at[k],
+                                           float(errors[k, f, q, m:].max())))
+            found[i] = sorted(found[i], key=lambda e: -e.error)[:NAMED]
+    return found

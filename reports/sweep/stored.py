@@ -1,0 +1,208 @@
+"""Reads what `beamwork sweep` stored, piece by piece: no more of it is in memory than a piece."""
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+from reports.data import Unreadable, text
+
+MARK, VERSION = "beamwork_sweep", 1
+PIECE = 1_000_000  # values of one table that are read at once
+SCATTERED = ("sobol", "halton", "random")
+NONE = "none"  # how kinds of references begin that there are not
+ABSENT = ("not_offered", "no_scene")  # outcomes of what was not asked
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A parameter that was varied. log: its range is cut by equal factors; words: its texts, by
+    index; empty where it has numbers."""
+
+    name: str
+    unit: str
+    kind: str
+    count: int
+    log: bool = False
+    words: tuple = ()
+
+    @property
+    def scattered(self):
+        return self.kind in SCATTERED
+
+    def value(self, number):
+        """A value of a point, as the reader says it."""
+        if self.words:
+            return self.words[int(number)]
+        return f"{number:.4g}" + (f" {self.unit}" if self.unit not in ("", "1") else "")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class Worst:
+    """A point that a formulation is worst at. quantity: empty where there is no solution, as status
+    says; error: relative; scene: name of the scene file that was kept, or empty."""
+
+    point: int
+    formulation: str
+    elements: int
+    quantity: str
+    error: float
+    status: str
+    scene: str
+
+
+@dataclass
+class Piece:
+    """Some consecutive points. at: [points, axes]; reference, doubt, kind: [points, quantities];
+    value, error: [points, formulations, meshes, quantities], NaN where there is none; error is
+    relative;
+    status, cost [s]: [points, formulations, meshes]; least: elements from which on every mesh is
+    within the tolerance, 0 for none [points, formulations, quantities]."""
+
+    first: int
+    at: np.ndarray
+    doubt: np.ndarray
+    kind: np.ndarray
+    value: np.ndarray
+    error: np.ndarray
+    status: np.ndarray
+    cost: np.ndarray
+    least: np.ndarray
+
+
+@dataclass
+class Sweep:
+    """What a file says of itself; pieces() reads its tables.
+
+    subject: the scene file or the case; fixed: values of all its parameters where they do not vary;
+    points: their number; statuses, kinds: names by number."""
+
+    path: str
+    subject: str
+    fixed: str
+    program: str
+    tolerance: float
+    axes: list
+    quantities: list
+    keys: list
+    meshes: list
+    points: int
+    statuses: list
+    kinds: list
+    worst: list
+
+    @property
+    def without(self):
+        """Numbers of the kinds of references that there are not."""
+        return [k for k, name in enumerate(self.kinds) if name.startswith(NONE)]
+
+    def outcomes(self, names):
+        """Numbers of the outcomes with these names."""
+        return [s for s, name in enumerate(self.statuses) if name in names]
+
+    @property
+    def cells(self):
+        return self.points * len(self.keys) * len(self.meshes)
+
+    def pieces(self):
+        """Every point once, in order."""
+        names = {"at": "points", "doubt": "reference_doubt", "kind": "reference_kind"}
+        names |= {name: name for name in ("value", "error", "status", "cost", "least")}
+        whole = len(self.keys) * len(self.meshes) * len(self.quantities)
+        for first, found in self.read(names.values(), PIECE // whole):
+            yield Piece(first, **dict(zip(names, found)))
+
+    def points_only(self):
+        """The parameters of all points, in pieces."""
+        for _, (at, ) in self.read(["points"], PIECE // len(self.axes)):
+            yield at
+
+    def read(self, names, step):
+        """(first point, [rows of tables]) in pieces of some points."""
+        step = max(1, step)
+        try:
+            with h5py.File(self.path) as file:
+                for first in range(0, self.points, step):
+                    yield first, [file[name][first:first + step] for name in names]
+        except OSError as why:
+            raise Unreadable(f"{self.path}: cannot be read ({why}); run 'beamwork sweep' again"
+                             ) from why
+
+    def place(self, values):
+        """The parameters of a point in words."""
+        return ", ".join(f"{a.name} = {a.value(v)}" for a, v in zip(self.axes, values))
+
+
+def is_sweep(path):
+    """Is it such a file? False for what cannot be read."""
+    try:
+        with h5py.File(path) as file:
+            return MARK in file.attrs
+    except OSError:
+        return False
+
+
+def listed(value):
+    """Texts of an attribute: a list of them, or one with a line for each."""
+    if isinstance(value, (str, bytes)):
+        return [line for line in text(value).split("\n") if line]
+    return [text(each) for each in np.asarray(value).ravel().tolist()]
+
+
+def axes_of(file):
+    """Texts of words are an attribute of the points, named as their axis."""
+    told, out = file["points"].attrs, []
+    for row in file["axes"][()]:
+        name, unit, kind, scale = (text(row[c]) for c in ("name", "unit", "kind", "scale"))
+        out.append(Axis(name, unit, kind, int(row["count"]), "log" in (kind, scale),
+                        tuple(listed(told[name])) if kind == "words" else ()))
+    return out
+
+
+def check(file, sweep):
+    """ValueError where a table has not the size that the others ask for."""
+    f, m, q = len(sweep.keys), len(sweep.meshes), len(sweep.quantities)
+    whole = {"points": (len(sweep.axes),), "reference_doubt": (q,), "reference_kind": (q,),
+             "value": (f, m, q), "error": (f, m, q), "status": (f, m), "cost": (f, m),
+             "least": (f, q)}
+    for name, size in whole.items():
+        if file[name].shape != (sweep.points, *size) or 0 in file[name].shape:
+            raise ValueError(f"table '{name}' has the size {file[name].shape}, "
+                             f"{(sweep.points, *size)} is due")
+
+
+def worst_of(file):
+    """The table of worst points."""
+    return [Worst(int(r["point"]), text(r["formulation"]), int(r["mesh"]), text(r["quantity"]),
+                  float(r["error"]), text(r["status"]), text(r["scene"]))
+            for r in file["worst"][()]]
+
+
+def read(path):
+    """The Sweep of a file; Unreadable names what is wrong with it."""
+    try:
+        with h5py.File(path) as file:
+            if MARK not in file.attrs:
+                raise Unreadable(f"{path}: not a sweep; 'beamwork sweep -o FILE' writes one")
+            if file.attrs[MARK] != VERSION:
+                raise Unreadable(f"{path}: a sweep of version {file.attrs[MARK]}, the report reads "
+                                 f"{VERSION}; run 'beamwork sweep' again")
+            told = file.attrs
+            quantities = [Quantity(text(r["name"]), text(r["unit"]))
+                          for r in file["quantities"][()]]
+            found = Sweep(str(path), text(told["scene" if "scene" in told else "case"]),
+                          text(told.get("parameters", "")), text(told["program"]),
+                          float(told["tolerance"]), axes_of(file), quantities,
+                          [text(r["key"]) for r in file["formulations"][()]],
+                          [int(n) for n in file["meshes"][()]], file["points"].shape[0],
+                          listed(file["status"].attrs["names"]),
+                          listed(file["reference_kind"].attrs["names"]), worst_of(file))
+            check(file, found)
+            return found
+    except (OSError, KeyError, ValueError, IndexError) as why:
+        raise Unreadable(f"{path}: cannot be read ({why}); run 'beamwork sweep' again") from why

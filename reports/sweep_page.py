@@ -1,0 +1,72 @@
+"""The page of a sweep: over which range each formulation is within a tolerance."""
+import functools
+import pathlib
+import shlex
+
+from reports.sweep import answers, figures, gather, stored, words
+
+NAVIGATION = []  # its files have the names of the sweeps
+MOST_WORST = 20  # points that are named
+
+
+def navigation(site):
+    """[(file, title)] of the bar."""
+    return [(site.page_of(sweep), f"sweep of {pathlib.Path(sweep.subject).stem}")
+            for sweep in site.sweeps]
+
+
+def present(site):
+    return bool(site.sweeps)
+
+
+def axis_words(part):
+    """What was tried along an axis."""
+    axis, count = part.axis, len(part.levels) or part.axis.count
+    if axis.words:
+        return f"{axis.name}: {', '.join(axis.words)}"
+    unit = f" {axis.unit}" if axis.unit not in ("", "1") else ""
+    how = {"log": f"{count} values by equal factors", "sobol": "Sobol points",
+           "halton": "Halton points", "random": "random points"}.get(axis.kind, f"{count} values")
+    return f"{axis.name}: {part.low[0]:.4g} to {part.high[-1]:.4g}{unit}, {how}"
+
+
+def solving(sweep, row):
+    """The command that solves a point that was kept."""
+    return f"beamwork solve --scene {shlex.quote(row.scene)} -f {row.formulation} -n {row.elements}"
+
+
+def worst_rows(sweep):
+    """[(Worst, place in words, command or empty)]"""
+    wanted = {row.point for row in sweep.worst[:MOST_WORST]}
+    at, first = {}, 0
+    for values in sweep.points_only() if wanted else ():
+        for point in [p for p in wanted if first <= p < first + len(values)]:
+            at[point] = values[point - first]
+        first += len(values)
+    return [(row, sweep.place(at[row.point]) if row.point in at else "",
+             solving(sweep, row) if row.scene else "") for row in sweep.worst[:MOST_WORST]]
+
+
+def glance(site, sweep):
+    """What is said first, here and on the first page: the context of its sentences."""
+    found = gather.of_sweep(sweep)
+    made = answers.of_sweep(sweep, found)
+    return {"sweep": sweep, "found": found, "answers": made, "groups": answers.together(made),
+            "axes": [axis_words(p) for p in found.parts], "page": site.page_of(sweep),
+            "words": words}
+
+
+def write(site, said):
+    sweep, found = said["sweep"], said["found"]
+    validity = figures.Validity(sweep, found, [a.key for a in said["answers"]])
+    site.write("sweep.html", said["page"], **said, validity=validity,
+               winners=figures.Winners(sweep, found, validity.axes),
+               curves=figures.curves(site, sweep, found) if len(found.parts) == 1 else None,
+               worst=worst_rows(sweep), references=answers.references(sweep, found),
+               outcomes=answers.outcomes(sweep, found),
+               crowded=bool((found.points > 1).any()) and validity.dots is None)
+
+
+def tasks(site):
+    site.glances = [glance(site, sweep) for sweep in site.sweeps]
+    return [functools.partial(write, site, said) for said in site.glances]
