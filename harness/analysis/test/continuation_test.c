@@ -47,7 +47,8 @@ static void limit_points(void)
         for (int k = 0; k < 2 && k < r.solve.events; k++) {
             const path_event *e = &r.solve.event[k];
             gsl_test_int((int)e->kind, EVENT_LIMIT_POINT, "%s: a limit point", control[i]);
-            gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-12, "%s: its load", control[i]);
+            /* a trial may end a correction early, where its tangent is singular */
+            gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-11, "%s: its load", control[i]);
             gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1,
                          "%s: one pivot changes its sign", control[i]);
         }
