@@ -188,6 +188,7 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
     board *b = mmap(NULL, sizeof *b, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     workload w = {.s = s,
                   .time_limit = request->time_limit,
+                  .together = request->together,
                   .count = (int)count,
                   .tasks = calloc(count + 1, sizeof *w.tasks),
                   .done = calloc(count + 1, 1),

@@ -62,6 +62,8 @@ typedef struct sweep_request {
     int share;      /* 1: cells that are known to have the same answers are solved once: they have
               the same times, too */
     int time_limit; /* [s] of one cell, measured by its process and from outside; 0: none */
+    int together;   /* 1: a worker that somebody else kills (SIGKILL) takes this process along: what
+                       it has is not to be taken for an answer. 0: its cell has crashed */
     int interruptible; /* 1: who asks to end (Ctrl-C) ends the run, and what is finished is kept */
     int stop;          /* likewise once this descriptor can be read; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all that there are */

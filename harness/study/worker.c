@@ -202,6 +202,8 @@ static int reap(worker *w)
 int worker_bury(workload *w, int self, worker *dead)
 {
     const int how = reap(dead), i = w->board->at[self];
+    if (w->together && !dead->stopped && WIFSIGNALED(how) && WTERMSIG(how) == SIGKILL)
+        kill(getpid(), SIGKILL);
     if (i < 0)
         return dead->stopped;
     solve_result *r = &cell_of(w, i)->solve;

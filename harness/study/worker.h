@@ -28,6 +28,7 @@ typedef struct board {
 typedef struct workload {
     sweep *s;
     int time_limit; /* [s] of one cell; 0: none */
+    int together;   /* of the request */
     int count;
     task *tasks;   /* [count] */
     char *done;    /* [count] 1: the cell has its result */

@@ -3,6 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "harness/study/plan.h"
@@ -31,6 +32,30 @@ static void crashes(int end, int jobs, const char *reason)
                      strcmp(s.series[0].cell[i].solve.reason, reason) != 0,
                  "%d jobs: %s", jobs, s.series[0].cell[i].solve.reason);
     sweep_free(&s);
+}
+
+/* A killed worker takes the process along that asked for it; one that crashes by itself, or is
+ * late, is a result there too. */
+static void together(int end, int dies)
+{
+    static const int mesh[] = {1};
+    const formulation chosen = ending_bad(end, 0);
+    const sweep_request request = {.jobs = 1, .time_limit = end == HANGING, .together = 1};
+    double value[CASE_MAX_PARAMETERS] = {0};
+    int how = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        sweep s;
+        parameters_default(registry_cases[0], value);
+        const int good =
+            plan_one(registry_cases[0], value, &chosen, 1, mesh, 1, &s, NULL) == STATUS_OK &&
+            run_sweep(&request, &s, NULL) == STATUS_OK;
+        sweep_free(&s);
+        _exit(good ? 0 : 1);
+    }
+    gsl_test(waitpid(child, &how, 0) != child, "a process");
+    gsl_test_int(WIFSIGNALED(how) ? WTERMSIG(how) : 0, dies ? SIGKILL : 0, "end %d", end);
+    gsl_test_int(dies || WEXITSTATUS(how) == 0, 1, "end %d: a result", end);
 }
 
 static int same_results(const sweep *a, const sweep *b)
@@ -112,6 +137,9 @@ int main(void)
     crashes(ENDED, 2, "its process ended with status 3");
     crashes(HANGING, 3, "time limit: no result after 1 s");
     crashes(STOPPED, 2, "time limit: no result after 1 s");
+    together(KILLED, 1);
+    together(ENDED, 0);
+    together(HANGING, 0);
     jobs();
     cells_share_a_scene();
     return gsl_test_summary();
