@@ -23,6 +23,25 @@ void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]
     write_line(size, checksum(0, data, size), out);
 }
 
+status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f)
+{
+    enum { PIECE = 1 << 16 };
+    unsigned char buffer[PIECE];
+    size_t size = 0, got;
+    uint32_t sum = 0;
+    FILE *from = fopen(path, "rb");
+    if (from == NULL)
+        return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
+    while ((got = fread(buffer, 1, PIECE, from)) > 0) {
+        sum = checksum(sum, buffer, got);
+        size += got;
+    }
+    const int bad = ferror(from);
+    fclose(from);
+    write_line(size, sum, out);
+    return bad ? fault_set(f, STATUS_FAULT, "%.120s: cannot be read", path) : STATUS_OK;
+}
+
 /* Sum of all but the last CHECKSUM_LENGTH bytes, which go to `tail`. -1: shorter than that. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {

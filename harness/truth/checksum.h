@@ -11,6 +11,8 @@
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
 void checksum_write(const void *data, size_t size, char out[CHECKSUM_LENGTH + 1]);
+/* The same of a whole file that has no such line yet. FAULT: it cannot be read. */
+status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *f);
 /* FAULT: missing, foreign, or not what was written. */
 status checksum_check(const char *path, fault *f);
 

@@ -1,0 +1,119 @@
+#include "harness/ranges/ranges.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/catalogue/parameters.h"
+#include "harness/ranges/survey.h"
+#include "harness/study/expense.h"
+
+/* [s] of a batch, of one evaluation of an element, of a cell and of a scene beside it */
+static const double batch_cost = 0.5, evaluation_cost = 2e-6, cell_cost = 5e-5, scene_cost = 1e-4;
+enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
+
+double ranges_cost(const sweep *s)
+{
+    double all = scene_cost * s->points;
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK)
+            for (int k = 0; k < s->series[i].meshes; k++)
+                all += cell_cost + evaluation_cost * expense_of_cell(s, i, k);
+    return all;
+}
+
+/* No parameter twice, in the axes or beside them. */
+static status add_axis(ranges *r, const char *text, fault *f)
+{
+    if (r->design.axes == CASE_MAX_PARAMETERS)
+        return fault_set(f, STATUS_REFUSED, "more than %d --vary; give fewer", CASE_MAX_PARAMETERS);
+    axis *a = &r->axis[r->design.axes];
+    TRY(axis_read(r->request.type, text, a, f));
+    r->design.axes++;
+    for (int i = 0; i < r->design.axes - 1; i++)
+        if (r->axis[i].index == a->index)
+            return fault_set(f, STATUS_REFUSED, "--vary %s is given twice; give it once",
+                             a->of->name);
+    return STATUS_OK;
+}
+
+static status read_axes(ranges *r, fault *f)
+{
+    if (r->request.varies == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "what varies? give --vary NAME=A..B/N; 'beamwork list %s' shows names",
+                         parameters_list(r->request.type).shown_by);
+    for (int i = 0; i < r->request.varies; i++)
+        TRY(add_axis(r, r->request.vary[i], f));
+    const int axes = r->design.axes;
+    const status outcome = design_make(r->request.design, axes, r->axis, r->request.points,
+                                       r->request.seed, &r->design, f);
+    r->design.axes = axes; /* to be freed */
+    return outcome;
+}
+
+static status cut(ranges *r, fault *f)
+{
+    const double fits = floor(batch_cost / fmax(r->point_cost, 1e-9));
+    const long most =
+        r->design.points < MOST_POINTS_IN_BATCH ? r->design.points : MOST_POINTS_IN_BATCH;
+    r->points_in_batch = fits < 1 ? 1 : (long)fmin(fits, (double)most);
+    const long batches = (r->design.points + r->points_in_batch - 1) / r->points_in_batch;
+    if (batches > MOST_BATCHES)
+        return fault_set(f, STATUS_REFUSED,
+                         "%ld points of about %.2g s each are too many for a "
+                         "sweep; give fewer",
+                         r->design.points, r->point_cost);
+    r->batches = (int)batches;
+    return STATUS_OK;
+}
+
+status ranges_make(const ranges_request *request, ranges *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    out->request = *request;
+    memcpy(out->base, request->base,
+           (size_t)parameters_count(request->type) * sizeof *request->base);
+    TRY(read_axes(out, f));
+    TRY(survey(out, f));
+    return cut(out, f);
+}
+
+void ranges_free(ranges *r)
+{
+    for (int i = 0; i < r->design.axes; i++)
+        axis_free(&r->axis[i]);
+    design_free(&r->design);
+}
+
+rows_shape ranges_shape(const ranges *r)
+{
+    return (rows_shape){r->formulations, r->meshes, r->quantities};
+}
+
+int ranges_batch(const ranges *r, int batch, long *first)
+{
+    *first = batch * r->points_in_batch;
+    const long left = r->design.points - *first;
+    return (int)(left < r->points_in_batch ? left : r->points_in_batch);
+}
+
+void ranges_parameters(const ranges *r, const double at[], double value[CASE_MAX_PARAMETERS])
+{
+    memcpy(value, r->base, sizeof r->base);
+    for (int i = 0; i < r->design.axes; i++)
+        value[r->axis[i].index] = at[i];
+}
+
+void ranges_point_text(const ranges *r, const double at[], char *text, int size)
+{
+    int used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < r->design.axes && used < size; i++) {
+        char word[ASSIGNMENT_VALUE];
+        axis_text(&r->axis[i], at[i], word, sizeof word);
+        used += snprintf(text + used, (size_t)(size - used), "%s%s=%s", i > 0 ? ", " : "",
+                         r->axis[i].of->name, word);
+    }
+}
