@@ -8,7 +8,6 @@
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
-#include "harness/truth/data_place.h"
 #include "harness/truth/derive.h"
 #include "harness/truth/truth.h"
 
@@ -52,25 +51,12 @@ static int print_stored(const truths *t, const case_type *type, const double par
     return continuum;
 }
 
-/* Of reference/derive: in BEAMWORK_REFERENCE, or where data stand. */
-static status script_path(const char *name, char out[PATH_MAX], fault *f)
-{
-    char folder[PATH_MAX];
-    const char *given = getenv("BEAMWORK_REFERENCE");
-    if (given == NULL)
-        data_place("reference", folder);
-    const int length =
-        snprintf(out, PATH_MAX, "%s/derive/%s", given != NULL ? given : folder, name);
-    return length < PATH_MAX ? STATUS_OK
-                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
-}
-
 static status print_derived(const case_type *type, const double parameter[], fault *f)
 {
     char script[PATH_MAX], text[PARAMETERS_TEXT];
     derived_value *value;
     int count;
-    TRY(script_path("at.py", script, f));
+    TRY(derive_script("at.py", script, f));
     parameters_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
     for (int i = 0; i < count; i++)
@@ -118,7 +104,7 @@ static status print_scene_of(const case_type *type, const double parameter[], FI
     derived_value *value;
     int count;
     const write_head head = {type->name, type->summary, type->source};
-    TRY(script_path("of_scene.py", script, f));
+    TRY(derive_script("of_scene.py", script, f));
     status outcome = cell_scene(type, parameter, NULL, &s, f);
     if (outcome == STATUS_OK)
         outcome = write_scene(text, &s, &head, f);

@@ -25,6 +25,7 @@ static const verb verbs[] = {
     {"compute", NULL, NULL},
     {"solve", cli_solve, "one case, one formulation, one mesh: every quantity with its error"},
     {"converge", cli_converge, "one case on several meshes: errors, order, limit"},
+    {"sweep", cli_sweep, "one case over ranges of its parameters: where is an error kept?"},
     {"truth", cli_truth, "what is known of a case at a parameter point; derived on demand"},
     {"scene", cli_scene, "a case, or a structure of your own, written out as a scene file"},
     {"judge and compare", NULL, NULL},

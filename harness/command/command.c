@@ -58,7 +58,7 @@ static void refuse_again(command_request *r, int key, const struct argp_state *s
     char message[160];
     while (o->name != NULL && o->key != key)
         o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fxnsYBTW", key) != NULL)
+    if (o->name == NULL || o->arg == NULL || strchr("fxnsYBTWy", key) != NULL)
         return;
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
@@ -163,6 +163,17 @@ static error_t take(int key, char *value, struct argp_state *state)
     case 's':
         add_assignment(r, value);
         return 0;
+    case 'y':
+        if (r->varies == CASE_MAX_PARAMETERS)
+            message_refuse("too many --vary; give fewer");
+        r->vary[r->varies++] = value;
+        return 0;
+    case 'z':
+        r->points = whole_number(value, "number of points", 1, 1000000000);
+        return 0;
+    case 'r':
+        r->seed = whole_number(value, "seed", 0, 2147483647);
+        return 0;
     case 'B':
         add_path(value, COMMAND_MAX_CASES, r->beside, &r->beside_count);
         return 0;
@@ -238,6 +249,7 @@ void command_parse(const char *verb, const char *arguments_doc, const char *doc,
     memset(out, 0, sizeof *out);
     out->time_limit = strcmp(verb, "element-test") == 0 ? 60 : 120;
     out->refusal = EXIT_REFUSED;
+    out->seed = -1;
     out->format = "text";
     out->most_arguments = most_arguments(keys);
     out->takes_tables = strchr(keys, '.') != NULL;

@@ -40,6 +40,19 @@ const verb_option option_table[OPTION_MOST] = {
      "modes over a parameter, in N equal parts or smaller ones: matched by their shapes, so that "
      "those that cross keep their number",
      offsetof(command_request, follow)},
+    {"vary", 'y', "NAME=A..B/N|A,B,C",
+     "what the sweep is over: N equal parts (N + 1 values), with ':log' behind equal ratios; a list "
+     "of values or words; again for another parameter",
+     0},
+    {"design", 'd', "grid|sobol|halton|random",
+     "points of the sweep: all of the grid (default), or --points N that fill the box of "
+     "--vary NAME=A..B",
+     offsetof(command_request, design)},
+    {"points", 'z', "N", "how many points a design has that is no grid", 0},
+    {"seed", 'r', "S", "of --design random (default 1)", 0},
+    {"derive", 'g', NULL,
+     "solve for truths where none is stored: about half a second for each point (a scene: 4 s)",
+     offsetof(command_request, derive)},
     {"matrices", 'R', "FOLDER",
      "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
      "table "

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/parameters.h"
+#include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 
 enum { NAME = 24, COLUMN = 7, LINE = 1024, SHOWN_MESHES = 7 };
@@ -14,7 +15,7 @@ static void write_axis(FILE *to, const ranges *r, int index)
     const axis *a = &r->axis[index];
     const char *unit = strcmp(a->of->unit, "1") == 0 ? "" : a->of->unit;
     char text[LINE];
-    int used = snprintf(text, sizeof text, "  %s ", a->of->name);
+    int used = 0;
     if (a->value == NULL)
         used +=
             snprintf(text + used, sizeof text - (size_t)used, "%.6g .. %.6g%s%s%s", a->from, a->to,
@@ -26,7 +27,7 @@ static void write_axis(FILE *to, const ranges *r, int index)
     }
     if (a->count > 0)
         snprintf(text + used, sizeof text - (size_t)used, ": %d values", a->count);
-    paragraph_write(to, 0, 4, text);
+    paragraph_write(to, fprintf(to, "  %s ", a->of->name), 4, text);
 }
 
 void ranges_table_head(FILE *to, const ranges *r)
@@ -35,25 +36,23 @@ void ranges_table_head(FILE *to, const ranges *r)
     parameters_text(r->request.type, r->base, fixed, sizeof fixed);
     if (r->design.kind == DESIGN_RANDOM)
         snprintf(seed, sizeof seed, ", seed %lu", r->design.seed);
-    paragraph_say(to, 0, 2,
-                  "%s%s%s: %ld points (%s%s), %d formulations, %d meshes: %ld cells in %d batches",
-                  r->request.type->name, fixed[0] != '\0' ? ", " : "", fixed, r->design.points,
-                  design_name(r->design.kind), seed, r->formulations, r->meshes,
-                  r->design.points * r->formulations * r->meshes, r->batches);
+    paragraph_say(to, fprintf(to, "%s", r->request.type->name), 2,
+                  "%s%s: %ld points (%s%s), %d %s, %d %s: %ld cells", fixed[0] != '\0' ? ", " : "",
+                  fixed, r->design.points, design_name(r->design.kind), seed, r->formulations,
+                  r->formulations == 1 ? "formulation" : "formulations", r->meshes,
+                  r->meshes == 1 ? "mesh" : "meshes",
+                  r->design.points * r->formulations * r->meshes);
     for (int i = 0; i < r->design.axes; i++)
         write_axis(to, r, i);
     if (r->left_out[0] != '\0')
-        paragraph_say(to, 0, 4, "  left out: %s", r->left_out);
+        paragraph_say(to, fprintf(to, "  left out: "), 4, "%s", r->left_out);
 }
 
 /* What a quantity is measured by, in words. */
-static void write_reference(FILE *to, const tally *t, int q)
+static void say_reference(const tally *t, int q, char text[LINE])
 {
     const long *kind = t->kind[q];
-    const long without = kind[ROWS_NONE] + kind[ROWS_DISPUTED];
     const int alone = t->of->formulations == 1;
-    char text[LINE];
-    size_t used = (size_t)snprintf(text, sizeof text, "  %s:", t->of->quantity[q].name);
     const struct {
         long count;
         const char *words;
@@ -62,32 +61,71 @@ static void write_reference(FILE *to, const tally *t, int q)
                 {kind[ROWS_LIMIT], alone
                                        ? "the limit of its own meshes, which shows convergence only"
                                        : "the limit of the meshes of all formulations"},
-                {kind[ROWS_NONE], "nothing: no limit is known to half of the tolerance"},
+                {kind[ROWS_NONE],
+                 "nothing: no limit is known to half of the error (finer -n, or --derive)"},
                 {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
+    size_t used = 0;
     int parts = 0;
+    text[0] = '\0';
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++)
         if (part[i].count > 0)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s %ld points by %s",
-                                     parts++ > 0 ? ";" : "", part[i].count, part[i].words);
-    if (t->points - t->without_scene > without)
-        snprintf(text + used, sizeof text - used, " (known to %.1g or better)",
-                 fmax(t->doubt[q], 1e-16));
-    paragraph_write(to, 0, 6, text);
+            used += (size_t)snprintf(text + used, LINE - used, "%s%ld points by %s",
+                                     parts++ > 0 ? "; " : "", part[i].count, part[i].words);
+    if (kind[ROWS_STORED] + kind[ROWS_DERIVED] + kind[ROWS_LIMIT] > 0)
+        snprintf(text + used, LINE - used, " (known to %.0e or better)", fmax(t->doubt[q], 1e-16));
+}
+
+/* Quantities that are measured by the same stand together. */
+static void write_reference(FILE *to, const tally *t, int q, char told[])
+{
+    char text[LINE], other[LINE];
+    paragraph words;
+    const int begun = fprintf(to, "  %s", t->of->quantity[q].name);
+    FILE *out = paragraph_begin(&words, to);
+    say_reference(t, q, text);
+    for (int i = q + 1; i < t->of->quantities; i++) {
+        say_reference(t, i, other);
+        if (told[i] || strcmp(text, other) != 0)
+            continue;
+        told[i] = 1;
+        fprintf(out, ", %s", t->of->quantity[i].name);
+    }
+    fprintf(out, ": %s", text);
+    paragraph_end(&words, begun, 6);
+}
+
+/* Why the first one has none. */
+static void write_without_scene(FILE *to, const tally *t)
+{
+    const ranges *r = t->of;
+    double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
+    char where[PARAMETERS_TEXT];
+    scene s;
+    fault why = {""};
+    if (design_points(&r->design, t->first_without, 1, at, NULL) != STATUS_OK)
+        return;
+    ranges_parameters(r, at, value);
+    ranges_point_text(r, at, where, sizeof where);
+    cell_scene(r->request.type, value, NULL, &s, &why);
+    scene_free(&s);
+    paragraph_say(to, fprintf(to, "  %ld points have no scene", t->without_scene), 6,
+                  ", the first at %s: %s", where, why.text);
 }
 
 static void write_references(FILE *to, const tally *t)
 {
+    char told[RANGES_QUANTITIES] = {0};
     fprintf(to, "errors are measured by\n");
     for (int q = 0; q < t->of->quantities; q++)
-        write_reference(to, t, q);
+        if (!told[q])
+            write_reference(to, t, q, told);
     if (t->without_scene > 0)
-        paragraph_say(to, 0, 6, "  %ld points have no scene, the first is point %ld",
-                      t->without_scene, t->first_without);
+        write_without_scene(to, t);
 }
 
 static const char *name_of(const ranges *r, int q)
 {
-    return q < r->quantities ? r->quantity[q].name : "all together";
+    return q < r->quantities ? r->quantity[q].name : "all quantities";
 }
 
 /* 99.96 % are not all. */
@@ -150,13 +188,47 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-static void write_all_shares(FILE *to, const tally *t)
+/* Elements with which a formulation is within everywhere, in a word. */
+static void write_least(FILE *to, const tally_series *s, int width)
 {
+    if (s->asked == 0)
+        fprintf(to, "%*s", width, "?");
+    else if (s->never > 0)
+        fprintf(to, "%*s", width, "-");
+    else
+        fprintf(to, "%*d", width, s->everywhere);
+}
+
+/* Formulations beside each other, some at a time. */
+static void write_leasts(FILE *to, const tally *t)
+{
+    enum { BESIDE = 3, WIDTH = 24 };
+    const ranges *r = t->of;
+    for (int first = 0; first < r->formulations; first += BESIDE) {
+        const int end = first + BESIDE < r->formulations ? first + BESIDE : r->formulations;
+        fprintf(to, "%-*s", NAME + 2, "n that is enough for");
+        for (int i = first; i < end; i++)
+            fprintf(to, " %*.*s", WIDTH - 1, WIDTH - 1, r->formulation[i].key);
+        fputc('\n', to);
+        for (int q = 0; q < r->quantities; q++) {
+            fprintf(to, "  %-*.*s", NAME, NAME, r->quantity[q].name);
+            for (int i = first; i < end; i++)
+                write_least(to, tally_of(t, i, q), WIDTH);
+            fputc('\n', to);
+        }
+    }
+}
+
+static void write_all_shares(FILE *to, const tally *t, int every)
+{
+    const int several = t->of->quantities > 1;
     fprintf(to, "\nshare of the points within %g %%\n", 100 * t->of->request.tolerance);
-    for (int q = 0; q < t->of->quantities; q++)
+    for (int q = 0; q < t->of->quantities && (every || !several); q++)
         write_shares(to, t, q);
-    if (t->of->quantities > 1)
+    if (several) {
         write_shares(to, t, t->of->quantities);
+        write_leasts(to, t);
+    }
 }
 
 static void write_failures(FILE *to, const tally *t)
@@ -169,8 +241,8 @@ static void write_failures(FILE *to, const tally *t)
             ran += t->ran[i * r->meshes + k];
         }
         if (failed > 0)
-            paragraph_say(to, 0, 4, "%s: %ld of %ld cells have no solution", r->formulation[i].key,
-                          failed, ran);
+            fprintf(to, "%s: %ld of %ld cells have no solution\n", r->formulation[i].key, failed,
+                    ran);
     }
 }
 
@@ -198,29 +270,67 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-static void write_map(FILE *to, const tally *t, int which, int q)
+/* The values of the first axis, behind what stands in their lines. */
+static void write_columns(FILE *to, const tally *t)
 {
-    const ranges *r = t->of;
     char edge[ASSIGNMENT_VALUE];
-    fprintf(to, "%s, %s\n  %-*.*s", r->formulation[which].key, name_of(r, q), NAME - 2, NAME - 3,
-            r->axis[0].of->name);
+    fprintf(to, "  %-*.*s", NAME, NAME, t->of->axis[0].of->name);
     for (int i = 0; i < t->columns; i++) {
         edge_text(t, 0, i, edge, sizeof edge);
         fprintf(to, "%*.*s", COLUMN, COLUMN - 1, edge);
     }
     fputc('\n', to);
-    for (int k = 0; k < t->lines; k++) {
-        edge[0] = '\0';
-        if (r->design.axes > 1)
-            edge_text(t, 1, k, edge, sizeof edge);
-        char label[NAME + 1];
-        snprintf(label, sizeof label, "%.*s %s", NAME - 12,
-                 r->design.axes > 1 ? r->axis[1].of->name : "least n", edge);
-        fprintf(to, "  %-*s", NAME - 2, label);
-        for (int i = 0; i < t->columns; i++)
-            write_place(to, tally_at(t, which, q, k, i));
-        fputc('\n', to);
+}
+
+static void write_fields(FILE *to, const tally *t, const char *label, int which, int q, int at)
+{
+    fprintf(to, "  %-*.*s", NAME, NAME, label);
+    for (int i = 0; i < t->columns; i++)
+        write_place(to, tally_at(t, which, q, at, i));
+    fputc('\n', to);
+}
+
+/* Over two axes a map for each formulation, over one a line. */
+static void write_maps_of(FILE *to, const tally *t, int q)
+{
+    const ranges *r = t->of;
+    if (r->design.axes == 1) {
+        fprintf(to, "%s\n", name_of(r, q));
+        write_columns(to, t);
+        for (int i = 0; i < r->formulations; i++)
+            write_fields(to, t, r->formulation[i].key, i, q, 0);
+        return;
     }
+    for (int i = 0; i < r->formulations; i++) {
+        fprintf(to, "%s, %s\n", r->formulation[i].key, name_of(r, q));
+        write_columns(to, t);
+        for (int k = 0; k < t->lines; k++) {
+            char edge[ASSIGNMENT_VALUE], label[2 * ASSIGNMENT_VALUE];
+            edge_text(t, 1, k, edge, sizeof edge);
+            snprintf(label, sizeof label, "%.*s %s", NAME - 10, r->axis[1].of->name, edge);
+            write_fields(to, t, label, i, q, k);
+        }
+    }
+}
+
+/* Is a field without a reference? */
+static int has_unknown(const tally *t)
+{
+    const ranges *r = t->of;
+    int unknown = 0;
+    for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++)
+        unknown |= t->map[i].points > 0 && t->map[i].asked == 0;
+    return unknown;
+}
+
+/* Are there fields of several values? */
+static int is_coarse(const tally *t)
+{
+    const int shown[] = {t->columns, t->lines};
+    int coarse = 0;
+    for (int i = 0; i < t->of->design.axes; i++)
+        coarse |= t->of->axis[i].count != shown[i];
+    return coarse;
 }
 
 static void write_maps(FILE *to, const tally *t, int every)
@@ -232,14 +342,31 @@ static void write_maps(FILE *to, const tally *t, int every)
         return;
     }
     fprintf(to, "\n");
-    paragraph_say(to, 0, 2,
-                  "least n from which on every mesh is within %g %% (-: not even with n = %d; ?: "
-                  "without a reference; values of the axes are where a field begins)",
-                  100 * r->request.tolerance, r->mesh[r->meshes - 1]);
-    for (int i = 0; i < r->formulations; i++) {
-        for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
-            write_map(to, t, i, q);
-        write_map(to, t, i, r->quantities > 1 ? r->quantities : 0);
+    paragraph_say(to, fprintf(to, "least n "), 2,
+                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s",
+                  100 * r->request.tolerance, r->mesh[r->meshes - 1],
+                  has_unknown(t) ? "; ?: without a reference" : "",
+                  is_coarse(t) ? "; a field holds what all its points need, and begins where its "
+                                 "column and line say"
+                               : "");
+    for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
+        write_maps_of(to, t, q);
+    write_maps_of(to, t, r->quantities > 1 ? r->quantities : 0);
+}
+
+/* Its axes, in a few digits. */
+static void short_point(const ranges *r, const double at[], char *text, int size)
+{
+    int used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < r->design.axes && used < size; i++) {
+        char word[ASSIGNMENT_VALUE];
+        if (r->axis[i].of->choices != NULL)
+            axis_text(&r->axis[i], at[i], word, sizeof word);
+        else
+            snprintf(word, sizeof word, "%.6g", at[i]);
+        used += snprintf(text + used, (size_t)(size - used), "%s%s=%s", i > 0 ? ", " : "",
+                         r->axis[i].of->name, word);
     }
 }
 
@@ -249,13 +376,13 @@ static void write_worst(FILE *to, const ranges *r, int which, const tally_worst 
     char where[PARAMETERS_TEXT], what[SCENE_NAME + 60];
     if (design_points(&r->design, w->point, 1, at, f) != STATUS_OK)
         return;
-    ranges_point_text(r, at, where, sizeof where);
+    short_point(r, at, where, sizeof where);
     if (w->quantity >= 0)
         snprintf(what, sizeof what, "%s %.3g %%", r->quantity[w->quantity].name, 100 * w->error);
     else
         snprintf(what, sizeof what, "%s", rows_status_name(w->status));
-    paragraph_say(to, 0, 6, "  %-*s %-28s %s%s%s", NAME - 1, r->formulation[which].key, what, where,
-                  w->scene[0] != '\0' ? "  " : "", w->scene);
+    fprintf(to, "  %-*s %-26s %s%s%s\n", NAME - 1, r->formulation[which].key, what, where,
+            w->scene[0] != '\0' ? "  " : "", w->scene);
 }
 
 /* How to see one of them: that of the first formulation. */
@@ -266,9 +393,9 @@ static void write_command(FILE *to, const ranges *r, int which, const tally_wors
     paragraph words;
     if (design_points(&r->design, w->point, 1, at, f) != STATUS_OK)
         return;
-    fprintf(to, "to look at one\n");
+    const int begun = fprintf(to, "to look at the first: ");
     FILE *out = paragraph_begin(&words, to);
-    fprintf(out, "  beamwork converge ");
+    fprintf(out, "beamwork converge ");
     if (w->scene[0] != '\0')
         fprintf(out, "--scene %s/%s", folder, w->scene);
     else
@@ -280,7 +407,7 @@ static void write_command(FILE *to, const ranges *r, int which, const tally_wors
         fprintf(out, " --set %s=%s", r->axis[i].of->name, word);
     }
     fprintf(out, " -f %s", r->formulation[which].key);
-    paragraph_end_command(&words, 0, 4);
+    paragraph_end_command(&words, begun, 4);
 }
 
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f)
@@ -288,12 +415,12 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
     const ranges *r = t->of;
     int shown = -1;
     write_references(to, t);
-    write_all_shares(to, t);
+    write_all_shares(to, t, every);
     write_failures(to, t);
     write_maps(to, t, every);
     fprintf(to, "\nworst points with n = %d\n", r->mesh[r->meshes - 1]);
     for (int i = 0; i < r->formulations; i++)
-        for (int k = 0; k < t->worsts[i]; k++) {
+        for (int k = 0; k < t->worsts[i] && (k == 0 || every || r->formulations <= 3); k++) {
             write_worst(to, r, i, &t->worst[i][k], f);
             shown = shown < 0 ? i : shown;
         }

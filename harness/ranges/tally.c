@@ -15,7 +15,12 @@ static int places_of(const ranges *r, int index, int most)
     if (index >= r->design.axes)
         return 1;
     const axis *a = &r->axis[index];
-    return a->count > 0 ? least_of(a->count, most) : most;
+    if (a->count > 0)
+        return least_of(a->count, most);
+    /* fields of some points each */
+    const double fields =
+        r->design.axes > 1 ? sqrt((double)r->design.points / 4) : (double)r->design.points / 2;
+    return least_of((long)fmax(1, fields), most);
 }
 
 status tally_alloc(const ranges *r, tally *out, fault *f)

@@ -7,8 +7,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/truth/data_place.h"
+
 static const char python[] = "/usr/bin/python3";
 enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as of reference/derive/at.py */
+
+status derive_script(const char *name, char out[PATH_MAX], fault *f)
+{
+    char folder[PATH_MAX];
+    const char *given = getenv("BEAMWORK_REFERENCE");
+    if (given == NULL)
+        data_place("reference", folder);
+    const int length =
+        snprintf(out, PATH_MAX, "%s/derive/%s", given != NULL ? given : folder, name);
+    return length < PATH_MAX ? STATUS_OK
+                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
+}
 
 /* Its two streams as files. */
 typedef struct script {

@@ -3,6 +3,7 @@
 #ifndef BEAMWORK_DERIVE_H
 #define BEAMWORK_DERIVE_H
 
+#include <limits.h>
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
@@ -12,6 +13,9 @@ typedef struct derived_value {
     double value, uncertainty; /* [unit] */
 } derived_value;
 
+/* Where a program of reference/derive is: in BEAMWORK_REFERENCE, or where data stand. FAULT: too
+ * long a path. */
+status derive_script(const char *name, char out[PATH_MAX], fault *f);
 /* Runs `script CASE PARAMETERS`. REFUSED with its line when no program derives the case or the
  * parameters; FAULT when it could not be run or said something else. *out: malloced. */
 status derive_values(const char *script, const char *case_name, const char *parameters,

@@ -1,0 +1,200 @@
+/* A case over ranges of its parameters. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/catalogue/choice.h"
+#include "harness/cli/cli.h"
+#include "harness/command/errors.h"
+#include "harness/ranges/ranges_collect.h"
+#include "harness/ranges/ranges_table.h"
+#include "harness/shards/shard.h"
+#include "harness/truth/derive.h"
+
+/* A sweep and what it needs while it runs. */
+typedef struct sweeping {
+    ranges ranges;
+    ranges_work work;
+    truths truths;
+    ranges_output output;
+    char batches[PATH_MAX]; /* folder */
+    char script[PATH_MAX];  /* of --derive */
+    int lost;               /* batches that are not there: exit status 5 */
+} sweeping;
+
+static status read_design(const command_request *r, ranges_request *q, fault *f)
+{
+    const int kind = r->design != NULL ? choice_index(DESIGN_CHOICES, r->design) : DESIGN_GRID;
+    if (kind < 0)
+        return fault_set(f, STATUS_REFUSED, "--design '%.40s': give one of " DESIGN_CHOICES,
+                         r->design);
+    q->design = (design_kind)kind;
+    q->points = r->points;
+    q->seed = (unsigned long)(r->seed >= 0 ? r->seed : 1);
+    if (kind == DESIGN_GRID && r->points > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "--points belongs to --design sobol, halton or random; a grid has those "
+                         "of --vary");
+    if (kind != DESIGN_RANDOM && r->seed >= 0)
+        return fault_set(f, STATUS_REFUSED, "--seed belongs to --design random");
+    return STATUS_OK;
+}
+
+/* Nothing that varies is set. */
+static status check_set(const command_request *r, const ranges *s, fault *f)
+{
+    for (int i = 0; i < r->assignments; i++)
+        for (int k = 0; k < s->design.axes; k++) {
+            const char *name = s->axis[k].of->name;
+            if (strncmp(r->assignment[i], name, strlen(name)) == 0 &&
+                r->assignment[i][strlen(name)] == '=')
+                return fault_set(f, STATUS_REFUSED, "%s is set and varies; give --set or --vary",
+                                 name);
+        }
+    return STATUS_OK;
+}
+
+static status prepare(command_request *r, const case_type *type, sweeping *s, fault *f)
+{
+    ranges_request q = {.type = type,
+                        .file = r->scene,
+                        .base = r->parameter,
+                        .varies = r->varies,
+                        .vary = r->vary,
+                        .formulations = r->formulations,
+                        .formulation = r->formulation,
+                        .meshes = r->meshes,
+                        .mesh = r->mesh,
+                        .select = r->select,
+                        .tolerance = 0.01,
+                        .time_limit = r->time_limit};
+    int levels;
+    TRY(read_design(r, &q, f));
+    if (r->error != NULL)
+        TRY(errors_parse(r->error, 1, &q.tolerance, &levels, f));
+    TRY(files_check(r, 1, case_input_truths_path(r), f));
+    if (r->scene == NULL) {
+        TRY(case_input_truths(r, &s->truths, f));
+        q.truths = &s->truths;
+    }
+    if (r->derive) {
+        TRY(derive_script(r->scene != NULL ? "of_scene.py" : "at.py", s->script, f));
+        q.derive = s->script;
+    }
+    TRY(ranges_make(&q, &s->ranges, f));
+    TRY(check_set(r, &s->ranges, f));
+    return ranges_work_make(&s->ranges, r->scene == NULL ? case_input_truths_path(r) : NULL, NULL,
+                            &s->work, f);
+}
+
+/* Where batches are kept until all are there: beside the output, or where nobody looks. */
+static status place_batches(const command_request *r, sweeping *s, fault *f)
+{
+    if (r->output != NULL) {
+        s->output.path = r->output;
+        TRY(ranges_collect_beside(r->output, ".worst", s->output.folder, f));
+        TRY(ranges_collect_beside(r->output, ".batches", s->batches, f));
+        return ranges_collect_check(&s->output, f);
+    }
+    const char *temporary = getenv("TMPDIR");
+    snprintf(s->batches, sizeof s->batches, "%s/beamwork-sweep-XXXXXX",
+             temporary != NULL ? temporary : "/tmp");
+    return mkdtemp(s->batches) != NULL ? STATUS_OK
+                                       : fault_set(f, STATUS_FAULT, "%.200s: cannot be made (%s)",
+                                                   s->batches, strerror(errno));
+}
+
+static status collect(const command_request *r, sweeping *s, fault *f)
+{
+    const char *const folder[] = {s->batches};
+    const work all = ranges_work_of(&s->work);
+    stock there = {.batches = 0};
+    tally t = {.points = 0};
+    status outcome = stock_take(&all, folder, 1, NULL, stderr, &there, f);
+    if (outcome == STATUS_OK && there.there < there.batches)
+        s->lost = there.batches - there.there;
+    else if (outcome == STATUS_OK)
+        outcome = ranges_collect(&s->work, &there, &s->output, &t, f);
+    if (outcome == STATUS_OK && s->lost == 0)
+        ranges_table(stdout, &t, r->verbose, s->output.folder, f);
+    if (outcome == STATUS_OK && s->lost == 0)
+        outcome = ranges_collect_remove(&there, s->batches, f);
+    tally_free(&t);
+    stock_free(&there);
+    return outcome;
+}
+
+static status run(command_request *r, const case_type *type, sweeping *s, fault *f)
+{
+    shard_outcome done = {0};
+    TRY(prepare(r, type, s, f));
+    TRY(place_batches(r, s, f));
+    const shard_request request = {.count = 1,
+                                   .into = s->batches,
+                                   .jobs = r->jobs,
+                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL,
+                                   .tell = stderr};
+    const work all = ranges_work_of(&s->work);
+    ranges_table_head(stdout, &s->ranges);
+    TRY(output_flush(f));
+    TRY(shard_run(&all, &request, &done, f));
+    return collect(r, s, f);
+}
+
+/* What is not there is computed when the same command is given again. */
+static int tell(const command_request *r, const sweeping *s)
+{
+    if (s->lost == 0)
+        return EXIT_AS_EXPECTED;
+    fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->lost, s->ranges.batches);
+    if (r->output != NULL)
+        fprintf(stderr, "the others are in %s: give the same command again\n", s->batches);
+    else
+        fprintf(stderr, "with -o FILE the others would be kept\n");
+    return EXIT_INTERRUPTED;
+}
+
+static int sweep_request_of(command_request *r)
+{
+    sweeping s = {.lost = 0};
+    fault f = {""};
+    const case_type *type = case_input_find(r);
+    if (type == NULL)
+        return r->refusal;
+    const status outcome = run(r, type, &s, &f);
+    const int code = outcome == STATUS_OK ? tell(r, &s) : message_fail(outcome, f.text);
+    ranges_work_free(&s.work);
+    ranges_free(&s.ranges);
+    truths_free(&s.truths);
+    return code;
+}
+
+int cli_sweep(int count, char **arguments)
+{
+    return command_run(
+        "sweep", "CASE",
+        "Solves a case, or a structure of your own (--scene FILE), at many points of its "
+        "parameters "
+        "and shows where formulations are within an error (--error, default 1 %): the share of "
+        "points with each mesh, the least number of elements over the parameters, the worst "
+        "points. "
+        "--vary NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these "
+        "values, or words of a choice. Several make a grid, the last one changing first. --design "
+        "sobol, halton or random --points N: so many points in the box of --vary NAME=A..B (or "
+        "A..B:log). Errors are against a truth stored for the very point, with --derive against "
+        "one "
+        "that is solved for there, else against the limit that the meshes of all formulations of "
+        "the same physics go to; points where that is not known to half of the error are told. A "
+        "point that has no scene, a cell that fails, is a result. -o FILE: all values as HDF5, and "
+        "the worst points as scenes in FILE.worst; batches that are done are kept in FILE.batches "
+        "until all are: the same command goes on from there. Exit status: 0 done, 2 refused, 4 "
+        "file, disk or memory, 5 incomplete."
+        "\vbeamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
+        "beamwork sweep c_column --vary length=2..12/10 --vary flange_thickness=5e-3..60e-3/6:log "
+        "-k buckling_load --error 1% -o column.h5\n"
+        "beamwork sweep snap_through --vary angle=0.1..0.6 --vary step=0.005..0.05:log --design "
+        "sobol --points 200",
+        "yfnskedzrgojLTYv", count, arguments, sweep_request_of);
+}

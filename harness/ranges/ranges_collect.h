@@ -1,0 +1,27 @@
+/* The batches of a sweep put together: what it comes to, its file, its worst points. */
+#ifndef BEAMWORK_RANGES_COLLECT_H
+#define BEAMWORK_RANGES_COLLECT_H
+
+#include <limits.h>
+
+#include "harness/ranges/ranges_work.h"
+#include "harness/shards/stock.h"
+
+typedef struct ranges_output {
+    const char *path;      /* HDF5; NULL: none */
+    char folder[PATH_MAX]; /* of the worst points' scenes; empty: none */
+} ranges_output;
+
+/* "sweep.worst" of "sweep.h5", and so on. REFUSED: the name is too long. */
+status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f);
+/* Is there room for the scenes? REFUSED: something else is there. */
+status ranges_collect_check(const ranges_output *, fault *f);
+/* Takes all batches of the stock, one in memory at a time, into the tally, which is made and which
+ * the caller frees, also after a failure, and into the files. */
+status ranges_collect(ranges_work *, const stock *, const ranges_output *, tally *out, fault *f);
+
+/* Once all is written: takes the batches of a stock of one folder away, and the folder where
+ * nothing else is in it. */
+status ranges_collect_remove(const stock *, const char *folder, fault *f);
+
+#endif
