@@ -74,7 +74,7 @@ static const manual_row statuses[] = {
     {"2", "refused input"},
     {"3", "nothing was checked"},
     {"4", "file, disk or memory"},
-    {"5", "interrupted: what was judged is in *.partial.*"},
+    {"5", "interrupted: what was judged is in *.partial.*; sweep: the same command goes on"},
     {NULL, NULL},
 };
 static const manual_program about = {

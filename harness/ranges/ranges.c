@@ -7,21 +7,9 @@
 
 #include "harness/catalogue/parameters.h"
 #include "harness/ranges/survey.h"
-#include "harness/study/expense.h"
 
-/* [s] of a batch, of one evaluation of an element, of a cell and of a scene beside it */
-static const double batch_cost = 0.5, evaluation_cost = 2e-6, cell_cost = 5e-5, scene_cost = 1e-4;
+static const double batch_cost = 0.5; /* [s] */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
-
-double ranges_cost(const sweep *s)
-{
-    double all = scene_cost * s->points;
-    for (int i = 0; i < s->seriess; i++)
-        if (s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK)
-            for (int k = 0; k < s->series[i].meshes; k++)
-                all += cell_cost + evaluation_cost * expense_of_cell(s, i, k);
-    return all;
-}
 
 /* No parameter twice, in the axes or beside them. */
 static status add_axis(ranges *r, const char *text, fault *f)
@@ -97,23 +85,4 @@ int ranges_batch(const ranges *r, int batch, long *first)
     *first = batch * r->points_in_batch;
     const long left = r->design.points - *first;
     return (int)(left < r->points_in_batch ? left : r->points_in_batch);
-}
-
-void ranges_parameters(const ranges *r, const double at[], double value[CASE_MAX_PARAMETERS])
-{
-    memcpy(value, r->base, sizeof r->base);
-    for (int i = 0; i < r->design.axes; i++)
-        value[r->axis[i].index] = at[i];
-}
-
-void ranges_point_text(const ranges *r, const double at[], char *text, int size)
-{
-    int used = 0;
-    text[0] = '\0';
-    for (int i = 0; i < r->design.axes && used < size; i++) {
-        char word[ASSIGNMENT_VALUE];
-        axis_text(&r->axis[i], at[i], word, sizeof word);
-        used += snprintf(text + used, (size_t)(size - used), "%s%s=%s", i > 0 ? ", " : "",
-                         r->axis[i].of->name, word);
-    }
 }

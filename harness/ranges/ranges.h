@@ -58,11 +58,5 @@ void ranges_free(ranges *);
 rows_shape ranges_shape(const ranges *);
 /* Points of a batch: *first, and how many. */
 int ranges_batch(const ranges *, int batch, long *first);
-/* Values of all parameters at a point whose axes have these. */
-void ranges_parameters(const ranges *, const double at[], double value[CASE_MAX_PARAMETERS]);
-/* "NAME=VALUE, NAME=VALUE": of the axes. */
-void ranges_point_text(const ranges *, const double at[], char *text, int size);
-/* [s] about, of all cells of a point whose scene there is. */
-double ranges_cost(const sweep *s);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "harness/judge/reach.h"
 #include "harness/ranges/known.h"
+#include "harness/ranges/ranges_points.h"
 #include "harness/ranges/reference.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
@@ -50,7 +51,7 @@ static status plan(const ranges *r, int batch, sweep *s, fault *f)
     status outcome = at != NULL ? design_points(&r->design, first, count, at, f)
                                 : fault_set(f, STATUS_FAULT, "out of memory for points");
     for (int i = 0; i < count && outcome == STATUS_OK; i++) {
-        ranges_parameters(r, at + (size_t)i * (size_t)axes, value);
+        ranges_points_values(r, at + (size_t)i * (size_t)axes, value);
         outcome = plan_add(s, r->request.type, value, NULL, r->mesh, r->meshes, f);
         if (outcome != STATUS_OK)
             break;

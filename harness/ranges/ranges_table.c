@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/parameters.h"
+#include "harness/ranges/ranges_points.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 
@@ -56,14 +57,14 @@ static void say_reference(const tally *t, int q, char text[LINE])
     const struct {
         long count;
         const char *words;
-    } part[] = {{kind[ROWS_STORED], "a stored truth"},
-                {kind[ROWS_DERIVED], "a truth derived there"},
-                {kind[ROWS_LIMIT], alone
-                                       ? "the limit of its own meshes, which shows convergence only"
-                                       : "the limit of the meshes of all formulations"},
-                {kind[ROWS_NONE],
-                 "nothing: no limit is known to half of the error (finer -n, or --derive)"},
-                {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
+    } part[] = {
+        {kind[ROWS_STORED], "a stored truth"},
+        {kind[ROWS_DERIVED], "a truth derived there"},
+        {kind[ROWS_LIMIT], alone ? "the limit of its own meshes, which shows convergence only"
+                                 : "the limit of the meshes of all formulations of one theory"},
+        {kind[ROWS_NONE],
+         "nothing: no limit is known to half of the error (finer -n, or --derive)"},
+        {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
     size_t used = 0;
     int parts = 0;
     text[0] = '\0';
@@ -104,8 +105,8 @@ static void write_without_scene(FILE *to, const tally *t)
     fault why = {""};
     if (design_points(&r->design, t->first_without, 1, at, NULL) != STATUS_OK)
         return;
-    ranges_parameters(r, at, value);
-    ranges_point_text(r, at, where, sizeof where);
+    ranges_points_values(r, at, value);
+    ranges_points_text(r, at, where, sizeof where);
     cell_scene(r->request.type, value, NULL, &s, &why);
     scene_free(&s);
     paragraph_say(to, fprintf(to, "  %ld points have no scene", t->without_scene), 6,

@@ -7,6 +7,8 @@
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
+#include "harness/ranges/ranges_points.h"
+#include "harness/study/expense.h"
 #include "harness/study/plan.h"
 
 enum { LOOKED_AT = 9 };
@@ -24,7 +26,7 @@ static status add_point(const ranges *r, long index, sweep *s, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
     TRY(design_points(&r->design, index, 1, at, f));
-    ranges_parameters(r, at, value);
+    ranges_points_values(r, at, value);
     TRY(plan_add(s, r->request.type, value, NULL, r->request.mesh, r->request.meshes, f));
     return plan_extend(s, r->formulation, r->formulations, f);
 }
@@ -157,6 +159,19 @@ static void take_formulations(ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
+static const double scene_cost = 5e-5; /* [s] beside its cells */
+
+/* [s] about, of all cells. */
+static double cost_of(const sweep *s)
+{
+    double all = scene_cost * s->points;
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK)
+            for (int k = 0; k < s->series[i].meshes; k++)
+                all += expense_of_cell(s, i, k);
+    return all;
+}
+
 static status survey_points(ranges *r, sweep *s, fault *f)
 {
     const long last = r->design.points - 1;
@@ -165,7 +180,7 @@ static status survey_points(ranges *r, sweep *s, fault *f)
     for (int i = 0; i < looks; i++)
         TRY(add_point(r, looks > 1 ? last * i / (looks - 1) : 0, s, f));
     TRY(judge(r, s, f));
-    r->point_cost = ranges_cost(s) / looks;
+    r->point_cost = cost_of(s) / looks;
     return STATUS_OK;
 }
 

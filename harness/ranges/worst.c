@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/ranges/ranges_points.h"
 #include "harness/record/output_folder.h"
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
@@ -22,8 +23,8 @@ static status text_of(const ranges *r, long index, char **text, fault *f)
     scene s;
     fault why;
     TRY(design_points(&r->design, index, 1, at, f));
-    ranges_parameters(r, at, value);
-    ranges_point_text(r, at, where, sizeof where);
+    ranges_points_values(r, at, value);
+    ranges_points_text(r, at, where, sizeof where);
     snprintf(summary, sizeof summary, "%.200s, at %s", type->summary, where);
     const write_head head = {type->name, summary, type->source};
     const status built = cell_scene(type, value, NULL, &s, &why);

@@ -1,6 +1,6 @@
 """The verbs, and small work for each."""
 VERBS = ("list", "solve", "converge", "bench", "stress", "verify", "truth", "compare")
-EVERY_VERB = ("list", "explain", "solve", "converge", "truth", "scene", "verify", "bench", "stress",
+EVERY_VERB = ("list", "explain", "solve", "converge", "sweep", "truth", "scene", "verify", "bench", "stress",
               "element-test", "compare", "export", "import", "schema")
 WORK = {
     "verify": ("-k", "warping_torsion/default and beamw_vlasov"),

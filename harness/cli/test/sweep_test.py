@@ -1,0 +1,242 @@
+"""sweep: values of single solutions, designs, references, files, refusals."""
+import itertools
+import json
+import unittest
+
+import h5py
+import numpy as np
+
+from harness.test.program import ROOT, ProgramTest, run
+
+LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
+COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.04/2:log",
+          "-f", "beamw", "-f", "collocation", "-n", "8,2,4")
+
+
+def sealed(path):
+    """Its last line says how long it is without it."""
+    data = path.read_bytes()
+    word, size, _ = data[-40:].split()
+    return word == b"beamwork-seal" and int(size, 16) == len(data) - 40
+
+
+def solved(*words, quantity):
+    """The value of a solution by itself."""
+    done = run("solve", *words, "--format", "json")
+    rows = json.loads(done.stdout)["quantities"]
+    return next(r["value"] for r in rows if r["quantity"] == quantity)
+
+
+class Grid(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.path = cls.class_folder() / "column.h5"
+        cls.done = run("sweep", *COLUMN, "-o", cls.path)
+        assert cls.done.returncode == 0, cls.done.stderr
+        with h5py.File(cls.path) as file:
+            cls.of = {name: file[name][()] for name in file}
+            cls.told = dict(file.attrs)
+            cls.kinds = file["reference_kind"].attrs["names"].decode().split("\n")
+            cls.states = file["status"].attrs["names"].decode().split("\n")
+
+    def test_points_are_the_grid(self):
+        lengths, sides = (0.5, 1, 1.5, 2), (0.01, 0.02, 0.04)
+        np.testing.assert_allclose(self.of["points"],
+                                   list(itertools.product(lengths, sides)), rtol=1e-15)
+        self.assertEqual([tuple(r) for r in self.of["axes"][["name", "unit", "kind", "count"]]],
+                         [(b"length", b"m", b"linear", 4), (b"side", b"m", b"log", 3)])
+        self.assertEqual(list(self.of["meshes"]), [2, 4, 8])
+
+    def test_same_bits_as_solve(self):
+        for point, formulation, mesh in ((0, 0, 0), (7, 1, 2), (11, 0, 1)):
+            length, side = self.of["points"][point]
+            alone = solved("shear_column", "--set", f"length={length!r}", "--set",
+                           f"side={side!r}", "-f", ("beamw", "collocation")[formulation],
+                           "-n", self.of["meshes"][mesh], quantity="buckling_load")
+            self.assertEqual(self.of["value"][point, formulation, mesh, 0], alone)
+
+    def test_errors_and_least_mesh(self):
+        """Against the reference that stands there, and least as the errors say."""
+        error = self.of["error"][:, 0, :, 0]
+        expected = self.of["value"][:, 0, :, 0] / self.of["reference"] - 1
+        known = np.isfinite(error)
+        self.assertGreater(known.sum(), 0)
+        np.testing.assert_allclose(error[known], expected[known], rtol=1e-9, atol=1e-15)
+        within = np.abs(error) <= 0.01
+        for row, least in zip(within, self.of["least"][:, 0, 0]):
+            good = [n for i, n in enumerate((2, 4, 8)) if row[i:].all()]
+            self.assertEqual(least, good[0] if good else 0)
+
+    def test_stored_truth_is_taken_where_there_is_one(self):
+        kind = [self.kinds[k] for k in self.of["reference_kind"][:, 0]]
+        at = self.of["points"].tolist().index([1, 0.02])
+        self.assertEqual(kind[at], "truth stored")
+        self.assertEqual(kind.count("truth stored"), 1)
+
+    def test_file_says_what_it_is(self):
+        self.assertEqual(self.told["beamwork_sweep"], 1)
+        self.assertEqual(self.told["case"], b"shear_column")
+        self.assertEqual(self.told["tolerance"], 0.01)
+        self.assertTrue(sealed(self.path))
+        self.assertEqual({self.states[s] for s in self.of["status"].ravel()}, {"ok"})
+        self.assertTrue((self.of["cost"] > 0).all() and (self.of["seconds"] > 0).all())
+
+    def test_worst_points_are_scenes_that_solve(self):
+        """The same digits as the sweep's."""
+        for row in self.of["worst"]:
+            which = ("beamw", "collocation").index(row["formulation"].decode())
+            path = self.path.with_suffix(".worst") / row["scene"].decode()
+            alone = solved("--scene", path, "-f", row["formulation"].decode(), "-n", row["mesh"],
+                           quantity=row["quantity"].decode())
+            self.assertEqual(self.of["value"][row["point"], which, 2, 0], alone)
+        for one in (0, 1):
+            worst = np.sort(-np.abs(self.of["error"][:, one, 2, 0]))
+            told = self.of["worst"]["error"][self.of["worst"]["formulation"] ==
+                                             (b"beamw", b"collocation")[one]]
+            np.testing.assert_array_equal(-np.abs(told), worst[:len(told)])
+
+    def test_nothing_else_is_left(self):
+        self.assertEqual(sorted(p.name for p in self.path.parent.iterdir()),
+                         ["column.h5", "column.worst"])
+
+    def test_any_number_of_processes(self):
+        """The same values, whoever computes them."""
+        for jobs in (1, 3):
+            path = self.folder / f"{jobs}.h5"
+            self.answered("sweep", *COLUMN, "-j", jobs, "-o", path)
+            with h5py.File(path) as file:
+                self.assertEqual(file.attrs["content"], self.told["content"])
+                self.assertEqual(file.attrs["plan"], self.told["plan"])
+
+    def test_screen(self):
+        for line in self.done.stdout.splitlines():
+            self.assertLessEqual(len(line), 100)
+        self.assertIn("shear_column: 12 points (grid), 2 formulations, 3 meshes: 72 cells",
+                      self.done.stdout)
+        self.assertIn("share of the points within 1 %", self.done.stdout)
+        self.assertIn("worst points with n = 8", self.done.stdout)
+
+
+class References(ProgramTest):
+
+    def kinds(self, *words):
+        path = self.folder / "r.h5"
+        done = self.answered("sweep", *words, "-o", path)
+        with h5py.File(path) as file:
+            names = file["reference_kind"].attrs["names"].decode().split("\n")
+            return ([[names[k] for k in row] for row in file["reference_kind"][()]],
+                    file["reference"][()], file["error"][()], done.stdout)
+
+    def test_derived_where_asked_for(self):
+        kind, reference, error, _ = self.kinds("elastica", "--vary", "load=1,1.25", "-f", "beamw",
+                                               "-n", "8,16", "--derive", "-k", "w_over_L")
+        self.assertEqual(kind, [["truth stored"], ["truth derived"]])
+        told = run("truth", "elastica", "--set", "load=1.25").stdout
+        self.assertIn(f"{reference[1, 0]:.12g}"[:12], told)
+        self.assertTrue((np.abs(error) < 1e-2).all())
+
+    def test_limit_of_one_formulation_is_told_as_such(self):
+        kind, *_, screen = self.kinds("elastica", "--vary", "load=1.25,1.5", "-f", "sheet_third",
+                                      "-n", "2,4,8,16", "-k", "w_over_L")
+        self.assertEqual(kind, [["limit of the meshes of all"]] * 2)
+        self.assertIn("the limit of its own meshes", screen)
+
+    def test_limits_that_disagree_are_no_reference(self):
+        """A formulation without shear along one axis beside one that has it."""
+        kind, _, error, screen = self.kinds(
+            "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
+            "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")
+        flat = [k for row in kind for k in row]
+        self.assertEqual(set(flat), {"none: formulations disagree"})
+        self.assertIn("limits of formulations disagree", " ".join(screen.split()))
+        self.assertTrue(np.isnan(error).all())
+
+    def test_points_without_a_scene_are_results(self):
+        done = self.answered("sweep", "c_column", "--vary", "section_data=shear_flow,printed",
+                             "--set", "height=0.5", "-f", "beamw", "-n", "1,2", "-k",
+                             "buckling_load", "-o", self.folder / "c.h5")
+        self.assertIn("1 points have no scene, the first at section_data=printed", done.stdout)
+        with h5py.File(self.folder / "c.h5") as file:
+            names = file["status"].attrs["names"].decode().split("\n")
+            self.assertEqual([names[s] for s in file["status"][:, 0, 0]], ["ok", "no_scene"])
+            self.assertEqual(file["points"].attrs["section_data"].decode(), "shear_flow\nprinted")
+            self.assertEqual(file["points"][()].tolist(), [[0], [1]])
+
+
+class Designs(ProgramTest):
+
+    def points(self, *words):
+        path = self.folder / "d.h5"
+        self.answered("sweep", "elastica", *words, "-f", "beamw", "-n", "1", "-o", path)
+        with h5py.File(path) as file:
+            return file["points"][()], dict(file.attrs), [r["kind"] for r in file["axes"][()]]
+
+    def test_sobol(self):
+        at, told, kinds = self.points("--vary", "load=0..4", "--vary", "axial=1e4..1e8:log",
+                                      "--design", "sobol", "--points", "3")
+        np.testing.assert_allclose(at, [[2, 1e6], [3, 1e5], [1, 1e7]], rtol=1e-14)
+        self.assertEqual((told["design"], kinds), (b"sobol", [b"sobol", b"sobol"]))
+
+    def test_random_states_its_seed(self):
+        words = ("--vary", "load=0..4", "--design", "random", "--points", "5")
+        first, told, _ = self.points(*words, "--seed", "3")
+        again, *_ = self.points(*words, "--seed", "3")
+        other, *_ = self.points(*words, "--seed", "4")
+        self.assertEqual(told["seed"], 3)
+        self.assertTrue((first == again).all() and (first != other).all())
+
+
+class Going(ProgramTest):
+
+    def test_scene(self):
+        done = self.answered("sweep", "--scene", LEAF, "--vary", "thickness=0.2e-3..1e-3/2", "-f",
+                             "collocation", "-n", "1,2,4", "-k", "k_drive", "-o",
+                             self.folder / "leaf.h5")
+        self.assertIn("3 points by a stored truth", done.stdout)
+        with h5py.File(self.folder / "leaf.h5") as file:
+            self.assertEqual(file.attrs["scene"].decode(), str(LEAF))
+
+    def test_again_replaces(self):
+        words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1,2", "-o",
+                 self.folder / "e.h5")
+        self.answered(*words)
+        first = (self.folder / "e.h5").read_bytes()
+        self.answered(*words)
+        self.assertEqual(len((self.folder / "e.h5").read_bytes()), len(first))
+
+    def test_folder_of_somebody_is_refused(self):
+        (self.folder / "e.worst").mkdir()
+        (self.folder / "e.worst" / "mine.txt").write_text("mine", encoding="utf-8")
+        done = self.answered("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1",
+                             "-o", self.folder / "e.h5", code=2)
+        self.assertIn("e.worst is there already and not empty", done.stderr)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["e.worst"])
+
+    def test_refusals(self):
+        """Culprit and remedy, before anything runs."""
+        for words, says in (
+                (("elastica",), "what varies?"),
+                (("elastica", "--vary", "lod=1..2/3"), "did you mean 'load'"),
+                (("elastica", "--vary", "load=1..2"), "how many parts?"),
+                (("elastica", "--vary", "load=1..5000/3"), "outside its range"),
+                (("elastica", "--vary", "load=1..2/3", "--set", "load=3"), "set and varies"),
+                (("elastica", "--vary", "load=1..2/3", "--vary", "load=3,4"), "given twice"),
+                (("elastica", "--vary", "load=1..2/3", "-k", "w_ovr"), "did you mean 'w_over_L'"),
+                (("elastica", "--vary", "load=1..2/3", "--design", "sobl"), "give one of grid|"),
+                (("elastica", "--vary", "load=1..2/3", "--points", "3"), "--points belongs"),
+                (("elastica", "--vary", "load=1..2/3", "--seed", "3"), "--seed belongs"),
+                (("elastica", "--vary", "load=1..2", "--design", "halton"), "--points N"),
+                (("elastica", "--vary", "load=1..2/3", "--error", "2"), "error"),
+                (("shear_column", "--vary", "length=1,2", "-f", "beamw_vlasov"),
+                 "does not offer shear"),
+                (("c_column", "--vary", "height=0.4,0.5", "--set", "section_data=printed"),
+                 "no scene can be built")):
+            done = self.answered("sweep", *words, code=2)
+            self.assertIn(says, done.stderr)
+            self.assertEqual(done.stdout, "")
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
