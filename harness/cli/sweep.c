@@ -192,9 +192,7 @@ int cli_sweep(int count, char **arguments)
         "until all are: the same command goes on from there. Exit status: 0 done, 2 refused, 4 "
         "file, disk or memory, 5 incomplete."
         "\vbeamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
-        "beamwork sweep c_column --vary length=2..12/10 --vary flange_thickness=5e-3..60e-3/6:log "
-        "-k buckling_load --error 1% -o column.h5\n"
-        "beamwork sweep snap_through --vary angle=0.1..0.6 --vary step=0.005..0.05:log --design "
-        "sobol --points 200",
+        "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
+        "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
         "yfnskedzrgojLTYv", count, arguments, sweep_request_of);
 }

@@ -41,7 +41,8 @@ const verb_option option_table[OPTION_MOST] = {
      "those that cross keep their number",
      offsetof(command_request, follow)},
     {"vary", 'y', "NAME=A..B/N|A,B,C",
-     "what the sweep is over: N equal parts (N + 1 values), with ':log' behind equal ratios; a list "
+     "what the sweep is over: N equal parts (N + 1 values), with ':log' behind equal ratios; a "
+     "list "
      "of values or words; again for another parameter",
      0},
     {"design", 'd', "grid|sobol|halton|random",

@@ -1,16 +1,17 @@
 """The verbs, and small work for each."""
 VERBS = ("list", "solve", "converge", "bench", "stress", "verify", "truth", "compare")
-EVERY_VERB = ("list", "explain", "solve", "converge", "sweep", "truth", "scene", "verify", "bench", "stress",
-              "element-test", "compare", "export", "import", "schema")
+EVERY_VERB = ("list", "explain", "solve", "converge", "sweep", "truth", "scene", "verify", "bench",
+              "stress", "element-test", "compare", "export", "import", "schema")
 WORK = {
     "verify": ("-k", "warping_torsion/default and beamw_vlasov"),
     "solve": ("warping_torsion", "-f", "beamw", "-n", "2"),
     "converge": ("warping_torsion", "-f", "beamw", "-n", "2,4,8"),
     "bench": ("warping_torsion", "-f", "beamw", "-n", "2"),
     "stress": ("-k", "decay_free and collocation"),
+    "sweep": ("warping_torsion", "--vary", "kL=1,2", "-f", "beamw", "-n", "2"),
 }
 # Options that name its files: those that take text, those that take HDF5.
 TEXT = {"verify": ("--json", "--junit", "--markdown"), "solve": ("-o",), "converge": ("-o",),
-        "stress": ("-o", "--json"), "bench": ()}
+        "stress": ("-o", "--json"), "bench": (), "sweep": ()}
 WHOLE = {"verify": ("-o",), "bench": ("-o",), "solve": ("--shapes=1", "-o"), "converge": (),
-         "stress": ()}
+         "stress": (), "sweep": ("-o",)}
