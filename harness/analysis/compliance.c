@@ -101,12 +101,6 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
-int compliance_wanted_at(const analysis_context *c, int analysis, int stations, const double path[],
-                         int station)
-{
-    return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
-}
-
 /* With what compliance_analysis frees; at the stations that the path has reached. */
 static status solve(analysis_context *c, int analysis, tangent *t, outcome_compliance *out,
                     fault *f)
@@ -131,7 +125,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
         station_matrices at = {0};
         if (out->taken != NULL && out->taken[i].known)
             at = out->taken[i];
-        else if (path == NULL || compliance_wanted_at(c, analysis, path->stations, path->value, i))
+        else if (path == NULL || extract_path_wants(c, analysis, path->stations, path->value, i))
             TRY(compliance_at(c, what, s, t, wanted, &at, f));
         memcpy(m->compliance + 36 * (size_t)i, at.C, sizeof at.C);
         memcpy(m->stiffness + 36 * (size_t)i, at.K, sizeof at.K);

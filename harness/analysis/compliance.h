@@ -6,10 +6,6 @@
 #include "harness/solver/tangent.h"
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Is the compliance of a station wanted, of a path with these values of its parameter [stations]? A
- * matrix that is not stays zero. */
-int compliance_wanted_at(const analysis_context *, int analysis, int stations, const double path[],
-                         int station);
 /* The analysis at a state that Newton has just reached, from his last tangent. */
 status compliance_take(analysis_context *, int analysis, const newton *, tangent *,
                        station_matrices *out, fault *);

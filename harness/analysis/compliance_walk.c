@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "harness/analysis/compliance.h"
+#include "harness/analysis/extract_path.h"
 #include "harness/solver/tangent.h"
 
 typedef struct follower {
@@ -64,7 +65,7 @@ status compliance_walk_take(compliance_walk *w, const newton *n, int station, fa
         return STATUS_OK;
     for (int i = 0; i < w->count; i++) {
         follower *of = &w->of[i];
-        if (!compliance_wanted_at(c, of->analysis, w->path->stations, w->path->value, station))
+        if (!extract_path_wants(c, of->analysis, w->path->stations, w->path->value, station))
             continue;
         station_matrices *out = &c->outcomes[of->analysis].left.compliance.taken[station];
         fault why = {""};

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "harness/analysis/continuation_impl.h"
+#include "harness/analysis/extract_path.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/solver/context.h"
@@ -45,8 +46,7 @@ static status add_point(continuation *p, fault *f)
         p->room = room;
     }
     if (p->keeps_states) {
-        TRY(kinematics_state_alloc(p->c->model, &o->state[o->points], f));
-        kinematics_state_copy(p->c->model, p->n.state, o->state[o->points]);
+        TRY(kinematics_nodes_alloc(p->c->model, p->n.state, &o->state[o->points], f));
     }
     o->factor[o->points] = p->here.factor;
     o->control[o->points++] = p->here.control;
@@ -267,7 +267,8 @@ static status walk(analysis_context *c, int analysis, outcome_continuation *o, c
     TRY(start(p, f));
     for (int i = 0; i < p->path->stations; i++) {
         TRY(walk_to(p, p->path->value[i], &size, f));
-        TRY(outcome_keep(&p->o->path, p->c->model, p->n.state, p->path->value[i], f));
+        TRY(outcome_keep(&p->o->path, p->c->model, p->n.state, extract_path_whole(c, analysis, i),
+                         p->path->value[i], f));
     }
     return STATUS_OK;
 }

@@ -139,6 +139,53 @@ int extract_path_asks(const analysis_context *c, int analysis, int stations, con
     return 0;
 }
 
+int extract_path_wants(const analysis_context *c, int analysis, int stations, const double path[],
+                       int station)
+{
+    return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
+}
+
+static int reads_elements(const scene_quantity *q)
+{
+    switch (q->what.kind) {
+    case SCENE_REACTION:
+    case SCENE_INTERNAL:
+    case SCENE_STRESS:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+/* Does an analysis that follows the path begin with the state? */
+static int begins_with(const analysis_context *c, int analysis, int path, int station)
+{
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    if (a->follows != path)
+        return 0;
+    if (a->kind != SCENE_COMPLIANCE)
+        return 1;
+    const scene_path *along = scene_path_of(&c->scene->analysis[path]);
+    const station_matrices *taken = c->outcomes[analysis].left.compliance.taken;
+    return !(taken != NULL && taken[station].known) &&
+           extract_path_wants(c, analysis, along->stations, along->value, station);
+}
+
+int extract_path_whole(const analysis_context *c, int analysis, int station)
+{
+    const scene *s = c->scene;
+    if (c->options->shapes > 0 || c->options->systems ||
+        s->analysis[analysis].kind == SCENE_ROTATION)
+        return 1;
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].analysis == analysis && reads_elements(&s->quantity[i]))
+            return 1;
+    for (int i = 0; i < s->analyses; i++)
+        if (begins_with(c, i, analysis, station))
+            return 1;
+    return 0;
+}
+
 void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                   quantity_result *r)
 {

@@ -12,5 +12,12 @@ void extract_path(const analysis_context *, const scene_quantity *, const analys
  * taken at? */
 int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
                       int station);
+/* The same, or are all stations wanted? */
+int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
+                       int station);
+/* Is more of the state at a station read than the motion of nodes: resultants, reactions, shapes,
+ * matrices, or what an analysis that follows begins with? Compliances that were taken on the way
+ * ask for nothing more. */
+int extract_path_whole(const analysis_context *, int analysis, int station);
 
 #endif

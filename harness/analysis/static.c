@@ -2,6 +2,7 @@
 #include "harness/analysis/static.h"
 
 #include "harness/analysis/compliance_walk.h"
+#include "harness/analysis/extract_path.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
@@ -64,10 +65,10 @@ static status sample(newton *n, double path, fault *f)
 }
 
 /* Steps to every station, whose states are kept. */
-static status walk(newton *n, const scene_walk *a, compliance_walk *on_the_way, outcome_path *o,
-                   fault *f)
+static status walk(newton *n, int analysis, compliance_walk *on_the_way, outcome_path *o, fault *f)
 {
     analysis_context *c = n->c;
+    const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
     const int between =
         c->options->steps_between > 0 ? c->options->steps_between : a->steps_between;
     const int steps = between > 0 ? between : 1;
@@ -77,8 +78,9 @@ static status walk(newton *n, const scene_walk *a, compliance_walk *on_the_way, 
         TRY(static_walk(n, a->path.value[i], &increment, f));
         if (c->options->newton != SOLVE_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);
-        TRY(outcome_keep(o, c->model, n->state, a->path.value[i], f));
         TRY(compliance_walk_take(on_the_way, n, i, f));
+        TRY(outcome_keep(o, c->model, n->state, extract_path_whole(c, analysis, i),
+                         a->path.value[i], f));
     }
     return STATUS_OK;
 }
@@ -95,7 +97,7 @@ static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
     if (c->options->sample > 0)
         return sample(n, a->path.value[0], f);
     TRY(compliance_walk_begin(n, analysis, on_the_way, f));
-    return walk(n, a, *on_the_way, o, f);
+    return walk(n, analysis, *on_the_way, o, f);
 }
 
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

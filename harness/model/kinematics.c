@@ -132,21 +132,45 @@ double kinematics_state_path(const model_state *s)
     return s->path;
 }
 
+/* With a block of so many doubles. */
+static status block_alloc(size_t size, model_state **out, fault *f)
+{
+    model_state *s = *out = calloc(1, sizeof *s);
+    if (s != NULL)
+        s->block = calloc(size + 1, sizeof *s->block);
+    if (s != NULL && s->block != NULL) {
+        s->size = size;
+        return STATUS_OK;
+    }
+    free(s);
+    *out = NULL;
+    return fault_set(f, STATUS_FAULT, "out of memory for a state");
+}
+
+status kinematics_nodes_alloc(const model *m, const model_state *from, model_state **out, fault *f)
+{
+    const size_t N = (size_t)m->scene->nodes, drivers = (size_t)m->scene->drivers;
+    TRY(block_alloc(10 * N + drivers, out, f));
+    model_state *s = *out;
+    s->path = from->path;
+    s->u = s->block;
+    s->q = s->u + 3 * N;
+    s->angle = s->q + 4 * N;
+    s->driver = s->angle + 3 * N;
+    memcpy(s->u, from->u, 3 * N * sizeof *s->u);
+    memcpy(s->q, from->q, 4 * N * sizeof *s->q);
+    memcpy(s->angle, from->angle, 3 * N * sizeof *s->angle);
+    memcpy(s->driver, from->driver, drivers * sizeof *s->driver);
+    return STATUS_OK;
+}
+
 status kinematics_state_alloc(const model *m, model_state **out, fault *f)
 {
     const size_t V = (size_t)m->vertices, E = (size_t)m->elements;
-    model_state *s = calloc(1, sizeof *s);
-    *out = s;
-    if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a state");
-    s->size = V * 10 + 3 * (size_t)m->releases + (size_t)m->warps + (size_t)m->scene->drivers +
-              E * (size_t)(2 * m->strains + m->inner);
-    s->block = calloc(s->size, sizeof *s->block);
-    if (s->block == NULL) {
-        free(s);
-        *out = NULL;
-        return fault_set(f, STATUS_FAULT, "out of memory for a state");
-    }
+    TRY(block_alloc(V * 10 + 3 * (size_t)m->releases + (size_t)m->warps +
+                        (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner),
+                    out, f));
+    model_state *s = *out;
     s->u = s->block;
     s->q = s->u + 3 * V;
     s->angle = s->q + 4 * V;

@@ -5,6 +5,9 @@
 #include "harness/model/model.h"
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
+/* What kinematics_component and kinematics_driver_value read of a state, and its path: nothing else
+ * may be asked of it. */
+status kinematics_nodes_alloc(const model *, const model_state *from, model_state **, fault *);
 void kinematics_state_free(model_state *);
 const model_state *kinematics_rest(const model *); /* undeformed */
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);

@@ -164,10 +164,13 @@ status outcome_stations(outcome_path *p, int stations, fault *f)
                : STATUS_OK;
 }
 
-status outcome_keep(outcome_path *p, const model *m, const model_state *s, double path, fault *f)
+status outcome_keep(outcome_path *p, const model *m, const model_state *s, int whole, double path,
+                    fault *f)
 {
-    TRY(kinematics_state_alloc(m, &p->state[p->reached], f));
-    kinematics_state_copy(m, s, p->state[p->reached]);
+    model_state **kept = &p->state[p->reached];
+    TRY(whole ? kinematics_state_alloc(m, kept, f) : kinematics_nodes_alloc(m, s, kept, f));
+    if (whole)
+        kinematics_state_copy(m, s, *kept);
     p->value[p->reached++] = path;
     return STATUS_OK;
 }

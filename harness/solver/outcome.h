@@ -59,7 +59,7 @@ typedef struct outcome_continuation {
     outcome_path path;
     int points;               /* of the path, the first without load */
     double *factor, *control; /* [points] load factor and control value [m] */
-    model_state **state;      /* [points]; NULL unless a curve of coordinates is wanted */
+    model_state **state;      /* [points] of nodes; NULL unless a curve of coordinates is wanted */
 } outcome_continuation;
 
 typedef struct analysis_outcome {
@@ -93,7 +93,9 @@ void outcome_free(analysis_outcome *);
 void outcome_take(eigen_side *from, outcome_side *to);
 /* Room for the states of so many stations. */
 status outcome_stations(outcome_path *, int stations, fault *);
-/* A copy of the state becomes that of the next station. */
-status outcome_keep(outcome_path *, const model *, const model_state *, double path, fault *);
+/* A copy of the state becomes that of the next station; whole 0: of its nodes
+ * (kinematics_nodes_alloc). */
+status outcome_keep(outcome_path *, const model *, const model_state *, int whole, double path,
+                    fault *);
 
 #endif

@@ -5,6 +5,9 @@
 #include "harness/equations/extrapolate.h"
 #include "harness/model/kinematics.h"
 
+/* Of many elements fewer states are kept, which are as good: iterations of sheet_cantilever,
+ * spherical_joint and hexapod are the same with eight as with twelve. */
+enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
 /* Of the first step, so that a line may go on from it. */
 enum { EASY_ITERATIONS = 4 };
 /* Largest error of a guess, relative to that of no guess, with which it spares iterations. */
@@ -18,7 +21,8 @@ static const model_state *const *last(const predictor *t, int count, int k)
 
 status predictor_alloc(const model *m, predictor *t, fault *f)
 {
-    *t = (predictor){0};
+    const int many = model_sizes(m).elements >= MANY_ELEMENTS;
+    *t = (predictor){.most = many ? OF_MANY : MODEL_EXTRAPOLATED};
     t->count = 1; /* the undeformed state */
     return kinematics_state_alloc(m, &t->at[0], f);
 }
@@ -37,9 +41,9 @@ void predictor_forget(predictor *t)
 status predictor_add(const model *m, const model_state *s, int iterations, predictor *t, fault *f)
 {
     t->iterations = iterations;
-    if (t->count == MODEL_EXTRAPOLATED + 1) {
+    if (t->count == t->most + 1) {
         model_state *oldest = t->at[0];
-        for (int i = 1; i <= MODEL_EXTRAPOLATED; i++)
+        for (int i = 1; i <= t->most; i++)
             t->at[i - 1] = t->at[i];
         t->at[--t->count] = oldest;
     }
@@ -58,14 +62,14 @@ status predictor_add(const model *m, const model_state *s, int iterations, predi
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
-    for (int k = 3; k < t->count && k <= MODEL_EXTRAPOLATED; k++)
+    for (int k = 3; k < t->count && k <= t->most; k++)
         if (t->error[k] < t->error[best])
             best = k;
     if (isinf(t->error[best])) /* nothing is known of guesses */
         return t->iterations <= EASY_ITERATIONS ? 2 : 0;
     if (!(t->error[best] < worthwhile * t->error[1]))
         return 0;
-    return best + 1 == t->count && best < MODEL_EXTRAPOLATED ? best + 1 : best;
+    return best + 1 == t->count && best < t->most ? best + 1 : best;
 }
 
 void predictor_guess(const model *m, const predictor *t, double path, model_state *s)

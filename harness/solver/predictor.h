@@ -7,6 +7,7 @@
 
 typedef struct predictor {
     int count, iterations;                   /* of the last step */
+    int most;                                /* states that a guess is made from */
     model_state *at[MODEL_EXTRAPOLATED + 1]; /* NULL: not needed so far */
     /* [m] of a guess of the last state from k states before it; k = 1: that it stays as it was */
     double error[MODEL_EXTRAPOLATED + 1];
