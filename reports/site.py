@@ -96,6 +96,7 @@ class Site:
                                       defect_words=answers.defect_words,
                                       bar=self.bar,
                                       has_page=self.has_page,
+                                      page_of=self.page_of,
                                       linked=frozenset(self.styles.order),
                                       marks=self.marks,
                                       colour=self.styles.fill,

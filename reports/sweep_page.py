@@ -3,7 +3,8 @@ import functools
 import pathlib
 import shlex
 
-from reports.sweep import answers, figures, gather, stored, words
+from reports.site import file_name
+from reports.sweep import answers, cells, figures, gather, stored, words
 
 NAVIGATION = []  # its files have the names of the sweeps
 MOST_WORST = 20  # points that are named
@@ -58,8 +59,12 @@ def glance(site, sweep):
 
 def write(site, said):
     sweep, found = said["sweep"], said["found"]
-    validity = figures.Validity(sweep, found, [a.key for a in said["answers"]])
-    site.write("sweep.html", said["page"], **said, validity=validity,
+    order = [a.key for a in said["answers"] if any(r.known for r in a.of)]
+    validity = figures.Validity(sweep, found, order)
+    data = f"cells_{file_name(sweep.path)}.js"
+    if len(found.parts) > 1:
+        cells.write(site, data, sweep, found, order)
+    site.write("sweep.html", said["page"], **said, validity=validity, data=data,
                winners=figures.Winners(sweep, found, validity.axes),
                curves=figures.curves(site, sweep, found) if len(found.parts) == 1 else None,
                worst=worst_rows(sweep), references=answers.references(sweep, found),

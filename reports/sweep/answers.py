@@ -53,9 +53,9 @@ class Answer:
         return [r for r in (self.first, self.fewer, self.wider) if r]
 
     def same(self):
-        """What answers that say the same have in common."""
-        said = [(r.mesh, r.box, [e.point for e in r.exceptions]) for r in self.told]
-        return said or self.absent or self.key
+        """What answers have in common that are told together."""
+        return (self.first.mesh, self.first.box.chosen) if self.first else (self.absent,
+                                                                           self.of[-1].reached)
 
 
 def ranges(found, meshes, f, q):
@@ -104,17 +104,57 @@ def of_sweep(sweep, found):
     return sorted(made, key=order)
 
 
+@dataclass
+class Group:
+    """Answers of the same range with as many elements, told in one sentence. least: of those with
+    the fewest points that hold; worst: [(formulation, exception)], the worst first; exceptions:
+    their number; fewer, wider: what all of them say, or None; more: some say what is not told."""
+
+    answers: list
+
+    @property
+    def least(self):
+        return min(self.answers, key=lambda a: a.first.good)
+
+    @property
+    def alike(self):
+        """Do as many points hold for all?"""
+        return len({(a.first.good, a.first.box.points) for a in self.answers}) == 1
+
+    @property
+    def exceptions(self):
+        return sum(a.first.box.bad for a in self.answers)
+
+    @property
+    def worst(self):
+        found = [(a.key, e) for a in self.answers for e in a.first.exceptions]
+        return sorted(found, key=lambda row: -row[1].error)
+
+    def common(self, name):
+        """A range that all have in common, or None."""
+        found = {(r.mesh, r.box) if r else None for r in (getattr(a, name) for a in self.answers)}
+        return getattr(self.answers[0], name) if len(found) == 1 else None
+
+    @property
+    def fewer(self):
+        return self.common("fewer")
+
+    @property
+    def wider(self):
+        return self.common("wider")
+
+    @property
+    def more(self):
+        return any(getattr(a, name) and not self.common(name) for a in self.answers
+                   for name in ("fewer", "wider"))
+
+
 def together(made):
-    """[[Answer]] of those that say the same, told in one sentence."""
-    groups = []
+    """[Group], in the order of the answers."""
+    groups = {}
     for each in made:
-        for group in groups:
-            if group[0].same() == each.same():
-                group.append(each)
-                break
-        else:
-            groups.append([each])
-    return groups
+        groups.setdefault(each.same(), []).append(each)
+    return [Group(group) for group in groups.values()]
 
 
 def unknown(sweep, found, q):

@@ -8,6 +8,7 @@ from reports.sweep import gather, maps, words
 MOST_DOTS = 400  # scattered points that are drawn one by one
 SLICES = 4  # maps side by side over a third axis
 NARROW = 170  # width of a map that stands beside others, pixels
+TOLD = 0.01  # share of the points for which the cheapest one is told first
 FLOOR = 1e-12  # of errors that are drawn
 
 
@@ -48,8 +49,7 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of least elements. order: of formulations; those of which nothing is measured have no
-    map. rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
+    """Maps of least elements. order: of formulations, by key; axes: across, up, side by side. rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
         self.sweep, self.found, self.q = sweep, found, q
@@ -57,8 +57,7 @@ class Validity:
         self.dots = self.scattered()
         count = len(found.parts)
         self.rows = [("", [self.strips()])] if count == 1 else [
-            (key, self.of(sweep.keys.index(key), key)) for key in order
-            if found.reach[:, sweep.keys.index(key), q].any()]
+            (key, self.of(sweep.keys.index(key), key)) for key in order]
 
     @property
     def legend(self):
@@ -121,8 +120,9 @@ class Validity:
 
 
 class Winners:
-    """Who is the cheapest within the tolerance. rows as of Validity; shares: [(letter,
-    formulation, points won, mean cost there)], most first; none: points where nobody is."""
+    """Who is the cheapest within the tolerance. images: [(Image, alt)]; shares: [(letter,
+    formulation, points won, mean cost there, s)], most first; ahead: those of them that are told
+    first; none: points where nobody is, of so many known."""
 
     def __init__(self, sweep, found, axes):
         self.sweep, self.found = sweep, found
@@ -131,6 +131,7 @@ class Winners:
         spent = found.winner_cost.sum(axis=0)
         self.shares = sorted(((maps.LETTERS[f % 26], key, int(won[f]), float(spent[f] / won[f]))
                               for f, key in enumerate(sweep.keys) if won[f]), key=lambda r: -r[2])
+        self.ahead = [row for row in self.shares if row[2] >= TOLD * known][:3]
         self.images = self.strip() if len(found.parts) == 1 else self.drawn(axes)
 
     def strip(self):

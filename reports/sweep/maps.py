@@ -14,7 +14,7 @@ from reports.figures import FONT, Image, number
 EMPTY, UNKNOWN = -2, -1  # no point there; no reference to judge by
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # of a map, of a field, pixels
-LEFT, TOP, BELOW, RIGHT = 52, 20, 38, 12
+LEFT, TOP, BELOW, RIGHT = 52, 36, 38, 12
 LETTER = 5.6  # mean width of a letter of 9 pixels
 DOT = 6  # radius of a point
 
@@ -94,21 +94,22 @@ def place_of(part, values):
     return np.interp(values, bounds(part), np.arange(len(part) + 1.0))
 
 
-def ticks(part, size, room):
-    """[(place, words)] along an axis: at fields of one value, or at round numbers; no nearer than
-    room."""
-    field = size / len(part)
+def marks(part):
+    """[(place in parts, words)] where ticks may stand: at fields of one value, or at round numbers."""
     if part.axis.words or (part.exact and (part.low == part.high).all()):
-        marks = [((i + 0.5) * field, part.name(i)) for i in range(len(part))]
-        return marks[::max(1, int(np.ceil(room / field - 1e-9)))]
+        return [(i + 0.5, part.name(i)) for i in range(len(part))]
     low, high = part.low[0], part.high[-1]
-    round_ones = (log_ticks if part.log else linear_ticks)(low, high) if high > low else [
+    found = (log_ticks if part.log else linear_ticks)(low, high) if high > low else [
         (low, f"{low:.3g}")]
-    marks = [(float(place_of(part, v)) * field, words) for v, words in round_ones]
+    return [(float(place_of(part, value)), words) for value, words in found]
+
+
+def ticks(part, field, room):
+    """[(place in pixels, words)] along an axis with fields of that size, no nearer than room."""
     kept = []
-    for place, words in marks:
-        if not kept or place - kept[-1][0] >= room:
-            kept.append((place, words))
+    for place, words in marks(part):
+        if not kept or place * field - kept[-1][0] >= room:
+            kept.append((place * field, words))
     return kept
 
 
@@ -124,7 +125,8 @@ class Map:
     def __init__(self, x, y, wide=WIDE, left=LEFT):
         self.x, self.y, self.left = x, y, left
         self.field = min(MOST_FIELD, max(LEAST_FIELD, wide / len(x)))
-        self.high = self.field if len(y) > 3 else min(MOST_FIELD, max(self.field, 20))
+        self.high = min(MOST_FIELD / 2 if isinstance(y, list) else MOST_FIELD,
+                        max(LEAST_FIELD, wide / len(y)))
         self.size = self.field * len(x), self.high * len(y)
 
     def fields(self, table, fill, sign):
@@ -140,7 +142,7 @@ class Map:
                     signs.setdefault(state, []).append(text(x + width / 2, y + self.high / 2 + 3,
                                                             sign[state]))
         out = ""
-        for state, drawn in paths.items():
+        for state, drawn in sorted(paths.items(), key=lambda item: (item[0] < 0, item[0])):
             edge = ' stroke="currentColor" stroke-opacity=".35"' if fill[state] == "none" else (
                 ' stroke="var(--paper,#fff)"')
             out += (f'<path fill="{fill[state]}"{edge} stroke-width=".7" d="{"".join(drawn)}"/>'
@@ -166,14 +168,14 @@ class Map:
         """Edges, ticks and titles."""
         (width, height), left = self.size, self.left
         bottom = TOP + height
-        room = max(34, 1.1 * LETTER * max(len(w) for _, w in ticks(self.x, width, 34)))
-        xs = ticks(self.x, width, room)
+        room = max(34, 1.1 * LETTER * max(len(w) for _, w in marks(self.x)))
+        xs = ticks(self.x, self.field, room)
         ys = [((i + 0.5) * self.high, name) for i, name in enumerate(self.y)] if isinstance(
-            self.y, list) else ticks(self.y, height, 14)
-        marks = "".join(f"M{number(left + x)} {number(bottom)}v4" for x, _ in xs)
-        marks += "".join(f"M{left} {number(bottom - y)}h-4" for y, _ in ys)
+            self.y, list) else ticks(self.y, self.high, 14)
+        dashes = "".join(f"M{number(left + x)} {number(bottom)}v4" for x, _ in xs)
+        dashes += "".join(f"M{left} {number(bottom - y)}h-4" for y, _ in ys)
         out = (f'<path fill="none" stroke="currentColor" stroke-width="1" '
-               f'd="M{left} {TOP}V{number(bottom)}H{number(left + width)}{marks}"/>')
+               f'd="M{left} {TOP}V{number(bottom)}H{number(left + width)}{dashes}"/>')
         out += '<g text-anchor="middle" font-size="10">' + "".join(
             text(left + x, bottom + 15, words) for x, words in xs) + "</g>"
         out += '<g text-anchor="end" font-size="10">' + "".join(
@@ -181,13 +183,11 @@ class Map:
         out += text(left + width / 2, bottom + 31, title_of(self.x), ' text-anchor="middle"')
         if not isinstance(self.y, list):
             out += text(4, TOP - 8, title_of(self.y))
-        return out + (text(left + width, TOP - 8, title, ' text-anchor="end" font-weight="bold"')
-                      if title else "")
+        return out + (text(4, 12, title, ' font-weight="bold"') if title else "")
 
     def image(self, name, drawn, title=""):
         """The Image of what fields() or dots() drew."""
-        names = len(title) * 7 + (0 if isinstance(self.y, list) else 7 * len(title_of(self.y))) + 20
-        width = max(self.left + self.size[0] + RIGHT, names)
+        width = max(self.left + self.size[0] + RIGHT, 7.5 * len(title) + 8)
         height = TOP + self.size[1] + BELOW
         return Image(f"{name}.svg",
                      f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
