@@ -17,6 +17,7 @@ typedef struct column {
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
     const void *first; /* of these rows; of points: NULL */
+    int missing;       /* whole numbers: what stands where nothing was computed */
 } column;
 
 static int columns_of(const ranges *r, const rows *w, column out[RANGES_FILE_COLUMNS])
@@ -25,16 +26,16 @@ static int columns_of(const ranges *r, const rows *w, column out[RANGES_FILE_COL
     const rows none = {.points = 0};
     const rows *from = w != NULL ? w : &none;
     const column all[RANGES_FILE_COLUMNS] = {
-        {"points", NULL, H5T_NATIVE_DOUBLE, 1, {r->design.axes}, NULL},
-        {"reference", NULL, H5T_NATIVE_DOUBLE, 1, {q}, from->reference},
-        {"reference_doubt", "1", H5T_NATIVE_DOUBLE, 1, {q}, from->doubt},
-        {"reference_kind", NULL, H5T_NATIVE_UINT8, 1, {q}, from->kind},
-        {"value", NULL, H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->value},
-        {"error", "1", H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->error},
-        {"status", NULL, H5T_NATIVE_UINT8, 2, {f, m}, from->status},
-        {"cost", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->cost},
-        {"seconds", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->seconds},
-        {"least", NULL, H5T_NATIVE_INT32, 2, {f, q}, from->least}};
+        {"points", NULL, H5T_NATIVE_DOUBLE, 1, {r->design.axes}, NULL, 0},
+        {"reference", NULL, H5T_NATIVE_DOUBLE, 1, {q}, from->reference, 0},
+        {"reference_doubt", "1", H5T_NATIVE_DOUBLE, 1, {q}, from->doubt, 0},
+        {"reference_kind", NULL, H5T_NATIVE_UINT8, 1, {q}, from->kind, ROWS_NONE},
+        {"value", NULL, H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->value, 0},
+        {"error", "1", H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->error, 0},
+        {"status", NULL, H5T_NATIVE_UINT8, 2, {f, m}, from->status, ROWS_NOT_COMPUTED},
+        {"cost", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->cost, 0},
+        {"seconds", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->seconds, 0},
+        {"least", NULL, H5T_NATIVE_INT32, 2, {f, q}, from->least, 0}};
     memcpy(out, all, sizeof all);
     return RANGES_FILE_COLUMNS;
 }
@@ -74,6 +75,10 @@ static hid_t make_column(ranges_file *file, const column *c)
     H5Pset_chunk(layout, c->ranks + 1, piece);
     H5Pset_shuffle(layout);
     H5Pset_deflate(layout, LEVEL);
+    if (c->type == H5T_NATIVE_DOUBLE)
+        H5Pset_fill_value(layout, H5T_NATIVE_DOUBLE, &(const double){NAN});
+    else
+        H5Pset_fill_value(layout, H5T_NATIVE_INT, &c->missing);
     H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, (size_t)cache_bytes,
                        H5D_CHUNK_CACHE_W0_DEFAULT);
     const hid_t set =

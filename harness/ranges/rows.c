@@ -85,7 +85,7 @@ const char *rows_reference_name(int kind)
 
 const char *rows_status_name(int status_)
 {
-    if (status_ == ROWS_NOT_OFFERED)
-        return "not_offered";
-    return status_ == ROWS_NO_SCENE ? "no_scene" : status_name((status)status_);
+    static const char *const others[] = {"not_offered", "no_scene", "not_computed"};
+    return status_ < ROWS_NOT_OFFERED ? status_name((status)status_)
+                                      : others[status_ - ROWS_NOT_OFFERED];
 }

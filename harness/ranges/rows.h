@@ -19,7 +19,12 @@ typedef enum rows_reference {
 } rows_reference;
 
 /* Of a cell; before them the words of `status`. */
-enum { ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1, ROWS_NO_SCENE, ROWS_STATUSES };
+enum {
+    ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
+    ROWS_NO_SCENE,
+    ROWS_NOT_COMPUTED, /* its batch is missing */
+    ROWS_STATUSES
+};
 
 /* How many there are of each; they are the same at every point. */
 typedef struct rows_shape {

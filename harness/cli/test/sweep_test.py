@@ -1,12 +1,15 @@
 """sweep: values of single solutions, designs, references, files, refusals."""
 import itertools
 import json
+import signal
+import subprocess
+import time
 import unittest
 
 import h5py
 import numpy as np
 
-from harness.test.program import ROOT, ProgramTest, run
+from harness.test.program import PROGRAM, ROOT, ProgramTest, run
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.04/2:log",
@@ -196,6 +199,38 @@ class Going(ProgramTest):
         self.assertIn("3 points by a stored truth", done.stdout)
         with h5py.File(self.folder / "leaf.h5") as file:
             self.assertEqual(file.attrs["scene"].decode(), str(LEAF))
+
+    def test_interrupted_goes_on(self):
+        """What was done is kept, and the rest gives the same file as a run that was not
+        interrupted."""
+        words = ["sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
+                 "1,2", "-k", "limit_load", "-j", "1", "-o"]
+        path, whole = self.folder / "s.h5", self.folder / "whole.h5"
+        with subprocess.Popen([PROGRAM, *words, str(path)], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True) as process:
+            while process.poll() is None and not list(self.folder.glob("s.batches/*.batch")):
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            told = process.communicate()[1]
+        self.assertEqual(process.returncode, 5, told)
+        self.assertIn("give the same command again", told)
+        self.assertFalse(path.exists())
+        kept = list(self.folder.glob("s.batches/*.batch"))
+        self.assertGreater(len(kept), 0)
+        self.answered(*words, path)
+        self.answered(*words, whole)
+        with h5py.File(path) as one, h5py.File(whole) as other:
+            self.assertEqual(one.attrs["content"], other.attrs["content"])
+            for name in ("value", "error", "least", "status", "cost", "reference"):
+                np.testing.assert_array_equal(one[name][()], other[name][()])
+        self.assertFalse((self.folder / "s.batches").exists())
+
+    def test_other_files_among_batches_stay(self):
+        (self.folder / "e.batches").mkdir()
+        (self.folder / "e.batches" / "mine.txt").write_text("mine", encoding="utf-8")
+        self.answered("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o",
+                      self.folder / "e.h5")
+        self.assertEqual((self.folder / "e.batches" / "mine.txt").read_text(), "mine")
 
     def test_again_replaces(self):
         words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1,2", "-o",
