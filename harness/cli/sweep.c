@@ -9,7 +9,9 @@
 #include "harness/cli/cli.h"
 #include "harness/command/errors.h"
 #include "harness/ranges/ranges_collect.h"
+#include "harness/ranges/ranges_csv.h"
 #include "harness/ranges/ranges_table.h"
+#include "harness/shards/merge.h"
 #include "harness/shards/shard.h"
 #include "harness/truth/derive.h"
 
@@ -71,6 +73,8 @@ static status prepare(command_request *r, const case_type *type, sweeping *s, fa
                         .tolerance = 0.01,
                         .time_limit = r->time_limit};
     int levels;
+    if (strcmp(r->format, "json") == 0)
+        return fault_set(f, STATUS_REFUSED, "sweep writes text, csv, and HDF5 with -o FILE");
     TRY(read_design(r, &q, f));
     if (r->error != NULL)
         TRY(errors_parse(r->error, 1, &q.tolerance, &levels, f));
@@ -106,22 +110,33 @@ static status place_batches(const command_request *r, sweeping *s, fault *f)
                                                    s->batches, strerror(errno));
 }
 
+/* All batches of the stock. */
+static status take_all(const command_request *r, sweeping *s, const stock *there, fault *f)
+{
+    ranges_collect c;
+    status outcome = ranges_collect_begin(&s->work, &s->output, &c, f);
+    const work all = ranges_work_of(&s->work);
+    if (outcome == STATUS_OK && s->work.csv != NULL)
+        ranges_csv_head(s->work.csv, &s->ranges);
+    if (outcome == STATUS_OK)
+        outcome = ranges_collect_end(&c, merge_take(&all, there, f), f);
+    if (outcome == STATUS_OK && s->work.csv == NULL)
+        ranges_table(stdout, &c.tally, r->verbose, s->output.folder, f);
+    tally_free(&c.tally);
+    return outcome;
+}
+
 static status collect(const command_request *r, sweeping *s, fault *f)
 {
     const char *const folder[] = {s->batches};
     const work all = ranges_work_of(&s->work);
     stock there = {.batches = 0};
-    tally t = {.points = 0};
     status outcome = stock_take(&all, folder, 1, NULL, stderr, &there, f);
-    if (outcome == STATUS_OK && there.there < there.batches)
-        s->lost = there.batches - there.there;
-    else if (outcome == STATUS_OK)
-        outcome = ranges_collect(&s->work, &there, &s->output, &t, f);
+    s->lost = there.batches - there.there;
     if (outcome == STATUS_OK && s->lost == 0)
-        ranges_table(stdout, &t, r->verbose, s->output.folder, f);
-    if (outcome == STATUS_OK && s->lost == 0)
+        outcome = take_all(r, s, &there, f);
+    if (outcome == STATUS_OK && (s->lost == 0 || r->output == NULL))
         outcome = ranges_collect_remove(&there, s->batches, f);
-    tally_free(&t);
     stock_free(&there);
     return outcome;
 }
@@ -137,7 +152,10 @@ static status run(command_request *r, const case_type *type, sweeping *s, fault 
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL,
                                    .tell = stderr};
     const work all = ranges_work_of(&s->work);
-    ranges_table_head(stdout, &s->ranges);
+    if (strcmp(r->format, "csv") == 0)
+        s->work.csv = stdout;
+    else
+        ranges_table_head(stdout, &s->ranges);
     TRY(output_flush(f));
     TRY(shard_run(&all, &request, &done, f));
     return collect(r, s, f);
@@ -194,5 +212,5 @@ int cli_sweep(int count, char **arguments)
         "\vbeamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
         "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
         "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
-        "yfnskedzrgojLTYv", count, arguments, sweep_request_of);
+        "yfnskedzrgojLTYFv", count, arguments, sweep_request_of);
 }

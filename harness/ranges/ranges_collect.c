@@ -7,7 +7,6 @@
 
 #include "harness/ranges/worst.h"
 #include "harness/record/output_folder.h"
-#include "harness/shards/merge.h"
 
 status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f)
 {
@@ -62,38 +61,45 @@ status ranges_collect_check(const ranges_output *o, fault *f)
 
 static status write_scenes(const ranges_output *o, tally *t, fault *f)
 {
+    int worsts = 0;
+    for (int i = 0; i < t->of->formulations; i++)
+        worsts += t->worsts[i];
     if (o->folder[0] == '\0')
         return STATUS_OK;
     if (is_former(o->folder))
         remove_former(o->folder);
-    return worst_write(o->folder, t, f);
+    if (worsts > 0)
+        return worst_write(o->folder, t, f);
+    rmdir(o->folder);
+    return STATUS_OK;
 }
 
-static status take_all(ranges_work *w, const stock *s, const ranges_output *o, fault *f)
+status ranges_collect_begin(ranges_work *w, const ranges_output *o, ranges_collect *out, fault *f)
 {
-    const work all = ranges_work_of(w);
-    TRY(merge_take(&all, s, f));
-    return write_scenes(o, w->tally, f);
-}
-
-static status into_file(ranges_work *w, const stock *s, const ranges_output *o, fault *f)
-{
-    ranges_file file;
-    char content[DIGEST_TEXT];
-    TRY(ranges_file_open(o->path, w->of, w->identity.plan, &file, f));
-    w->file = &file;
-    const status taken = take_all(w, s, o, f);
-    w->file = NULL;
-    digest_text(&w->content, content);
-    return ranges_file_close(&file, w->tally, content, taken, f);
-}
-
-status ranges_collect(ranges_work *w, const stock *s, const ranges_output *o, tally *out, fault *f)
-{
-    TRY(tally_alloc(w->of, out, f));
-    w->tally = out;
+    memset(out, 0, sizeof *out);
+    out->work = w;
+    out->output = o;
+    TRY(tally_alloc(w->of, &out->tally, f));
+    w->tally = &out->tally;
     w->content = digest_begin();
-    return o->path != NULL ? into_file(w, s, o, f) : take_all(w, s, o, f);
+    if (o->path == NULL)
+        return STATUS_OK;
+    TRY(ranges_file_open(o->path, w->of, w->identity.plan, &out->file, f));
+    w->file = &out->file;
+    return STATUS_OK;
+}
+
+status ranges_collect_end(ranges_collect *c, status taken, fault *f)
+{
+    char content[DIGEST_TEXT];
+    digest_text(&c->work->content, content);
+    if (taken == STATUS_OK)
+        taken = write_scenes(c->output, &c->tally, f);
+    if (c->work->file != NULL)
+        taken = ranges_file_close(c->work->file, &c->tally, content, taken, f);
+    c->work->file = NULL;
+    c->work->tally = NULL;
+    return taken;
 }
 
 status ranges_collect_remove(const stock *s, const char *folder, fault *f)

@@ -16,10 +16,20 @@ typedef struct ranges_output {
 status ranges_collect_beside(const char *path, const char *ending, char out[PATH_MAX], fault *f);
 /* Is there room for the scenes? REFUSED: something else is there. */
 status ranges_collect_check(const ranges_output *, fault *f);
-/* Takes all batches of the stock, one in memory at a time, into the tally, which is made and which
- * the caller frees, also after a failure, and into the files. */
-status ranges_collect(ranges_work *, const stock *, const ranges_output *, tally *out, fault *f);
+/* A sweep whose batches are being taken. */
+typedef struct ranges_collect {
+    ranges_work *work;
+    const ranges_output *output;
+    tally tally;
+    ranges_file file;
+} ranges_collect;
 
+/* From now on what the work takes, one batch in memory at a time, goes into the tally and the file.
+ * The output must outlive it. */
+status ranges_collect_begin(ranges_work *, const ranges_output *, ranges_collect *out, fault *f);
+/* After the last one: the scenes of the worst points, the file. taken: how that went; not OK:
+ * nothing is left. The caller frees the tally. */
+status ranges_collect_end(ranges_collect *, status taken, fault *f);
 /* Once all is written: takes the batches of a stock of one folder away, and the folder where
  * nothing else is in it. */
 status ranges_collect_remove(const stock *, const char *folder, fault *f);

@@ -86,7 +86,9 @@ static void fill_cells(const making *m, int at, int which)
         const size_t cell = rows_cell(m->out, at, which, k);
         const int ran = p->status == STATUS_OK && one->missing[0] == '\0';
         m->out->status[cell] = (uint8_t)status_of(p, one, k);
-        m->out->cost[cell] = ran ? price_cost(&one->formulation, &one->cell[k]) : NAN;
+        m->out->cost[cell] = ran && reach_unranked(one->formulation.type)[0] == '\0'
+                                 ? price_cost(&one->formulation, &one->cell[k])
+                                 : NAN;
         m->out->seconds[cell] =
             ran ? one->cell[k].solve.seconds_setup + one->cell[k].solve.seconds_solve : NAN;
         for (int q = 0; q < m->of->quantities; q++) {

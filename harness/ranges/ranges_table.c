@@ -167,8 +167,10 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         while (r->mesh[mesh] != s->everywhere)
             mesh++;
         const int cell = which * r->meshes + mesh;
-        fprintf(to, "   n = %-6d %.2g ms", s->everywhere,
-                1e3 * t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1));
+        const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
+        fprintf(to, "   n = %-6d", s->everywhere);
+        if (isfinite(cost)) /* work by differences, or of another process, has none */
+            fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
 }

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "harness/ranges/ranges_csv.h"
 #include "harness/ranges/ranges_solve.h"
 
 static void add_numbers(digest *to, const double value[], size_t count)
@@ -51,6 +52,8 @@ static status keep(ranges_work *own, int batch, FILE *from, rows *w, fault *f)
     add_content(&own->content, w);
     if (own->tally != NULL)
         TRY(tally_add(own->tally, first, w, f));
+    if (own->csv != NULL)
+        TRY(ranges_csv_add(own->csv, own->of, first, w, f));
     return own->file != NULL ? ranges_file_add(own->file, first, w, f) : STATUS_OK;
 }
 

@@ -13,6 +13,7 @@ typedef struct ranges_work {
     double *cost;       /* [batches] */
     tally *tally;       /* where batches that are taken are counted ... */
     ranges_file *file;  /* ... and stored; NULL: nowhere */
+    FILE *csv;          /* where they are written as text; NULL: nowhere */
     digest content;     /* of all values that were taken, times left out */
 } ranges_work;
 

@@ -1,4 +1,6 @@
 """sweep: values of single solutions, designs, references, files, refusals."""
+import csv
+import io
 import itertools
 import json
 import signal
@@ -111,6 +113,16 @@ class Grid(ProgramTest):
             with h5py.File(path) as file:
                 self.assertEqual(file.attrs["content"], self.told["content"])
                 self.assertEqual(file.attrs["plan"], self.told["plan"])
+
+    def test_csv_is_the_file(self):
+        done = self.answered("sweep", *COLUMN, "--format", "csv")
+        rows = list(csv.DictReader(io.StringIO(done.stdout)))
+        self.assertEqual(len(rows), 12 * 2 * 3)
+        self.assertEqual([float(r["value"]) for r in rows], list(self.of["value"].ravel()))
+        self.assertEqual([float(r["side"]) for r in rows[::6]], list(self.of["points"][:, 1]))
+        self.assertEqual([r["error"] == "" for r in rows],
+                         list(np.isnan(self.of["error"].ravel())))
+        self.assertEqual({r["status"] for r in rows}, {"ok"})
 
     def test_screen(self):
         for line in self.done.stdout.splitlines():
@@ -263,6 +275,7 @@ class Going(ProgramTest):
                 (("elastica", "--vary", "load=1..2/3", "--seed", "3"), "--seed belongs"),
                 (("elastica", "--vary", "load=1..2", "--design", "halton"), "--points N"),
                 (("elastica", "--vary", "load=1..2/3", "--error", "2"), "error"),
+                (("elastica", "--vary", "load=1..2/3", "--format", "json"), "text, csv"),
                 (("shear_column", "--vary", "length=1,2", "-f", "beamw_vlasov"),
                  "does not offer shear"),
                 (("c_column", "--vary", "height=0.4,0.5", "--set", "section_data=printed"),
