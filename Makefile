@@ -33,7 +33,7 @@ PROGRAM := $(BUILD)/beamwork
 TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
-WIDE := elements/math/congruence.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c))
+WIDE := elements/math/congruence.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/triangular/*.c))
 ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
 OBJECTS += $(WIDE:%.c=$(BUILD)/%.avx2.o)
 endif

@@ -135,12 +135,17 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
 
 void factor_solve(factor *fa, double x[])
 {
-    if (fa->by.solve != NULL)
-        fa->by.solve(fa->by.context, 0, x);
-    else if (fa->symmetric != NULL)
-        factor_symmetric_solve(fa->symmetric, x);
-    else if (fa->unsymmetric != NULL)
-        factor_unsymmetric_solve(fa->unsymmetric, x);
+    factor_solve_many(fa, 1, fa->n, x);
+}
+
+void factor_solve_many(factor *fa, int columns, int stride, double x[])
+{
+    for (int c = 0; c < columns && fa->by.solve != NULL; c++)
+        fa->by.solve(fa->by.context, 0, x + c * stride);
+    if (fa->by.solve == NULL && fa->symmetric != NULL)
+        factor_symmetric_solve(fa->symmetric, columns, stride, x);
+    if (fa->by.solve == NULL && fa->unsymmetric != NULL)
+        factor_unsymmetric_solve(fa->unsymmetric, columns, stride, x);
 }
 
 void factor_solve_transposed(factor *fa, double x[])

@@ -11,51 +11,57 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/column_run.h"
+#include "elements/math/real.h"
+#include "harness/triangular/triangular_groups.h"
+#include "harness/triangular/triangular_solve.h"
 
 struct factor_symmetric {
     int n;
-    int lent;             /* 1: `integers`, L_row and run are another one's */
-    int *integers;        /* what the next ten arrays and run_of_row are parts of */
+    int lent;             /* 1: `integers`, L_row, groups and rest are another one's */
+    int *integers;        /* what the next nine arrays are parts of */
     int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]) */
-    int *column, *row;    /* [n + 1], [entries] upper triangle of C */
+    int *column, *row;    /* [n + 1], [entries] upper triangle of C; row: as places, once its
+                             columns are known */
     int *source;          /* [entries] of C: position in A */
     int *L_column;        /* [n + 1] */
-    int *parent, *in_column, *mark, *path; /* [n] elimination tree and workspace of LDL */
-    double *D, *work;                      /* [n]; D begins the block of these four */
-    double *diagonal, *terms;              /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
-    int *L_row;                            /* [L_column[n]] */
-    int *run_of_row;                       /* [n + 1] */
-    column_run *run;                       /* [run_of_row[n]] columns that rows of L have */
+    int *parent, *in_column, *mark; /* [n] elimination tree and workspace of LDL */
+    double *D;                      /* [n]; D begins the block of these three */
+    double *diagonal, *terms;       /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
+    double *rest;                   /* of triangular_rows, and work space of solutions */
+    triangular_groups groups;
+    int *L_row; /* [L_column[n]] */
     double *L_value;
 };
 
 /* 0: memory ran out, here and below. */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
-    fs->D = malloc((4 * n + 1) * sizeof *fs->D);
+    fs->D = malloc((3 * n + 1) * sizeof *fs->D);
     if (fs->D == NULL)
         return 0;
-    fs->work = fs->D + n;
-    fs->terms = fs->work + n;
+    fs->terms = fs->D + n;
     fs->diagonal = fs->terms + n;
     return 1;
 }
 
+static size_t size_of_rest(size_t n)
+{
+    return (n + TRIANGULAR_LANES) * TRIANGULAR_LANES * sizeof(double);
+}
+
 static int lay_out(factor_symmetric *fs, size_t n, size_t entries)
 {
-    fs->integers = malloc((6 * n + 3 * (n + 1) + 2 * entries) * sizeof *fs->integers);
-    if (fs->integers == NULL || !lay_out_numbers(fs, n))
+    fs->integers = malloc((5 * n + 2 * (n + 1) + 2 * entries) * sizeof *fs->integers);
+    fs->rest = malloc(size_of_rest(n));
+    if (fs->integers == NULL || fs->rest == NULL || !lay_out_numbers(fs, n))
         return 0;
-    int **const lists[] = {&fs->order,     &fs->inverse, &fs->parent,
-                           &fs->in_column, &fs->mark,    &fs->path};
+    int **const lists[] = {&fs->order, &fs->inverse, &fs->parent, &fs->in_column, &fs->mark};
     int *next = fs->integers;
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++, next += n)
         *lists[i] = next;
     fs->column = next;
     fs->L_column = fs->column + n + 1;
-    fs->run_of_row = fs->L_column + n + 1;
-    fs->row = fs->run_of_row + n + 1;
+    fs->row = fs->L_column + n + 1;
     fs->source = fs->row + entries;
     return 1;
 }
@@ -91,61 +97,6 @@ static void permute(const sparse *a, factor_symmetric *fs)
         }
 }
 
-/* Columns of row k of L in the order in which they are subtracted: path[top], ..., path[n - 1], by
- * the up-looking algorithm (T.A. Davis, ACM Trans. Math. Softw. 31, 2005, section 2). */
-static int find_row(factor_symmetric *fs, int k)
-{
-    int top = fs->n;
-    fs->mark[k] = k;
-    for (int p = fs->column[k]; p < fs->column[k + 1]; p++) {
-        int length = 0;
-        for (int i = fs->row[p]; fs->mark[i] != k; i = fs->parent[i]) {
-            fs->path[length++] = i;
-            fs->mark[i] = k;
-        }
-        while (length > 0)
-            fs->path[--top] = fs->path[--length];
-    }
-    return top;
-}
-
-/* Does column j have j + 1 and the rows of that? */
-static int is_nested(const factor_symmetric *fs, int j)
-{
-    return fs->parent[j] == j + 1 &&
-           fs->L_column[j + 1] - fs->L_column[j] == fs->L_column[j + 2] - fs->L_column[j + 1] + 1;
-}
-
-/* How many columns from path[top] on are a run. */
-static int run_length(const factor_symmetric *fs, int top)
-{
-    const int *path = fs->path + top, most = min_int(COLUMN_RUN_MOST, fs->n - top);
-    int count = 1;
-    while (count < most && path[count] == path[0] + count && is_nested(fs, path[count - 1]))
-        count++;
-    return count;
-}
-
-/* Runs of all rows, into run and, where that is there, L_row; returns their number. */
-static int find_runs(factor_symmetric *fs)
-{
-    int runs = 0;
-    for (int k = 0; k < fs->n; k++) {
-        fs->in_column[k] = 0;
-        fs->run_of_row[k] = runs;
-        for (int top = find_row(fs, k), count; top < fs->n; top += count, runs++) {
-            count = run_length(fs, top);
-            if (fs->run == NULL)
-                continue;
-            fs->run[runs] = (column_run){fs->path[top], count};
-            for (int i = fs->path[top]; i < fs->path[top] + count; i++)
-                fs->L_row[fs->L_column[i] + fs->in_column[i]++] = k;
-        }
-    }
-    fs->run_of_row[fs->n] = runs;
-    return runs;
-}
-
 /* Elimination tree and fill. */
 static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
 {
@@ -166,16 +117,17 @@ static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
     const size_t fill = (size_t)fs->L_column[n] + 1;
     fs->L_row = malloc(fill * sizeof *fs->L_row);
     fs->L_value = malloc(fill * sizeof *fs->L_value);
-    for (int k = 0; k < n; k++)
-        fs->mark[k] = -1;
-    fs->run = malloc(((size_t)find_runs(fs) + 1) * sizeof *fs->run);
-    if (fs->L_row == NULL || fs->L_value == NULL || fs->run == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor",
-                         counts->entries);
-    for (int k = 0; k < n; k++)
-        fs->mark[k] = -1;
-    find_runs(fs);
-    return STATUS_OK;
+    int *path = malloc(((size_t)n + 1) * sizeof *path);
+    const triangular_pattern of = {n,        fs->column, fs->row, fs->parent, fs->L_column,
+                                   fs->mark, path};
+    const int found = path != NULL && fs->L_row != NULL && fs->L_value != NULL &&
+                      triangular_groups_find(&of, fs->L_row, &fs->groups);
+    free(path);
+    if (found)
+        triangular_groups_place(&fs->groups, fs->column, fs->row);
+    return found ? STATUS_OK
+                 : fault_set(f, STATUS_FAULT, "out of memory for %ld entries of a factor",
+                             counts->entries);
 }
 
 status factor_symmetric_alloc(const sparse *pattern, factor_symmetric **out, factor_counts *counts,
@@ -214,33 +166,13 @@ void factor_symmetric_free(factor_symmetric *fs)
         return;
     if (!fs->lent) {
         free(fs->integers);
-        free(fs->run);
+        free(fs->rest);
+        triangular_groups_free(&fs->groups);
         free(fs->L_row);
     }
     free(fs->D);
     free(fs->L_value);
     free(fs);
-}
-
-/* Row k of L, in the order of sums of SuiteSparse's ldl_numeric, from values that stay in A.
- * Returns D_k. */
-static double factor_row(factor_symmetric *fs, const double a[], int k)
-{
-    double *y = fs->work;
-    y[k] = 0;
-    fs->in_column[k] = 0;
-    fs->diagonal[k] = 0;
-    for (int p = fs->column[k]; p < fs->column[k + 1]; p++) {
-        y[fs->row[p]] += a[fs->source[p]];
-        if (fs->row[p] == k)
-            fs->diagonal[k] = fabs(a[fs->source[p]]);
-    }
-    double pivot = y[k];
-    y[k] = 0;
-    const column_run_columns L = {fs->L_column, fs->L_row, fs->in_column, fs->L_value, fs->D, y};
-    for (int r = fs->run_of_row[k]; r < fs->run_of_row[k + 1]; r++)
-        pivot = column_run_use(&L, fs->run[r], pivot);
-    return pivot;
 }
 
 /* Of row and column k of C. */
@@ -249,7 +181,7 @@ static double largest_entry(const factor_symmetric *fs, const double a[], int k)
     double largest = 0;
     for (int j = k; j < fs->n; j++)
         for (int i = fs->column[j]; i < fs->column[j + 1]; i++)
-            if (j == k || fs->row[i] == k)
+            if (j == k || triangular_column_of(fs->row[i]) == k)
                 largest = fmax(largest, fabs(a[fs->source[i]]));
     return largest;
 }
@@ -295,17 +227,36 @@ static status judge_pivots(factor_symmetric *fs, const double a[], factor_counts
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio)
 {
-    for (int k = 0; k < fs->n; k++)
-        if ((fs->D[k] = factor_row(fs, a->value, k)) == 0)
-            return STATUS_SINGULAR;
+    const triangular_groups *g = &fs->groups;
+    const triangular_rows rows = {.groups = g->groups,
+                                  .first_of_group = g->first_of_group,
+                                  .run_of_group = g->run_of_group,
+                                  .run = g->run,
+                                  .begin_A = fs->column,
+                                  .place = fs->row,
+                                  .source = fs->source,
+                                  .begin = fs->L_column,
+                                  .row = fs->L_row,
+                                  .filled = fs->in_column,
+                                  .value = fs->L_value,
+                                  .D = fs->D,
+                                  .diagonal = fs->diagonal,
+                                  .rest = fs->rest};
+    memset(fs->rest, 0, size_of_rest((size_t)fs->n));
+    if (!REAL_CHOSEN(triangular_rows_factor)(&rows, a->value))
+        return STATUS_SINGULAR;
     return judge_pivots(fs, a->value, counts, weakest, ratio);
 }
 
-void factor_symmetric_solve(factor_symmetric *fs, double x[])
+void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[])
 {
-    ldl_perm(fs->n, fs->work, x, fs->order);
-    ldl_lsolve(fs->n, fs->work, fs->L_column, fs->L_row, fs->L_value);
-    ldl_dsolve(fs->n, fs->work, fs->D);
-    ldl_ltsolve(fs->n, fs->work, fs->L_column, fs->L_row, fs->L_value);
-    ldl_permt(fs->n, x, fs->work, fs->order);
+    const triangular_factors t = {.n = fs->n,
+                                  .order = fs->order,
+                                  .begin = fs->L_column,
+                                  .row = fs->L_row,
+                                  .value = fs->L_value,
+                                  .D = fs->D,
+                                  .runs = fs->groups.columns,
+                                  .run = fs->groups.of_columns};
+    REAL_CHOSEN(triangular_solve)(&t, columns, stride, x, fs->rest);
 }

@@ -17,6 +17,7 @@ void factor_symmetric_free(factor_symmetric *fs);
  * size by that of the terms it is the sum of. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
-void factor_symmetric_solve(factor_symmetric *fs, double x[]);
+/* In place: `columns` right-hand sides, each `stride` numbers after the one before it. */
+void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[]);
 
 #endif

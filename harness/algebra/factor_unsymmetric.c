@@ -133,9 +133,9 @@ status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, facto
     return judge_pivots(fu, a, counts, row, column, ratio);
 }
 
-void factor_unsymmetric_solve(factor_unsymmetric *fu, double x[])
+void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[])
 {
-    klu_solve(fu->symbolic, fu->numeric, fu->n, 1, x, &fu->common);
+    klu_solve(fu->symbolic, fu->numeric, stride, columns, x, &fu->common);
 }
 
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[])

@@ -14,7 +14,8 @@ void factor_unsymmetric_free(factor_unsymmetric *fu);
  * *ratio: its size by the largest entries of these. */
 status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
                                   int *row, int *column, double *ratio);
-void factor_unsymmetric_solve(factor_unsymmetric *fu, double x[]);
+/* In place: `columns` right-hand sides, each `stride` numbers after the one before it. */
+void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 
 #endif

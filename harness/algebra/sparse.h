@@ -43,7 +43,9 @@ status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, 
 void factor_free(factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
 status factor_numeric(factor *fa, const sparse *a, fault *f);
-void factor_solve(factor *fa, double x[]);            /* in place */
+void factor_solve(factor *fa, double x[]); /* in place */
+/* `columns` right-hand sides, each `stride` numbers after the one before it. */
+void factor_solve_many(factor *fa, int columns, int stride, double x[]);
 void factor_solve_transposed(factor *fa, double x[]); /* A^T x = b */
 factor_counts factor_count(const factor *fa);
 

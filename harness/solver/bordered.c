@@ -15,17 +15,16 @@ status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
     const size_t all = (size_t)t->all + 1;
     const int columns = t->condensed != NULL ? 0 : b->count;
     out->Z = calloc((size_t)(columns * t->free) + 1, sizeof *out->Z);
+    out->solution = calloc(TANGENT_COMPONENTS * all, sizeof *out->solution);
     out->x = calloc(4 * all, sizeof *out->x);
-    if (out->Z == NULL || out->x == NULL)
+    if (out->Z == NULL || out->x == NULL || out->solution == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     out->load = out->x + all;
     out->rest = out->load + all;
     out->weight = out->rest + all;
-    for (int i = 0; i < columns; i++) {
-        memcpy(out->Z + i * t->free, b->U + i * t->free, (size_t)t->free * sizeof *out->Z);
-        factor_solve(t->factor, out->Z + i * t->free);
-        n->solutions++;
-    }
+    memcpy(out->Z, b->U, (size_t)(columns * t->free) * sizeof *out->Z);
+    factor_solve_many(t->factor, columns, t->free, out->Z);
+    n->solutions += columns;
     for (int i = 0; i < columns; i++)
         for (int j = 0; j < columns; j++)
             out->S[i * b->count + j] = b->W[i * b->count + j] -
@@ -40,25 +39,30 @@ void bordered_free(bordered *s)
 {
     free(s->Z);
     free(s->x);
+    free(s->solution);
 }
 
-void bordered_solve(tangent *t, counters *n, const bordered *s, double x[])
+/* What is released, and what it takes from a solution without it. */
+static void add_released(const tangent *t, const bordered *s, double x[])
 {
     const border *b = &t->border;
     double z[TANGENT_BORDER];
-    factor_solve(t->factor, x);
-    n->solutions++;
-    if (t->condensed != NULL)
-        return;
     for (int i = 0; i < b->count; i++)
         z[i] = x[b->coordinate[i]] - dense_dot(t->free, b->V + i * t->free, x);
-    if (b->count > 0)
-        dense_lu_solve(b->count, 1, s->S, s->pivot, z);
+    dense_lu_solve(b->count, 1, s->S, s->pivot, z);
     for (int i = 0; i < b->count; i++) {
         for (int k = 0; k < t->free; k++)
             x[k] -= s->Z[i * t->free + k] * z[i];
         x[b->coordinate[i]] = z[i];
     }
+}
+
+void bordered_solve(tangent *t, counters *n, const bordered *s, int columns, double x[])
+{
+    factor_solve_many(t->factor, columns, t->all, x);
+    n->solutions += columns;
+    for (int c = 0; c < columns && t->condensed == NULL && t->border.count > 0; c++)
+        add_released(t, s, x + c * t->all);
 }
 
 /* rest[all] = load - K x */
@@ -80,7 +84,7 @@ status bordered_refine(const model *m, tangent *t, counters *n, const bordered *
     metric_of(m, s->weight);
     while (state == REFINEMENT_GOES_ON) {
         residual_of(m, t, s);
-        bordered_solve(t, n, s, s->rest);
+        bordered_solve(t, n, s, 1, s->rest);
         for (int k = 0; k < t->all; k++)
             s->x[k] += s->rest[k];
         state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x));

@@ -41,11 +41,11 @@ static status allocate(newton *n, int condense, fault *f)
     const model *m = n->c->model;
     const size_t all = (size_t)n->all + 1;
     n->residual = calloc(all, sizeof *n->residual);
-    n->dx = calloc(all, sizeof *n->dx);
-    n->column = calloc((size_t)(MODEL_MAX_CONDITIONS * n->all) + 1, sizeof *n->column);
+    n->dx = calloc((1 + MODEL_MAX_CONDITIONS) * all, sizeof *n->dx);
     n->weight = calloc(all, sizeof *n->weight);
-    if (n->residual == NULL || n->dx == NULL || n->column == NULL || n->weight == NULL)
+    if (n->residual == NULL || n->dx == NULL || n->weight == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
+    n->column = n->dx + n->all;
     metric_of(m, n->weight);
     TRY(allocate_tangent(n, condense, f));
     TRY(kinematics_state_alloc(m, &n->state, f));
@@ -81,7 +81,6 @@ void newton_free(newton *n)
 {
     free(n->residual);
     free(n->dx);
-    free(n->column);
     free(n->weight);
     free(n->dense);
     free(n->unknown);
@@ -109,17 +108,15 @@ static int drives(const newton *n, int count, const model_condition condition[],
     return conditioned > round_off * round_off * all;
 }
 
-/* Unknown drivers: their increments make the conditions hold; dx of the free coordinates
- * follows. */
+/* Unknown drivers: their increments, of which the columns are solved for, make the conditions hold;
+ * dx of the free coordinates follows. */
 static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
     int pivot[MODEL_MAX_CONDITIONS];
     int moved = 1;
-    for (int c = 0; c < count; c++) {
-        factor_solve(n->factor, n->column + c * n->all);
+    for (int c = 0; c < count; c++)
         moved &= drives(n, count, condition, n->column + c * n->all);
-    }
     for (int r = 0; r < count; r++) {
         b[r] = n->dx[condition[r].coordinate] - condition[r].increment;
         for (int c = 0; c < count; c++)
@@ -162,7 +159,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
     phases_lap(p, PHASE_FACTORISATION);
     TRY(factored);
     memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
-    factor_solve(n->factor, n->dx);
+    factor_solve_many(n->factor, 1 + lin->conditions, n->all, n->dx);
     n->energy = fabs(dense_dot(n->free, n->residual, n->dx));
     const status met = meet_conditions(n, lin->conditions, lin->condition, f);
     phases_lap(p, PHASE_SOLUTION);

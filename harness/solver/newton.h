@@ -21,7 +21,7 @@ typedef struct newton {
     double *residual, *dx;   /* [free + driven] */
     double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
     int *pivot;
-    double *column; /* [conditions x (free + driven)] */
+    double *column; /* [conditions x (free + driven)], behind dx */
     double
         *weight;   /* [free + driven] of metric_of: what makes displacements and turns comparable */
     double energy; /* |r . K^-1 r| of the last residual r [J]; NAN: not known */

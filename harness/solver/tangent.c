@@ -150,23 +150,30 @@ static int moves(const tangent *t, int k)
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
 }
 
-/* Response of the node to a unit load on one component. */
-static status respond(const model *m, tangent *t, counters *n, int component, const bordered *s,
-                      double response[TANGENT_COMPONENTS], fault *f)
+/* Loads on the moving coordinates, or their motions: x[index] = column of T, or sum = T x. */
+static void load_of(const tangent *t, const int moving[], int component, double x[])
 {
-    memset(s->load, 0, (size_t)t->all * sizeof *s->load);
+    memset(x, 0, (size_t)t->all * sizeof *x);
     for (int k = 0; k < t->coordinates; k++)
-        if (moves(t, k))
-            s->load[t->index[k]] = t->T[component * t->coordinates + k];
-    memcpy(s->x, s->load, (size_t)t->all * sizeof *s->x);
-    bordered_solve(t, n, s, s->x);
-    if (t->refined)
-        TRY(bordered_refine(m, t, n, s, f));
-    for (int i = 0; i < TANGENT_COMPONENTS; i++) {
-        response[i] = 0;
-        for (int k = 0; k < t->coordinates; k++)
-            response[i] += moves(t, k) ? t->T[i * t->coordinates + k] * s->x[t->index[k]] : 0;
-    }
+        if (moving[k])
+            x[t->index[k]] = t->T[component * t->coordinates + k];
+}
+
+static double motion_of(const tangent *t, const int moving[], int component, const double x[])
+{
+    double sum = 0;
+    for (int k = 0; k < t->coordinates; k++)
+        sum += moving[k] ? t->T[component * t->coordinates + k] * x[t->index[k]] : 0;
+    return sum;
+}
+
+static status refine(const model *m, tangent *t, counters *n, const bordered *s, const int moving[],
+                     int component, double x[], fault *f)
+{
+    load_of(t, moving, component, s->load);
+    memcpy(s->x, x, (size_t)t->all * sizeof *x);
+    TRY(bordered_refine(m, t, n, s, f));
+    memcpy(x, s->x, (size_t)t->all * sizeof *x);
     return STATUS_OK;
 }
 
@@ -175,14 +182,23 @@ static status respond(const model *m, tangent *t, counters *n, int component, co
 static status respond_all(const model *m, tangent *t, counters *n, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
+    int moving[TANGENT_COMPONENTS], component[TANGENT_COMPONENTS], count = 0;
     TRY(bordered_alloc(t, n, s, f));
-    for (int j = 0; j < TANGENT_COMPONENTS; j++) {
-        double response[TANGENT_COMPONENTS];
-        if (!(wanted & components & 1u << j))
-            continue;
-        TRY(respond(m, t, n, j, s, response, f));
+    for (int k = 0; k < t->coordinates; k++)
+        moving[k] = moves(t, k);
+    for (int j = 0; j < TANGENT_COMPONENTS; j++)
+        if (wanted & components & 1u << j) {
+            load_of(t, moving, j, s->solution + count * t->all);
+            component[count++] = j;
+        }
+    bordered_solve(t, n, s, count, s->solution);
+    for (int c = 0; c < count; c++) {
+        double *x = s->solution + c * t->all;
+        if (t->refined)
+            TRY(refine(m, t, n, s, moving, component[c], x, f));
         for (int i = 0; i < TANGENT_COMPONENTS; i++)
-            C[6 * i + j] = components >> i & 1u ? response[i] : 0;
+            if (components >> i & 1u)
+                C[6 * i + component[c]] = motion_of(t, moving, i, x);
     }
     return STATUS_OK;
 }

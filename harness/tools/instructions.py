@@ -38,7 +38,7 @@ PARTS = (
     ("assembly", "harness/model/", r"^assemble_|_assemble$", "strain_evaluations"),
     ("factorisation", "harness/", r"^(context_factor|factor_numeric|factor_alloc)$",
      "factorisations"),
-    ("solution", "harness/", r"^factor_(solve|solve_transposed)$", "solutions"),
+    ("solution", "harness/", r"^factor_(solve|solve_many|solve_transposed)$", "solutions"),
     ("eigenvalues", "harness/algebra/", r"^(eigen|lanczos|gyroscopic)_", None),
     ("places of nodes", "harness/model/", r"^kinematics_gather$", "strain_evaluations"),
     ("products", "elements/math/", r"^dense_", "strain_evaluations"),

@@ -22,13 +22,14 @@ rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 # The floors of the harness, lowest first: a room includes itself and those before it.
-floors="algebra adapters process model recovery equations condensation solver analysis catalogue contract truth language scene_file scene_writer study timing judge project schema record shards tables extremes certificate comparison imports export request ranges library command manual completion contest cli"
+floors="triangular algebra adapters process model recovery equations condensation solver analysis catalogue contract truth language scene_file scene_writer study timing judge project schema record shards tables extremes certificate comparison imports export request ranges library command manual completion contest cli"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}
     above=${above# }
     [ -z "$above" ] || rule "harness/$room" "harness/($(echo $above | tr ' ' '|'))/" "$room stands below"
 done
+rule harness/triangular 'cases/|elements/(element|section|beamw|sheet|exact)' 'factors know no beam'
 rule harness/algebra 'cases/|elements/(element|section|beamw|sheet|exact)' 'algebra knows no beam'
 rule harness 'reference/|reports/|elements/(beamw|sheet|exact)/' 'the harness names no formulation and no truth'
 # A room that a stranger can keep in mind: at most 20 files beside its tests.
