@@ -171,18 +171,18 @@ static int noise_may_decide(const sweep *s, const truths *t, int index, int quan
            v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
 }
 
-void judgement_doubts(const sweep *s, const truths *t, char wanted[])
+int judgement_doubts(const sweep *s, const truths *t, int series_index)
 {
-    for (int i = 0; i < s->seriess; i++) {
-        const point *p = &s->point[s->series[i].point];
-        wanted[i] = 0;
-        if (s->series[i].imported != NULL)
-            continue;
-        for (int q = 0; q < p->scene.quantities && !wanted[i]; q++)
-            wanted[i] = p->scene.quantity[q].reduction != SCENE_CURVE &&
-                        sweep_selects(s, p, &s->series[i].formulation, p->scene.quantity[q].name) &&
-                        noise_may_decide(s, t, i, q);
-    }
+    const series *one = &s->series[series_index];
+    const point *p = &s->point[one->point];
+    if (one->imported != NULL)
+        return 0;
+    for (int q = 0; q < p->scene.quantities; q++)
+        if (p->scene.quantity[q].reduction != SCENE_CURVE &&
+            sweep_selects(s, p, &one->formulation, p->scene.quantity[q].name) &&
+            noise_may_decide(s, t, series_index, q))
+            return 1;
+    return 0;
 }
 
 static void forget_observations(truths *t)

@@ -51,9 +51,9 @@ typedef struct judgement {
     int waiting;
 } judgement;
 
-/* Series whose verdicts may turn on the noise of their finest mesh, which is then worth measuring:
- * wanted[seriess], 0 or 1. */
-void judgement_doubts(const sweep *s, const truths *t, char wanted[]);
+/* 1: verdicts of the series may turn on the noise of its finest mesh, which is then worth
+ * measuring. */
+int judgement_doubts(const sweep *s, const truths *t, int series_index);
 /* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away,
  * so that a rule nobody observed and a truth that speaks of nothing are failures. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);

@@ -6,6 +6,6 @@
 
 /* Plans and runs the sweep; the finest meshes again where verdicts may turn on their noise, unless
  * the run was interrupted. sweep_free frees it, also after a failure. */
-status verification_run(const sweep_request *, const truths *, sweep *, fault *);
+status verification_run(const sweep_request *, truths *, sweep *, fault *);
 
 #endif

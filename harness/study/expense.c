@@ -80,9 +80,12 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
+/* Of the share of one process: what costs less is no matter at the end. */
+static const double dear_share = 0.01;
+
 /* A series that is run. */
 typedef struct expense {
-    double all;
+    double all; /* 0: not dear */
     int series;
 } expense;
 
@@ -95,8 +98,9 @@ static int dearest(const void *left, const void *right)
     return a->series < b->series ? -1 : 1;
 }
 
-int expense_order(const sweep *s, task tasks[])
+int expense_order(const sweep *s, int jobs, task tasks[])
 {
+    double sum = 0;
     expense *list = malloc(((size_t)s->seriess + 1) * sizeof *list);
     int count = 0, n = 0;
     if (list == NULL)
@@ -109,12 +113,15 @@ int expense_order(const sweep *s, task tasks[])
         list[count] = (expense){0, i};
         for (int k = 0; k < one->meshes; k++)
             list[count].all += expense_of_cell(s, i, k);
-        count++;
+        sum += list[count++].all;
     }
+    for (int i = 0; i < count; i++)
+        if (list[i].all * jobs < dear_share * sum)
+            list[i].all = 0;
     qsort(list, (size_t)count, sizeof *list, dearest);
     for (int i = 0; i < count; i++)
         for (int k = s->series[list[i].series].meshes - 1; k >= 0; k--)
-            tasks[n++] = (task){list[i].series, k};
+            tasks[n++] = (task){.series = list[i].series, .mesh = k};
     free(list);
     return 0;
 }

@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_EXPENSE_H
 #define BEAMWORK_EXPENSE_H
 
-#include "harness/study/worker.h"
+#include "harness/study/workload.h"
 
 /* What is paid for, each as often as it is due. */
 typedef enum expense_kind {
@@ -41,9 +41,11 @@ void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS]);
 /* [s], about; elements: of each member. */
 double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double expense_of_cell(const sweep *s, int index, int mesh);
-/* All tasks of a sweep, tasks[sweep_cells], those of the dearest series first and of one series the
- * finest mesh first: at the end only small ones are left to wait for, and series are whole early
- * when a run is interrupted. 0: done; -1: out of memory. */
-int expense_order(const sweep *s, task tasks[]);
+/* All cells of a sweep, tasks[sweep_cells]: those of dear series first, the dearest of all at the
+ * beginning, so that only small ones are left to wait for at the end; then the others in the order
+ * of the series, so that one after the other is whole while the rest is run. Of a series the finest
+ * mesh first. Dear is what more than a hundredth of the work of one process goes into. 0: done;
+ * -1: out of memory. */
+int expense_order(const sweep *s, int jobs, task tasks[]);
 
 #endif

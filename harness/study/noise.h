@@ -5,12 +5,17 @@
 
 #include "harness/study/sweep.h"
 
-/* Runs the finest mesh of every series that is wanted twice more: members with their nodes in
- * reverse order, and in a unit of length that is no power of two; in two units where a formulation
- * answers to the order of nodes; without the stations that only curves show. Fills series.noise:
- * twice the larger of the two differences, relative to the value or near_zero, or what differences
- * leave where a formulation needs them; NAN where a value or a repetition is missing. */
-status noise_measure(const sweep_request *request, const char wanted[], sweep *s, fault *f);
+/* The finest mesh of a series is run so often again: in a unit of length that is no power of two,
+ * and with the nodes of members in reverse order; in two units where a formulation answers to the
+ * order of nodes. The stations that only curves show are left out. */
+enum { NOISE_REPETITIONS = 2 };
+
+/* In what other words. */
+scene_edit noise_words(const formulation *, int repetition);
+/* Fills series.noise: twice the larger of the two differences, relative to the value or near_zero,
+ * or what differences leave where a formulation needs them; NAN where a value or a repetition is
+ * missing. -1: out of memory. */
+int noise_take(const point *, const cell_result again[NOISE_REPETITIONS], series *);
 int noise_cells(const sweep *s); /* that were run for it */
 
 #endif

@@ -2,27 +2,11 @@
 
 #include <errno.h>
 #include <poll.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/mman.h>
 
 #include "harness/algebra/clock.h"
-#include "harness/study/expense.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/progress.h"
 #include "harness/study/worker.h"
-
-/* Of the whole work, by what cells cost. */
-static double share_done(const workload *w)
-{
-    double done = 0, all = 0;
-    for (int i = 0; i < w->count; i++) {
-        const double cost = expense_of_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
-        all += cost;
-        done += w->done[i] || w->same[i] >= 0 ? cost : 0;
-    }
-    return all > 0 ? done / all : 0;
-}
 
 static void report(progress *p, const workload *w, int last)
 {
@@ -34,17 +18,18 @@ static void report(progress *p, const workload *w, int last)
         return;
     snprintf(what, sizeof what, "%s, %s, n = %d", w->s->point[one->point].type->name,
              one->formulation.key, one->mesh[t->mesh]);
-    progress_show(p, now, w->finished, share_done(w), what);
+    p->count = w->due;
+    progress_show(p, now, w->finished, workload_share(w), what);
 }
 
 /* One worker that has something to say, or has ended. *running: workers there are. */
 static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
-    if (i >= 0) {
+    if (i >= 0)
         report(p, w, i);
+    if (i != -1)
         return STATUS_OK;
-    }
     if (worker_bury(w, self, one))
         return worker_start(w, self, one, f);
     --*running;
@@ -56,10 +41,9 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
                         struct pollfd ends[])
 {
     /* [ms] the clocks of the workers are looked at so often */
-    const int interval = w->time_limit > 0 ? 100 : -1;
+    const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : -1;
     for (int i = 0; i < jobs; i++)
-        ends[i] = (struct pollfd){.fd = workers[i].from != NULL ? fileno(workers[i].from) : -1,
-                                  .events = POLLIN};
+        ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
     ends[jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
     while (poll(ends, (nfds_t)jobs + 1, interval) < 0 && errno == EINTR)
         ;
@@ -87,7 +71,7 @@ static status attend_all(progress *p, workload *w, crew *c, const struct pollfd 
 {
     for (int i = 0; i < c->jobs; i++) {
         worker *one = &c->workers[i];
-        if (one->from == NULL)
+        if (one->from < 0)
             continue;
         if (ends[i].revents != 0)
             TRY(attend(p, w, i, one, &c->running, f));
@@ -106,6 +90,8 @@ static status work_off(progress *p, workload *w, crew *c, fault *f)
         if (c->interrupted)
             break;
         TRY(attend_all(p, w, c, ends, f));
+        if (workload_can_tell(w)) /* of one: the workers wait meanwhile */
+            TRY(workload_tell(w, f));
     }
     return STATUS_OK;
 }
@@ -118,25 +104,19 @@ static status run_parallel(const sweep_request *request, workload *w, crew *c, f
     const status outcome = work_off(&p, w, c, f);
     progress_end(&p);
     for (int i = 0; i < c->jobs; i++)
-        if (c->workers[i].from != NULL)
+        if (c->workers[i].from >= 0)
             worker_end(w, &c->workers[i]);
-    worker_settle(w);
     return outcome;
 }
 
-/* Those whose answers are another's which then had none are run by themselves. */
-static status run_rounds(const sweep_request *request, workload *w, crew *c, fault *f)
+static status check_all_done(const workload *w, fault *f)
 {
-    TRY(run_parallel(request, w, c, f));
-    if (!c->interrupted && w->finished < w->count && w->known != NULL) {
-        w->known = NULL;
-        atomic_store(&w->board->next, 0);
-        TRY(run_parallel(request, w, c, f));
-    }
-    if (!c->interrupted && w->finished < w->count)
+    if (w->out_of_memory)
+        return fault_set(f, STATUS_FAULT, "out of memory for noise");
+    if (w->finished < w->due)
         return fault_set(f, STATUS_FAULT,
                          "the worker processes ended before all cells were done (%d of %d)",
-                         w->finished, w->count);
+                         w->finished, w->due);
     return STATUS_OK;
 }
 
@@ -145,22 +125,12 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* Series with a cell that was not run are taken out: they show nothing. */
-static void keep_finished(sweep *s, const workload *w)
+/* Tells of what is left to be told of. */
+static status tell_all(workload *w, fault *f)
 {
-    char *open = calloc((size_t)s->seriess + 1, 1);
-    int kept = 0;
-    s->unfinished = w->count - w->finished;
-    if (open != NULL)
-        for (int i = 0; i < w->count; i++)
-            open[w->tasks[i].series] |= !w->done[i];
-    for (int i = 0; i < s->seriess; i++)
-        if (open == NULL || open[i])
-            sweep_series_free(&s->series[i]);
-        else
-            s->series[kept++] = s->series[i];
-    s->seriess = kept;
-    free(open);
+    while (workload_can_tell(w))
+        TRY(workload_tell(w, f));
+    return STATUS_OK;
 }
 
 static status run_all(const sweep_request *request, workload *w, fault *f)
@@ -172,44 +142,29 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
         asked.descriptor = request->stop;
     crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
               .asked = asked.descriptor};
-    const status outcome = run_rounds(request, w, &c, f);
+    for (int i = 0; i < c.jobs; i++)
+        c.workers[i].from = -1;
+    status outcome = run_parallel(request, w, &c, f);
     if (c.interrupted)
-        keep_finished(w->s, w);
+        workload_keep_whole(w);
+    else if (outcome == STATUS_OK)
+        outcome = check_all_done(w, f);
     if (request->interruptible)
         interrupt_end(&asked);
-    return outcome;
+    return outcome == STATUS_OK ? tell_all(w, f) : outcome;
 }
 
 /* Even one job runs in a process of its own, so that a crash is a result and answers do not depend
  * on the number. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
-    const size_t count = (size_t)sweep_cells(s);
-    board *b = mmap(NULL, sizeof *b, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    workload w = {.s = s,
-                  .time_limit = request->time_limit,
-                  .together = request->together,
-                  .count = (int)count,
-                  .tasks = calloc(count + 1, sizeof *w.tasks),
-                  .done = calloc(count + 1, 1),
-                  .same = malloc((count + 1) * sizeof *w.same),
-                  .board = b};
-    claims *known = request->share ? claims_alloc((int)count) : NULL;
-    status outcome = fault_set(f, STATUS_FAULT, "out of memory for the sweep");
-    w.known = known;
-    if (w.tasks != NULL && w.done != NULL && w.same != NULL && b != MAP_FAILED &&
-        expense_order(s, w.tasks) == 0) {
-        for (int i = 0; i < w.count; i++)
-            w.same[i] = -1;
+    workload w;
+    status outcome = workload_begin(request, s, &w, f);
+    if (outcome == STATUS_OK) {
         s->shapes = request->shapes;
         s->unfinished = 0;
         outcome = run_all(request, &w, f);
     }
-    if (b != MAP_FAILED)
-        munmap(b, sizeof *b);
-    claims_free(known);
-    free(w.tasks);
-    free(w.done);
-    free(w.same);
+    workload_end(&w);
     return outcome;
 }

@@ -56,6 +56,19 @@ typedef struct sweep {
     series *series;
 } sweep;
 
+/* Who follows a run while it goes on: both are asked in the process that runs it, between two
+ * results. */
+typedef struct sweep_follower {
+    void *context;
+    /* 1: the finest mesh of this series, whose cells are all done, is run again for its noise
+     * (noise.h). NULL: none is. */
+    int (*doubts)(void *context, const sweep *, int series_index);
+    /* Told of every series once, in their order, when it and all before it are done and their noise
+     * is measured; what it fails with ends the run. An interrupted run takes out the series that
+     * are not done: their places are those of the next ones. NULL: nobody is told. */
+    status (*whole)(void *context, const sweep *, int series_index, fault *);
+} sweep_follower;
+
 typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* processes, >= 1 */
@@ -73,8 +86,9 @@ typedef struct sweep_request {
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */
     int shapes;
-    FILE *progress;     /* NULL: quiet */
-    const char *things; /* what the cells are called there; NULL: cells */
+    const sweep_follower *follower; /* NULL: none */
+    FILE *progress;                 /* NULL: quiet */
+    const char *things;             /* what the cells are called there; NULL: cells */
 } sweep_request;
 
 /* What a selection is asked about: case/parameters/formulation/quantity. */

@@ -1,6 +1,8 @@
 #include "harness/study/worker.h"
 
+#include <errno.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -10,15 +12,11 @@
 #include "harness/study/child.h"
 #include "harness/study/serialise.h"
 
-static cell_result *cell_of(const workload *w, int i)
-{
-    return &w->s->series[w->tasks[i].series].cell[w->tasks[i].mesh];
-}
-
 /* A task, and the one with the same answers. */
 typedef struct asked {
     const workload *w;
     const cell_request *request;
+    scene_edit edit;
     int task, same;
 } asked;
 
@@ -29,9 +27,9 @@ static void add_request(identity *out, const workload *w, const asked *a)
     const point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
     const solve_options *o = &a->request->solve;
     const void *const type = p->type;
-    const double amount = p->edit.amount;
+    const double amount = a->edit.amount;
     const int count = parameters_count(p->type);
-    const int numbers[] = {p->edit.kind,
+    const int numbers[] = {a->edit.kind,
                            o->newton,
                            o->max_iterations,
                            o->steps_between,
@@ -64,53 +62,85 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
+/* The same in other words, for its values alone; without a result where they mean no scene. */
+static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
+{
+    const point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
+    scene edited;
+    fault f = {""};
+    request->scene = &edited;
+    request->solve.values_only = 1;
+    request->solve.condition = request->solve.shapes = 0;
+    *out = (cell_result){.solve.status = STATUS_OK};
+    if (cell_scene(p->type, p->parameter, &a->edit, &edited, &f) == STATUS_OK)
+        cell_run(request, out, &f);
+    scene_free(&edited);
+}
+
 /* The task with the same answers, or -1: then *out has them. */
-static int run_task(const workload *w, int i, cell_result *out)
+static int run_task(const workload *w, int i, int alone, cell_result *out)
 {
     cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
-    asked a = {w, &request, i, -1};
+    asked a = {w, &request, workload_edit(w, i), i, -1};
     fault f = {""};
-    if (w->known != NULL) {
+    if (w->known != NULL && !alone) {
         request.is_known = is_known;
         request.context = &a;
     }
     child_alarm(w->time_limit);
-    cell_run(&request, out, &f);
+    if (w->tasks[i].again > 0)
+        run_again(w, &a, &request, out);
+    else
+        cell_run(&request, out, &f);
     child_alarm(0);
     return a.same;
 }
 
-/* Which task, whose answers it has where they are another's, and else the answers. */
-static int tell(FILE *to, int i, int same, const cell_result *cell)
+/* Before every result. */
+typedef struct heading {
+    int task, same; /* same: the task whose answers it has; -1: its own follow */
+    size_t bytes;
+} heading;
+
+static int write_all(int to, const char *bytes, size_t count)
 {
-    const int head[] = {i, same};
-    if (fwrite(head, sizeof head, 1, to) != 1)
-        return -1;
-    return same < 0 ? serialise_write(to, cell) : fflush(to);
+    while (count > 0) {
+        const ssize_t done = write(to, bytes, count);
+        if (done < 0 && errno != EINTR)
+            return -1;
+        bytes += done > 0 ? done : 0;
+        count -= done > 0 ? (size_t)done : 0;
+    }
+    return 0;
+}
+
+/* 0, or -1: nobody hears it. */
+static int tell(int to, int i, int same, const cell_result *cell)
+{
+    heading head = {.task = i, .same = same};
+    char *bytes = NULL;
+    FILE *text = open_memstream(&bytes, &head.bytes);
+    int bad = text == NULL || (same < 0 && serialise_write(text, cell) != 0);
+    if (text != NULL)
+        bad |= fclose(text) != 0;
+    bad = bad || write_all(to, (const char *)&head, sizeof head) != 0 ||
+          write_all(to, bytes, head.bytes) != 0;
+    free(bytes);
+    return bad ? -1 : 0;
 }
 
 /* Child: takes tasks until none is left. */
 static void work(const workload *w, int self, int to)
 {
-    FILE *out = fdopen(to, "wb");
-    board *b = w->board;
-    while (out != NULL) {
-        const int i = atomic_fetch_add(&b->next, 1);
+    int alone, i;
+    while ((i = workload_take(w, self, &alone)) >= 0) {
         cell_result cell;
-        if (i >= w->count)
+        const int same = run_task(w, i, alone, &cell);
+        if (tell(to, i, same, &cell) != 0)
             break;
-        if (w->done[i])
-            continue;
-        b->since[self] = clock_wall_seconds();
-        b->at[self] = i;
-        const int same = run_task(w, i, &cell);
-        if (tell(out, i, same, &cell) != 0)
-            break;
-        b->at[self] = -1;
+        w->board->at[self] = -1;
         cell_result_free(&cell);
     }
-    if (out != NULL)
-        fclose(out);
     _exit(0);
 }
 
@@ -121,7 +151,7 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
     if (pipe(ends) != 0)
         return fault_set(f, STATUS_FAULT, "cannot start a worker: no pipe");
     w->board->at[self] = -1;
-    out->stopped = 0;
+    *out = (worker){.from = -1};
     out->process = fork();
     if (out->process < 0) {
         close(ends[0]);
@@ -134,67 +164,84 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
         work(w, self, ends[1]);
     }
     close(ends[1]);
-    out->from = fdopen(ends[0], "rb");
-    return out->from != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "cannot read from a worker");
+    out->from = ends[0];
+    return STATUS_OK;
 }
 
-static void mark_done(workload *w, int i)
+/* Room for more than what is there. 0: it is there. */
+static int grow(worker *from)
 {
-    w->finished += !w->done[i];
-    w->done[i] = 1;
+    enum { LEAST = 1 << 16 };
+    if (from->room - from->count >= LEAST)
+        return 0;
+    const size_t room = 2 * from->room + LEAST;
+    char *more = realloc(from->bytes, room);
+    if (more == NULL)
+        return -1;
+    from->bytes = more;
+    from->room = room;
+    return 0;
+}
+
+/* 0: taken; -1: it is damaged. */
+static int take_result(workload *w, const heading *head, char *bytes)
+{
+    if (head->task < 0 || head->task >= w->all || head->same >= w->all)
+        return -1;
+    if (head->same >= 0) {
+        workload_same(w, head->task, head->same);
+        return 0;
+    }
+    FILE *in = fmemopen(bytes, head->bytes, "rb");
+    const int bad = in == NULL || serialise_read(in, workload_cell(w, head->task)) != 0;
+    if (in != NULL)
+        fclose(in);
+    if (!bad)
+        workload_done(w, head->task);
+    return bad ? -1 : 0;
+}
+
+/* Takes all results that are whole. As worker_receive. */
+static int take_whole(workload *w, worker *from)
+{
+    size_t at = 0;
+    int last = -2;
+    heading head;
+    while (from->count - at >= sizeof head) {
+        memcpy(&head, from->bytes + at, sizeof head);
+        if (from->count - at - sizeof head < head.bytes)
+            break;
+        if (take_result(w, &head, from->bytes + at + sizeof head) != 0)
+            return -1;
+        last = head.task;
+        at += sizeof head + head.bytes;
+    }
+    memmove(from->bytes, from->bytes + at, from->count - at);
+    from->count -= at;
+    return last;
 }
 
 int worker_receive(workload *w, worker *from)
 {
-    int head[2];
-    if (fread(head, sizeof head, 1, from->from) != 1)
+    ssize_t got;
+    if (grow(from) != 0)
         return -1;
-    const int i = head[0], same = head[1];
-    if (i < 0 || i >= w->count || same >= w->count)
+    do
+        got = read(from->from, from->bytes + from->count, from->room - from->count);
+    while (got < 0 && errno == EINTR);
+    if (got <= 0)
         return -1;
-    if (same >= 0) {
-        w->same[i] = same;
-        return i;
-    }
-    if (serialise_read(from->from, cell_of(w, i)) != 0)
-        return -1;
-    mark_done(w, i);
-    return i;
-}
-
-/* 0: copied. */
-static int copy(const cell_result *from, cell_result *to)
-{
-    char *bytes = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&bytes, &size);
-    int bad = out == NULL || serialise_write(out, from) != 0;
-    if (out != NULL)
-        bad |= fclose(out) != 0;
-    FILE *in = bad ? NULL : fmemopen(bytes, size, "rb");
-    bad |= in == NULL || serialise_read(in, to) != 0;
-    if (in != NULL)
-        fclose(in);
-    free(bytes);
-    return bad;
-}
-
-void worker_settle(workload *w)
-{
-    for (int i = 0; i < w->count; i++) {
-        const int same = w->same[i];
-        if (w->done[i] || same < 0 || !w->done[same] || cell_of(w, same)->solve.status != STATUS_OK)
-            continue;
-        if (copy(cell_of(w, same), cell_of(w, i)) == 0)
-            mark_done(w, i);
-    }
+    from->count += (size_t)got;
+    return take_whole(w, from);
 }
 
 static int reap(worker *w)
 {
     int how = 0;
-    fclose(w->from);
-    w->from = NULL;
+    close(w->from);
+    free(w->bytes);
+    w->from = -1;
+    w->bytes = NULL;
     waitpid(w->process, &how, 0);
     return how;
 }
@@ -204,12 +251,13 @@ int worker_bury(workload *w, int self, worker *dead)
     const int how = reap(dead), i = w->board->at[self];
     if (w->together && !dead->stopped && WIFSIGNALED(how) && WTERMSIG(how) == SIGKILL)
         kill(getpid(), SIGKILL);
-    if (i < 0)
-        return dead->stopped;
-    solve_result *r = &cell_of(w, i)->solve;
+    sem_post(&w->board->news); /* in place of what it may have heard */
+    if (i < 0 || w->done[i])
+        return dead->stopped || i >= 0;
+    solve_result *r = &workload_cell(w, i)->solve;
     const int late = child_ended(how, dead->stopped, w->time_limit, r->reason, sizeof r->reason);
     r->status = late ? STATUS_TIME_LIMIT : STATUS_FAULT;
-    mark_done(w, i);
+    workload_done(w, i);
     return 1;
 }
 
@@ -226,7 +274,7 @@ void worker_stop_late(const workload *w, int self, worker *one)
 void worker_end(workload *w, worker *one)
 {
     kill(one->process, SIGKILL);
-    while (worker_receive(w, one) >= 0)
+    while (worker_receive(w, one) != -1)
         ;
     reap(one);
 }

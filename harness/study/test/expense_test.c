@@ -1,4 +1,5 @@
-/* Every cell is a task once; those of the dearest series come first, and of a series the finest. */
+/* Every cell is a task once; those of the dearest series come first, then the others in order, and
+ * of a series the finest. */
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +35,16 @@ static double expense_of(const sweep *s, int index)
     return all;
 }
 
-static void order(void)
+/* Is what goes into the series less than a hundredth of the work of one process? */
+static int is_small(const sweep *s, int jobs, int index)
+{
+    double all = 0;
+    for (int i = 0; i < s->seriess; i++)
+        all += s->series[i].missing[0] == '\0' ? expense_of(s, i) : 0;
+    return expense_of(s, index) < 0.01 * all / jobs;
+}
+
+static void order(int jobs)
 {
     sweep s = {0};
     add("elastica", &s);
@@ -44,8 +54,8 @@ static void order(void)
     const int count = sweep_cells(&s);
     task *tasks = calloc((size_t)count + 1, sizeof *tasks);
     char *met = calloc((size_t)s.seriess * 3 + 1, 1);
-    int elements_free = 0, repeated = 0, cheaper_first = 0, coarser_first = 0;
-    gsl_test(count == 0 || tasks == NULL || met == NULL || expense_order(&s, tasks) != 0,
+    int elements_free = 0, repeated = 0, cheaper_first = 0, coarser_first = 0, small = 0, late = 0;
+    gsl_test(count == 0 || tasks == NULL || met == NULL || expense_order(&s, jobs, tasks) != 0,
              "%d cells in order", count);
     for (int i = 0; i < count; i++) {
         elements_free +=
@@ -55,12 +65,18 @@ static void order(void)
         if (i == 0)
             continue;
         const task *a = &tasks[i - 1], *b = &tasks[i];
-        cheaper_first += expense_of(&s, a->series) < expense_of(&s, b->series);
+        const int before = is_small(&s, jobs, a->series), here = is_small(&s, jobs, b->series);
+        cheaper_first += !here && expense_of(&s, a->series) < expense_of(&s, b->series);
+        late += before && !here;
+        late += before && here && a->series > b->series;
+        small += here;
         coarser_first += a->series == b->series && a->mesh < b->mesh;
     }
     gsl_test_int(elements_free, 0, "more elements cost more");
     gsl_test_int(repeated, 0, "each once");
     gsl_test_int(cheaper_first, 0, "the dearest series first");
+    gsl_test_int(late, 0, "then small ones, as they stand");
+    gsl_test(small == 0 || small > count - 3, "%d cells of %d are in small ones", small, count);
     gsl_test_int(coarser_first, 0, "the finest mesh of a series first");
     gsl_test(strcmp(s.point[s.series[tasks[0].series].point].type->name, "hexapod") != 0,
              "first the one of 144 elements and a path, not %s",
@@ -102,7 +118,8 @@ static void prices(void)
 
 int main(void)
 {
-    order();
+    order(1);
+    order(3);
     counted("bend_45", EXPENSE_load_step, 4);
     counted("warping_torsion", EXPENSE_linear, 1);
     counted("tip_body", EXPENSE_modal, 1);

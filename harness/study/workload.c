@@ -1,0 +1,280 @@
+#include "harness/study/workload.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+
+#include "harness/algebra/clock.h"
+#include "harness/study/expense.h"
+#include "harness/study/noise.h"
+#include "harness/study/serialise.h"
+
+static int is_run(const sweep *s, int i)
+{
+    const series *one = &s->series[i];
+    return one->missing[0] == '\0' && one->imported == NULL &&
+           s->point[one->point].status == STATUS_OK && one->meshes > 0;
+}
+
+static int task_of_noise(const workload *w, int series_index, int repetition)
+{
+    return w->count + NOISE_REPETITIONS * series_index + repetition;
+}
+
+static void list_tasks(workload *w)
+{
+    for (int i = 0; i < w->s->seriess; i++) {
+        const series *one = &w->s->series[i];
+        w->open[i] = is_run(w->s, i) ? one->meshes : 0;
+        w->state[i] = w->open[i] > 0 ? SERIES_CELLS : SERIES_WHOLE;
+        for (int k = 0; k < NOISE_REPETITIONS; k++)
+            w->tasks[task_of_noise(w, i, k)] = (task){i, one->meshes - 1, k + 1};
+    }
+    for (int i = 0; i < w->all; i++)
+        w->waits[i] = w->after[i] = -1;
+    w->due = w->count;
+    w->board->ended = w->due == 0;
+}
+
+/* What comes up later is each task of noise once, and each task by itself once. */
+static board *alloc_board(int all, size_t *size)
+{
+    *size = sizeof(board) + 2 * ((size_t)all + 1) * sizeof(atomic_int);
+    board *out = mmap(NULL, *size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (out == MAP_FAILED)
+        return NULL;
+    if (sem_init(&out->news, 1, 0) != 0) {
+        munmap(out, *size);
+        return NULL;
+    }
+    return out;
+}
+
+status workload_begin(const sweep_request *request, sweep *s, workload *out, fault *f)
+{
+    const int count = sweep_cells(s), all = count + NOISE_REPETITIONS * s->seriess;
+    const size_t room = (size_t)all + 1, serieses = (size_t)s->seriess + 1;
+    *out = (workload){.s = s,
+                      .follower = request->follower,
+                      .time_limit = request->time_limit,
+                      .together = request->together,
+                      .count = count,
+                      .all = all,
+                      .tasks = calloc(room, sizeof *out->tasks),
+                      .done = calloc(room, 1),
+                      .open = calloc(serieses, sizeof *out->open),
+                      .state = calloc(serieses, 1),
+                      .again = calloc(room, sizeof *out->again),
+                      .known = request->share ? claims_alloc(all) : NULL,
+                      .waits = malloc(room * sizeof *out->waits),
+                      .after = malloc(room * sizeof *out->after)};
+    out->board = alloc_board(all, &out->size);
+    if (out->tasks == NULL || out->done == NULL || out->open == NULL || out->state == NULL ||
+        out->again == NULL || out->waits == NULL || out->after == NULL || out->board == NULL ||
+        expense_order(s, request->jobs, out->tasks) != 0)
+        return fault_set(f, STATUS_FAULT, "out of memory for the sweep");
+    list_tasks(out);
+    return STATUS_OK;
+}
+
+void workload_end(workload *w)
+{
+    if (w->again != NULL)
+        for (int i = 0; i < w->all - w->count; i++)
+            cell_result_free(&w->again[i]);
+    if (w->board != NULL) {
+        sem_destroy(&w->board->news);
+        munmap(w->board, w->size);
+    }
+    claims_free(w->known);
+    free(w->tasks);
+    free(w->done);
+    free(w->open);
+    free(w->state);
+    free(w->again);
+    free(w->waits);
+    free(w->after);
+}
+
+/* Task i, number n of a counter: the worker says that it is at it before
+ * it takes it, so that none is lost with a worker that ends in between. 0: somebody else took it.
+ */
+static int take(board *b, int self, atomic_int *counter, int n, int i)
+{
+    b->since[self] = clock_wall_seconds();
+    b->at[self] = i;
+    if (atomic_compare_exchange_strong(counter, &n, n + 1))
+        return 1;
+    b->at[self] = -1;
+    return 0;
+}
+
+int workload_take(const workload *w, int self, int *alone)
+{
+    board *b = w->board;
+    for (;;) {
+        const int ended = b->ended, late = b->taken, next = b->next;
+        if (late < b->later) {
+            const int said = b->came_up[late], i = said < 0 ? ~said : said;
+            *alone = said < 0;
+            if (take(b, self, &b->taken, late, i))
+                return i;
+        } else if (next < w->count) {
+            *alone = 0;
+            if (take(b, self, &b->next, next, next))
+                return next;
+        } else if (ended)
+            return -1;
+        else
+            while (sem_wait(&b->news) != 0 && errno == EINTR)
+                ;
+    }
+}
+
+scene_edit workload_edit(const workload *w, int i)
+{
+    const series *one = &w->s->series[w->tasks[i].series];
+    return w->tasks[i].again > 0 ? noise_words(&one->formulation, w->tasks[i].again - 1)
+                                 : w->s->point[one->point].edit;
+}
+
+cell_result *workload_cell(const workload *w, int i)
+{
+    return i < w->count ? &w->s->series[w->tasks[i].series].cell[w->tasks[i].mesh]
+                        : &w->again[i - w->count];
+}
+
+static void say(workload *w, int said)
+{
+    board *b = w->board;
+    b->came_up[b->later] = said;
+    b->later++;
+    sem_post(&b->news);
+}
+
+static void begin_noise(workload *w, int i)
+{
+    w->state[i] = SERIES_NOISE;
+    w->open[i] = NOISE_REPETITIONS;
+    w->due += NOISE_REPETITIONS;
+    for (int k = 0; k < NOISE_REPETITIONS; k++)
+        say(w, task_of_noise(w, i, k));
+}
+
+/* Of a series; *last: the task that was the last one of it. */
+static void all_done(workload *w, int i, const task *last)
+{
+    series *one = &w->s->series[i];
+    const sweep_follower *to = w->follower;
+    if (last->again == 0 && to != NULL && to->doubts != NULL && to->doubts(to->context, w->s, i)) {
+        begin_noise(w, i);
+        return;
+    }
+    if (last->again > 0)
+        w->out_of_memory |= noise_take(&w->s->point[one->point],
+                                       workload_cell(w, task_of_noise(w, i, 0)), one) != 0;
+    w->state[i] = SERIES_WHOLE;
+}
+
+static void mark(workload *w, int i)
+{
+    const task *t = &w->tasks[i];
+    w->done[i] = 1;
+    w->finished++;
+    if (--w->open[t->series] == 0)
+        all_done(w, t->series, t);
+    if (w->finished < w->due)
+        return;
+    w->board->ended = 1;
+    for (int k = 0; k < WORKERS_MOST; k++)
+        sem_post(&w->board->news);
+}
+
+/* 0: copied. */
+static int copy(const cell_result *from, cell_result *to)
+{
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&bytes, &size);
+    int bad = out == NULL || serialise_write(out, from) != 0;
+    if (out != NULL)
+        bad |= fclose(out) != 0;
+    FILE *in = bad ? NULL : fmemopen(bytes, size, "rb");
+    bad |= in == NULL || serialise_read(in, to) != 0;
+    if (in != NULL)
+        fclose(in);
+    free(bytes);
+    return bad;
+}
+
+/* The answers of another one that is done. What was solved without success is solved by each: each
+ * has its own words for it. */
+static void settle(workload *w, int i, int same)
+{
+    if (workload_cell(w, same)->solve.status == STATUS_OK &&
+        copy(workload_cell(w, same), workload_cell(w, i)) == 0)
+        mark(w, i);
+    else
+        say(w, ~i);
+}
+
+void workload_done(workload *w, int i)
+{
+    if (w->done[i])
+        return;
+    mark(w, i);
+    for (int k = w->waits[i]; k >= 0; k = w->after[k])
+        settle(w, k, i);
+    w->waits[i] = -1;
+}
+
+void workload_same(workload *w, int i, int same)
+{
+    if (w->done[same]) {
+        settle(w, i, same);
+        return;
+    }
+    w->after[i] = w->waits[same];
+    w->waits[same] = i;
+}
+
+double workload_share(const workload *w)
+{
+    double done = 0, all = 0;
+    for (int i = 0; i < w->all; i++) {
+        const task *t = &w->tasks[i];
+        if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
+            continue; /* not asked for, or not yet */
+        const double cost = expense_of_cell(w->s, t->series, t->mesh);
+        all += cost;
+        done += w->done[i] ? cost : 0;
+    }
+    return all > 0 ? done / all : 0;
+}
+
+int workload_can_tell(const workload *w)
+{
+    return w->told < w->s->seriess && w->state[w->told] == SERIES_WHOLE;
+}
+
+status workload_tell(workload *w, fault *f)
+{
+    const int i = w->told++;
+    return w->follower != NULL && w->follower->whole != NULL
+               ? w->follower->whole(w->follower->context, w->s, i, f)
+               : STATUS_OK;
+}
+
+void workload_keep_whole(workload *w)
+{
+    int kept = 0;
+    w->s->unfinished = w->due - w->finished;
+    for (int i = 0; i < w->s->seriess; i++)
+        if (w->state[i] != SERIES_WHOLE)
+            sweep_series_free(&w->s->series[i]);
+        else {
+            w->state[kept] = SERIES_WHOLE;
+            w->s->series[kept++] = w->s->series[i];
+        }
+    w->s->seriess = kept;
+}
