@@ -12,7 +12,7 @@ MOST_WORST = 20  # points that are named
 
 def navigation(site):
     """[(file, title)] of the bar."""
-    return [(site.page_of(sweep), f"sweep of {pathlib.Path(sweep.subject).stem}")
+    return [(site.page_of(sweep), f"sweep of {pathlib.PurePath(sweep.name).stem}")
             for sweep in site.sweeps]
 
 
@@ -33,7 +33,8 @@ def axis_words(part):
 
 def solving(sweep, row):
     """The command that solves a point that was kept."""
-    return f"beamwork solve --scene {shlex.quote(row.scene)} -f {row.formulation} -n {row.elements}"
+    scene = shlex.quote(sweep.scene_of(row))
+    return f"beamwork solve --scene {scene} -f {row.formulation} -n {row.elements}"
 
 
 def worst_rows(sweep):

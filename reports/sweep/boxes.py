@@ -15,6 +15,7 @@ GAIN = 1.2  # of points, for which another condition is taken
 WEIGHT = 3  # of an exception against a point that holds: a box ends before mixed ground
 CLIMBS = (1, 3, 10, 30)  # weights of exceptions on the way up
 ROUNDS = 20  # over all axes
+FINE = 8  # parts of an axis beyond which three axes are tried at every second part first
 WORDS = 6  # up to which all choices of words are tried
 
 
@@ -49,15 +50,26 @@ class Box:
 
 @dataclass(frozen=True)
 class Choices:
-    """All that can be chosen of an axis. member: [choices, parts]; cost: conditions of each."""
+    """All that can be chosen of an axis, simple first. member: [choices, parts]; cost: conditions
+    of each; coarse: rows of those that end at every second part only, where there are many."""
 
     member: np.ndarray
     cost: np.ndarray
+    coarse: np.ndarray
 
-    def only(self, most):
-        """Those of at most so many conditions."""
-        keep = self.cost <= most
-        return Choices(self.member[keep], self.cost[keep])
+    @classmethod
+    def made(cls, member, cost):
+        order = np.argsort(cost, kind="stable")
+        member, cost = np.asarray(member, float)[order], np.asarray(cost)[order]
+        rows = np.arange(len(cost))
+        if member.shape[1] > FINE:
+            ends = np.diff(member, axis=1, prepend=0)
+            rows = rows[(ends[:, 1::2] == 0).all(axis=1)]
+        return cls(member, cost, rows)
+
+    def rows(self, cost):
+        """Those of so many conditions."""
+        return np.flatnonzero(self.cost == cost)
 
 
 def of_words(count):
@@ -66,7 +78,8 @@ def of_words(count):
     member = np.zeros((len(sets), count))
     for row, chosen in zip(member, sets):
         row[list(chosen)] = 1
-    return Choices(member, np.array([int(len(c) < count) for c in sets]))
+    made = Choices.made(member, [int(len(c) < count) for c in sets])
+    return Choices(made.member, made.cost, np.arange(len(sets)))
 
 
 @functools.lru_cache(maxsize=None)
@@ -78,7 +91,7 @@ def of_numbers(count):
             row[low:high + 1] = 1
             member.append(row)
             cost.append((low > 0) + (high < count - 1))
-    return Choices(np.array(member), np.array(cost))
+    return Choices.made(member, cost)
 
 
 def choices_of(parts):
@@ -110,45 +123,50 @@ class Search:
                 table = np.tensordot(table, weights, axes=([axis], [0]))
         return table
 
-    def keep(self, score, cost, rows):
-        """The best of all choices for each number of conditions; rows: {axis: row of each place}.
-        score, cost: of the choices, of one shape."""
-        for k in np.unique(cost):
-            of = np.where(cost == k, score, -np.inf)
+    def keep(self, score, rows, fixed):
+        """The best of all choices for each number of conditions.
+        score: [rows of each axis of rows]; rows: {axis: its choices, simple first}; fixed: {axis:
+        row} of others."""
+        costs = [self.choices[a].cost[r] for a, r in rows.items()]
+        base = sum(int(self.choices[a].cost[r]) for a, r in fixed.items())
+        for kinds in itertools.product(*map(np.unique, costs)):
+            block = tuple(slice(*np.searchsorted(c, [k, k + 1])) for c, k in zip(costs, kinds))
+            of, cost = score[block], base + int(sum(kinds))
             at = np.unravel_index(of.argmax(), of.shape)
-            if of[at] > self.best.get(k, (-np.inf, None))[0]:
-                self.best[k] = of[at], {a: int(row[at]) for a, row in rows.items()}
+            if of[at] > self.best.get(cost, (-np.inf, None))[0]:
+                chosen = {a: int(r[b][i]) for (a, r), b, i in zip(rows.items(), block, at)}
+                self.best[cost] = float(of[at]), fixed | chosen
 
     def one(self, axis, fixed):
         """All choices of an axis, the others as they are; their (good, bad) points."""
         of = self.choices[axis]
         good, bad = (of.member @ self.reduced(t, (axis,), fixed) for t in (self.good, self.bad))
         other = {a: row for a, row in fixed.items() if a != axis}
-        cost = of.cost + sum(int(self.choices[a].cost[row]) for a, row in other.items())
-        rows = {axis: np.arange(len(cost))} | {a: np.full(len(cost), r) for a, r in other.items()}
-        self.keep(scored(good, bad, self.whole), cost, rows)
+        self.keep(scored(good, bad, self.whole), {axis: np.arange(len(of.cost))}, other)
         return good, bad
 
-    def two(self, a, b, c=None):
-        """All choices of two axes, with those of one condition of a third one."""
+    def two(self, a, b):
+        """All choices of two axes."""
         first, second = self.choices[a], self.choices[b]
-        third = np.flatnonzero(self.choices[c].cost == 1) if c is not None else np.zeros(0, int)
-        if c is not None and not len(third):
+        good, bad = (first.member @ self.reduced(t, (a, b), {}) @ second.member.T
+                     for t in (self.good, self.bad))
+        self.keep(scored(good, bad, self.whole),
+                  {a: np.arange(len(first.cost)), b: np.arange(len(second.cost))}, {})
+
+    def three(self, a, b, c):
+        """Coarse choices of two axes with all of one condition of a third one."""
+        rows = {a: self.choices[a].coarse, b: self.choices[b].coarse, c: self.choices[c].rows(1)}
+        if not len(rows[c]):
             return
 
-        def table(of):
-            found = self.reduced(of, (a, b) if c is None else (a, b, c), {})
-            if c is not None:
-                found = np.moveaxis(found, sorted((a, b, c)).index(c), 0)
-                found = np.tensordot(self.choices[c].member[third], found, axes=1)
-            return first.member @ found @ second.member.T
+        def counted(of):
+            table = self.reduced(of, (a, b, c), {})
+            table = np.moveaxis(table, [sorted(rows).index(k) for k in (c, a, b)], (0, 1, 2))
+            table = np.tensordot(self.choices[c].member[rows[c]], table, axes=1)
+            return self.choices[a].member[rows[a]] @ table @ self.choices[b].member[rows[b]].T
 
-        good, bad = table(self.good), table(self.bad)
-        cost = np.broadcast_to(first.cost[:, None] + second.cost + (c is not None), good.shape)
-        places = np.indices(good.shape, sparse=True)
-        rows = {a: places[-2], b: places[-1]} | ({c: third[places[0]]} if c is not None else {})
-        self.keep(scored(good, bad, self.whole), cost,
-                  {axis: np.broadcast_to(row, good.shape) for axis, row in rows.items()})
+        score = scored(counted(self.good), counted(self.bad), self.whole)
+        self.keep(score, {c: rows[c], a: rows[a], b: rows[b]}, {})
 
     def climb(self, weight):
         """One axis after the other, from everything, while exceptions weigh so much: a way to boxes
@@ -172,22 +190,31 @@ class Search:
                 for axis in range(self.good.ndim):
                     self.one(axis, fixed)
 
+    def enough(self):
+        """Is there a box that no further condition gains enough for?"""
+        most = max((score for score, _ in self.best.values()), default=0)
+        return most >= self.good.sum() / GAIN
+
     def run(self):
         axes = range(self.good.ndim)
         self.one(0, {})
-        if 0 in self.best or self.good.sum() < max(FEWEST, LEAST * self.whole):
+        if 0 in self.best or self.good.sum() < max(FEWEST, LEAST * self.whole) * (1 - ALLOWED):
             return
         for a in axes:
             self.one(a, {})
+        if self.enough():
+            return
         for a, b in itertools.combinations(axes, 2):
             self.two(a, b)
+        if len(axes) < 3 or self.enough():
+            return
+        for a, b in itertools.combinations(axes, 2):
             for c in axes:
                 if c not in (a, b):
-                    self.two(a, b, c)
-        for weight in CLIMBS if len(axes) > 2 else ():
+                    self.three(a, b, c)
+        for weight in CLIMBS:
             self.climb(weight)
-        if len(axes) > 3:
-            self.ascend()
+        self.ascend()
 
     def box(self, cost, chosen):
         """What was chosen, as a Box."""

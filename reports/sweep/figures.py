@@ -129,8 +129,9 @@ class Winners:
         won, known = found.wins.sum(axis=0), int(found.known[:, -1].sum())
         self.none, self.known = known - int(won.sum()), known
         spent = found.winner_cost.sum(axis=0)
-        self.shares = sorted(((maps.LETTERS[f % 26], key, int(won[f]), float(spent[f] / won[f]))
-                              for f, key in enumerate(sweep.keys) if won[f]), key=lambda r: -r[2])
+        self.order = [int(f) for f in np.argsort(-won, kind="stable") if won[f]]
+        self.shares = [(maps.LETTERS[k % 26], sweep.keys[f], int(won[f]), float(spent[f] / won[f]))
+                       for k, f in enumerate(self.order)]
         self.ahead = [row for row in self.shares if row[2] >= TOLD * known][:3]
         self.images = self.strip() if len(found.parts) == 1 else self.drawn(axes)
 
@@ -151,8 +152,9 @@ class Winners:
                 for k, (said, group) in enumerate(slices_of(found.parts[axes[2]]))]
 
     def image(self, drawn, wins, known, name, title):
-        state, fill, sign = maps.winners(wins, known, self.sweep.keys)
-        shares = [(key, (state // 2 == f).sum()) for f, key in enumerate(self.sweep.keys)]
+        keys = [key for _, key, *_ in self.shares]
+        state, fill, sign = maps.winners(wins[..., self.order], known, keys)
+        shares = [(key, (state // 2 == k).sum()) for k, key in enumerate(keys)]
         said = ", ".join(f"{key} in {n} fields" for key, n in shares if n)
         return drawn.image(name, drawn.fields(state, fill, sign), title), (
             f"cheapest formulation{', ' + title if title else ''}: {said or 'none'}")

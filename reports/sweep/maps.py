@@ -188,9 +188,10 @@ class Map:
     def image(self, name, drawn, title=""):
         """The Image of what fields() or dots() drew."""
         width = max(self.left + self.size[0] + RIGHT, 7.5 * len(title) + 8)
-        height = TOP + self.size[1] + BELOW
+        above = 0 if title else TOP - 6 if isinstance(self.y, list) else TOP - 22
+        height = TOP + self.size[1] + BELOW - above
         return Image(f"{name}.svg",
-                     f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
+                     f'<svg viewBox="0 {above} {number(width)} {number(height)}" width="{width:.0f}" '
                      f'height="{height:.0f}" fill="currentColor" font-size="11" '
                      f'font-family="{FONT}">{drawn}{self.frame(title)}</svg>')
 

@@ -1,4 +1,5 @@
 """Reads what `beamwork sweep` stored, piece by piece: no more of it is in memory than a piece."""
+import pathlib
 from dataclasses import dataclass
 
 import h5py
@@ -104,6 +105,15 @@ class Sweep:
     def outcomes(self, names):
         """Numbers of the outcomes with these names."""
         return [s for s, name in enumerate(self.statuses) if name in names]
+
+    @property
+    def name(self):
+        """Of its subject, without folders."""
+        return pathlib.PurePath(self.subject).name
+
+    def scene_of(self, worst):
+        """The scene file of a worst point: in a folder beside the sweep."""
+        return str(pathlib.PurePath(self.path).with_suffix(".worst") / worst.scene)
 
     @property
     def cells(self):

@@ -92,11 +92,11 @@ class Pages(ProgramTest):
             return np.where((at[:, 1] > 0.75) & (f == 2), 1, 0)
         page = self.page((WIDTH, ANGLE), status=outcome,
                          kind=lambda at: np.where(at[:, 0] > 0.85, 3, 2), doubt=0.02,
-                         worst=[(49, "beamw", 8, "u", 0.25, "ok", "made_worst/beamw 1.yaml"),
+                         worst=[(49, "beamw", 8, "u", 0.25, "ok", "point 49.yaml"),
                                 (99, "sheet_third", 8, "", np.nan, "not_converged", "")])
         said = text_of(page)
         for words in ("25 %", "width = 5 m, angle = 0.9 rad",
-                      "beamwork solve --scene 'made_worst/beamw 1.yaml' -f beamw -n 8",
+                      f"beamwork solve --scene '{self.folder}/made.worst/point 49.yaml' -f beamw -n 8",
                       "not converged", "limit of the meshes of all: 80",
                       "20 points, chiefly where width ≥ 9 m; nothing is judged there",
                       "80 points to less than 1 %", "angle from 0.7 rad to 0.9 rad",
