@@ -37,7 +37,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
 
     const double end = 1;
-    const int path = scene_add_static(s, 1, &end, 4);
+    const int path = scene_add_static(s, 1, &end, 1);
     static const char *const name[3] = {"u_tangent", "u_radial", "u_load"};
     for (int i = 0; i < 3; i++) {
         scene_quantity *q = scene_add_quantity(s, name[i], "m", path, scene_coordinate(tip, i));

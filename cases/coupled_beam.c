@@ -85,7 +85,7 @@ static void add_helix(scene *s, int tip, const section_spec *spec, double turn)
     const double soft = (k + EIy) / 2 - hypot((k - EIy) / 2, b), size = hypot(b, soft - k);
     scene_add_load(s, SCENE_MOMENT, tip, soft * turn * b / size, soft * turn * (soft - k) / size,
                    0);
-    add_quantities(s, scene_add_static(s, 1, &end, 8), tip, 1);
+    add_quantities(s, scene_add_static(s, 1, &end, 1), tip, 1);
 }
 
 static void add_frequencies(scene *s)

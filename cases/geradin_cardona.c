@@ -18,7 +18,7 @@ static status build(const double value[], scene *s, fault *f)
     const double length = 5;
     cantilever_build(length, &k, s, &root, &tip);
     scene_add_load(s, SCENE_FORCE, tip, 0, -value[LOAD], 0);
-    const int path = cantilever_path(s, 2);
+    const int path = cantilever_path(s);
     cantilever_quantity(s, "tip_x", "m", path, tip, SCENE_UX, 1, length);
     cantilever_quantity(s, "tip_y", "m", path, tip, SCENE_UY, 1, 0);
     cantilever_quantity(s, "theta", "rad", path, tip, SCENE_RZ, -1, 0);

@@ -18,7 +18,7 @@ static status build(const double value[], scene *s, fault *f)
     int root, tip;
     cantilever_build(1, &k, s, &root, &tip);
     scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 2 * PI * value[TURNS]);
-    const int path = cantilever_path(s, 10);
+    const int path = cantilever_path(s);
     cantilever_quantity(s, "tip_gap", "1", path, tip, SCENE_UX, 1, 1);
     s->quantity[s->quantities - 1].near_zero = 1;
     /* a full turn needs more than four elements where a quarter turn is the limit */

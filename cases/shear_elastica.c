@@ -19,7 +19,7 @@ static status build(const double value[], scene *s, fault *f)
     int root, tip;
     cantilever_build(1, &k, s, &root, &tip);
     scene_add_load(s, SCENE_FORCE, tip, 0, 10, 0);
-    const int path = cantilever_path(s, 4);
+    const int path = cantilever_path(s);
     cantilever_quantity(s, "u", "m", path, tip, SCENE_UX, 1, 0);
     cantilever_quantity(s, "v", "m", path, tip, SCENE_UY, 1, 0);
     return STATUS_OK;

@@ -28,7 +28,7 @@ static void add_spring(scene *s, int node, double k)
 static void roll_up(scene *s, int end, double moment)
 {
     scene_add_load(s, SCENE_MOMENT, end, 0, 0, moment);
-    const int path = cantilever_path(s, 8);
+    const int path = cantilever_path(s);
     cantilever_quantity(s, "x", "m", path, end, SCENE_UX, 1, 1);
     cantilever_quantity(s, "y", "m", path, end, SCENE_UY, 1, 0);
 }

@@ -31,7 +31,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 
     const double end = 1;
-    const int twisting = scene_add_static(s, 1, &end, 2);
+    const int twisting = scene_add_static(s, 1, &end, 1);
     scene_add_quantity(s, "moment", "N m", twisting, scene_reaction(tip, SCENE_RX));
     scene_quantity *shortening =
         scene_add_quantity(s, "shortening", "m", twisting, scene_coordinate(tip, SCENE_UX));

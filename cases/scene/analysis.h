@@ -46,7 +46,7 @@ typedef struct scene_rotating_frame {
 /* Static, rotation. */
 typedef struct scene_walk {
     scene_path path;
-    int steps_between; /* first try of load steps from one station to the next; >= 1 */
+    int steps_between; /* load steps from one station to the next, to begin with; >= 1 */
     int modes;         /* rotation: how many to look for at first, of all families together */
     scene_rotating_frame frame;
 } scene_walk;

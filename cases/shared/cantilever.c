@@ -23,10 +23,10 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
     scene_meshes_doubled(s, 1, 32);
 }
 
-int cantilever_path(scene *s, int steps)
+int cantilever_path(scene *s)
 {
     const double end = 1;
-    return scene_add_static(s, 1, &end, steps);
+    return scene_add_static(s, 1, &end, 1);
 }
 
 void cantilever_quantity(scene *s, const char *name, const char *unit, int analysis, int tip,
@@ -40,7 +40,7 @@ void cantilever_quantity(scene *s, const char *name, const char *unit, int analy
 
 void cantilever_bent(scene *s, int tip)
 {
-    const int path = cantilever_path(s, 4);
+    const int path = cantilever_path(s);
     cantilever_quantity(s, "w_over_L", "1", path, tip, SCENE_UY, 1, 0);
     cantilever_quantity(s, "u_over_L", "1", path, tip, SCENE_UX, -1, 0);
     cantilever_quantity(s, "theta", "rad", path, tip, SCENE_RZ, 1, 0);

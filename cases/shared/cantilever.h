@@ -16,7 +16,7 @@ typedef struct cantilever_stiffness {
 void cantilever_build(double length, const cantilever_stiffness *k, scene *s, int *root, int *tip);
 
 /* Adds a static path from 0 to 1 in one station; returns the analysis. */
-int cantilever_path(scene *s, int steps);
+int cantilever_path(scene *s);
 
 /* Adds a quantity of the tip at the end of the path; row: SCENE_UX ..; reported = factor * value +
  * offset. */
@@ -24,7 +24,7 @@ void cantilever_quantity(scene *s, const char *name, const char *unit, int analy
                          int row, double factor, double offset);
 
 /* Deflection, shortening and turn of a tip that is bent in the plane of x and y, all over L = 1 m:
- * the end of a path of four steps. */
+ * the end of a path. */
 void cantilever_bent(scene *s, int tip);
 
 /* What a steady rotation does to a beam of L = 1 m, EI = 1 N m^2: the stretch of its end, the pull

@@ -1,6 +1,8 @@
 /* Nonlinear equilibrium along a path, with steps that adapt. */
 #include "harness/analysis/static.h"
 
+#include <math.h>
+
 #include "harness/analysis/compliance_walk.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/model/kinematics.h"
@@ -33,7 +35,8 @@ status static_walk(newton *n, double target, double *increment, fault *f)
                                          : count->negative_pivots;
             if (n->predictor != NULL)
                 TRY(predictor_add(n->c->model, n->state, record.iterations, n->predictor, f));
-            if (record.iterations <= EASY_ITERATIONS && !last && rejected == 0)
+            if (record.iterations <= EASY_ITERATIONS && rejected == 0 &&
+                to - from >= *increment * (1 - 1e-9))
                 *increment *= 2;
             rejected = 0;
             continue;
@@ -64,7 +67,7 @@ static status sample(newton *n, double path, fault *f)
     return STATUS_OK;
 }
 
-/* Steps to every station, whose states are kept. */
+/* Steps to every station, whose states are kept: none is shorter than before without need. */
 static status walk(newton *n, int analysis, compliance_walk *on_the_way, outcome_path *o, fault *f)
 {
     analysis_context *c = n->c;
@@ -72,9 +75,10 @@ static status walk(newton *n, int analysis, compliance_walk *on_the_way, outcome
     const int between =
         c->options->steps_between > 0 ? c->options->steps_between : a->steps_between;
     const int steps = between > 0 ? between : 1;
+    double increment = 0;
     for (int i = 0; i < a->path.stations; i++) {
         const double from = i > 0 ? a->path.value[i - 1] : 0;
-        double increment = (a->path.value[i] - from) / steps;
+        increment = fmax(increment, (a->path.value[i] - from) / steps);
         TRY(static_walk(n, a->path.value[i], &increment, f));
         if (c->options->newton != SOLVE_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);

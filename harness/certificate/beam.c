@@ -77,7 +77,7 @@ static void add_question(const beam_request *r, scene *s)
         scene_add_load(s, r->load, tip, r->vector[0], r->vector[1], r->vector[2]);
     switch (r->analysis) {
     case BEAM_LARGE:
-        analysis = scene_add_static(s, 1, &end, 8);
+        analysis = scene_add_static(s, 1, &end, 1);
         break;
     case BEAM_BUCKLING:
         analysis = scene_add_buckling(s, SCENE_NONE);

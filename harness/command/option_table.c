@@ -16,7 +16,8 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, output)},
     {"keep-all", 'K', NULL, "leave nothing out: same answer, more work",
      offsetof(command_request, keep_all)},
-    {"steps", 'S', "N", "load steps between two stations of a path, to begin with", 0},
+    {"steps", 'S', "N",
+     "load steps between two stations of a path, to begin with; longer where that goes well", 0},
     {"select", 'k', "EXPRESSION",
      "words joined by and, or, not, in brackets where they belong together; looked for in "
      "case/parameters/formulation/quantity",

@@ -15,7 +15,8 @@ static const scene_key spin[] = {
 
 static const scene_key path[] = {
     {"stations", KEY_NUMBERS, .needed = 1, .summary = "path parameter, ascending"},
-    {"steps", KEY_NUMBER, .summary = "first try between two stations; 1"},
+    {"steps", KEY_NUMBER,
+     .summary = "load steps between two stations, to begin with; longer where that goes well; 1"},
     {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
     {.name = NULL}};
 
@@ -57,7 +58,8 @@ static const scene_key rotation[] = {
     {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
     {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
     {"stations", KEY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending"},
-    {"steps", KEY_NUMBER, .summary = "first try between two stations; 1"},
+    {"steps", KEY_NUMBER,
+     .summary = "load steps between two stations, to begin with; longer where that goes well; 1"},
     {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families"},
     {.name = NULL}};
 

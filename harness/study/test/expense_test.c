@@ -120,7 +120,7 @@ int main(void)
 {
     order(1);
     order(3);
-    counted("bend_45", EXPENSE_load_step, 4);
+    counted("bend_45", EXPENSE_load_step, 1);
     counted("warping_torsion", EXPENSE_linear, 1);
     counted("tip_body", EXPENSE_modal, 1);
     counted("lee_frame", EXPENSE_continuation, 1);
