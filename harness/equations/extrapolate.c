@@ -130,24 +130,36 @@ static void add_weighted(double weight, size_t size, const double x[], double su
         sum[k] += weight * x[k];
 }
 
+enum { PART = 8 };
+
+/* Largest of |sum_i weight[i] x_i - x_count|, x_i = at[i]->block + from, in `size` numbers, and of
+ * `largest`; few at a time, whose sums stay in registers. */
+static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
+                                                               const model_state *const at[],
+                                                               ptrdiff_t from, size_t size,
+                                                               double largest)
+{
+    double sum[PART];
+    for (size_t k = 0; k < size; k++)
+        sum[k] = -at[count]->block[from + (ptrdiff_t)k];
+    for (int i = 0; i < count; i++) {
+        const double *x = at[i]->block + from;
+        for (size_t k = 0; k < size; k++)
+            sum[k] += weight[i] * x[k];
+    }
+    for (size_t k = 0; k < size; k++)
+        largest = fabs(sum[k]) > largest ? fabs(sum[k]) : largest;
+    return largest;
+}
+
 static double largest_error(int count, const double weight[], const model_state *const at[],
                             const double *first, size_t size)
 {
-    enum { PART = 64 };
-    const ptrdiff_t offset = first - at[0]->block;
+    ptrdiff_t from = first - at[0]->block;
     double largest = 0;
-    for (size_t done = 0; done < size; done += PART) {
-        const size_t part = size - done < PART ? size - done : PART;
-        const ptrdiff_t from = offset + (ptrdiff_t)done;
-        double sum[PART];
-        for (size_t k = 0; k < part; k++)
-            sum[k] = -at[count]->block[from + (ptrdiff_t)k];
-        for (int i = 0; i < count; i++)
-            add_weighted(weight[i], part, at[i]->block + from, sum);
-        for (size_t k = 0; k < part; k++)
-            largest = fabs(sum[k]) > largest ? fabs(sum[k]) : largest;
-    }
-    return largest;
+    for (; size >= PART; size -= PART, from += PART)
+        largest = largest_of(count, weight, at, from, PART, largest);
+    return size > 0 ? largest_of(count, weight, at, from, size, largest) : largest;
 }
 
 void extrapolate_errors(const model *m, int most, const model_state *const at[], double error[])

@@ -21,6 +21,9 @@
 
 /* Solutions are refined where round-off would leave less than eight digits. */
 static const double harmless_condition = 1e8;
+/* A condition that was this many times away from it is not estimated again while largest and
+ * smallest pivot are apart by what they were then, within a factor. */
+static const double clear = 30, alike = 2;
 
 /* The free block out of the whole. */
 static void copy_inside(tangent *t)
@@ -95,13 +98,26 @@ static status factor_inside(analysis_context *c, tangent *t, fault *f)
     return outcome;
 }
 
+/* Is the condition above what is harmless? */
+static int asks_refinement(tangent *t)
+{
+    const double apart = factor_count(t->factor).condition;
+    const int clearly = t->condition > clear * harmless_condition ||
+                        t->condition * clear < harmless_condition,
+              same = apart < alike * t->apart && t->apart < alike * apart;
+    if (t->condition == 0 || !clearly || !same) {
+        t->condition = factor_condition(t->factor, &t->inside);
+        t->apart = apart;
+    }
+    return t->condition > harmless_condition;
+}
+
 /* What follows from K and the factors of its free block. */
 static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
                        const double reaction[6], tangent *t, fault *f)
 {
     t->state = s;
-    t->refined =
-        t->condensed != NULL || factor_condition(t->factor, &t->inside) > harmless_condition;
+    t->refined = t->condensed != NULL || asks_refinement(t);
     if (t->refined) {
         TRY(stiffness_parts_geometric(c->model, s, &t->geometric, f));
         loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);

@@ -13,8 +13,10 @@ typedef struct tangent {
     sparse inside;    /* free x free */
     sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
     int refined;      /* 1: the condition asks for it */
-    factor *own;      /* NULL: not needed so far */
-    factor *factor;   /* of `inside`: own, or that of the iteration that it was taken from */
+    /* Of `inside`, as it was estimated last (0: never), and how far its pivots were apart then. */
+    double condition, apart;
+    factor *own;    /* NULL: not needed so far */
+    factor *factor; /* of `inside`: own, or that of the iteration that it was taken from */
     border border;
     int free, all;
     double *residual;
