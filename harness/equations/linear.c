@@ -11,69 +11,11 @@
 #include "harness/equations/ahead.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/linear_springs.h"
-
-typedef struct linear_element {
-    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
-        S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
-} linear_element;
-
-static status evaluate(model *m, int i, linear_element *out)
-{
-    const mesh_element *el = &m->element[i];
-    double e[ELEMENT_MAX_STRAINS] = {0}, inner[1] = {0};
-    node_state x[ELEMENT_MAX_NODES];
-    kinematics_gather(m, m->rest, el, x);
-    ahead_strain(m, i, x, &(strain_output){.e = e, .J = out->J});
-    return ahead_stress(m, i, e,
-                        m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
-                        &(stress_output){.C = out->S});
-}
-
-/* J, S of an element are evaluated once and kept in the model: the undeformed state never changes.
- * (Not once per kind: J of equal elements differs in its last digits.) Without memory for it
- * nothing is kept. */
-static status linear_of(model *m, int i, linear_element *out)
-{
-    const size_t strains = (size_t)m->strains, J = strains * (size_t)m->coordinates,
-                 S = strains * strains;
-    if (m->undeformed == NULL)
-        m->undeformed = calloc((size_t)m->elements * (J + S + 1), sizeof *m->undeformed);
-    double *kept = m->undeformed != NULL ? m->undeformed + (size_t)i * (J + S + 1) : NULL;
-    if (kept != NULL && kept[J + S] != 0) {
-        memcpy(out->J, kept, J * sizeof *kept);
-        memcpy(out->S, kept + J, S * sizeof *kept);
-        return STATUS_OK;
-    }
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
-    TRY(evaluate(m, i, out));
-    if (kept != NULL) {
-        memcpy(kept, out->J, J * sizeof *kept);
-        memcpy(kept + J, out->S, S * sizeof *kept);
-        kept[J + S] = 1;
-    }
-    return STATUS_OK;
-}
+#include "harness/equations/undeformed.h"
 
 static mesh_pattern *pattern_of(model *m, const sparse *a)
 {
     return &m->pattern[a->row == m->pattern[1].matrix.row];
-}
-
-static status not_evaluated(const model *m, int i, status outcome, fault *f)
-{
-    return fault_set(
-        f, outcome, "element %d of member %d: its undeformed state is outside what %s can evaluate",
-        i, m->element[i].member, m->type->name);
-}
-
-/* What no element has yet is evaluated for all together. */
-static void begin(model *m)
-{
-    if (m->undeformed != NULL)
-        return;
-    ahead_strains(m, m->rest, AHEAD_E | AHEAD_J, NULL);
-    ahead_stresses(m, NULL, m->rest->inner);
 }
 
 static status stiffness_elements(model *m, sparse *K, fault *f)
@@ -81,13 +23,11 @@ static status stiffness_elements(model *m, sparse *K, fault *f)
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     sparse_zero(K);
     for (int i = 0; i < m->elements; i++) {
-        linear_element l;
+        undeformed_element l;
         double k[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
-        const status outcome = linear_of(m, i, &l);
-        if (outcome != STATUS_OK)
-            return not_evaluated(m, i, outcome, f);
+        TRY(undeformed_of(m, i, &l, f));
         memset(k, 0, (size_t)(m->coordinates * m->coordinates) * sizeof *k);
-        dense_add_congruence(m->strains, m->coordinates, l.J, l.S, k, work);
+        dense_add_congruence(m->strains, m->coordinates, l.J, l.C, k, work);
         eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
         assemble_matrix(pattern_of(m, K), i, k, K);
     }
@@ -96,7 +36,7 @@ static status stiffness_elements(model *m, sparse *K, fault *f)
 
 status linear_stiffness(model *m, sparse *K, fault *f)
 {
-    begin(m);
+    undeformed_begin(m);
     const status outcome = stiffness_elements(m, K, f);
     ahead_end(m);
     if (outcome == STATUS_OK)
@@ -105,7 +45,8 @@ status linear_stiffness(model *m, sparse *K, fault *f)
 }
 
 /* J x of one element. */
-static void linear_strains(model *m, int i, const linear_element *l, const double x[], double e[])
+static void linear_strains(model *m, int i, const undeformed_element *l, const double x[],
+                           double e[])
 {
     double local[ELEMENT_MAX_COORDINATES];
     kinematics_local(m, m->rest, &m->element[i], x, local);
@@ -115,13 +56,11 @@ static void linear_strains(model *m, int i, const linear_element *l, const doubl
 status linear_stresses(model *m, const double x[], double sigma[], fault *f)
 {
     for (int i = 0; i < m->elements; i++) {
-        linear_element l;
+        undeformed_element l;
         double e[ELEMENT_MAX_STRAINS];
-        const status outcome = linear_of(m, i, &l);
-        if (outcome != STATUS_OK)
-            return not_evaluated(m, i, outcome, f);
+        TRY(undeformed_of(m, i, &l, f));
         linear_strains(m, i, &l, x, e);
-        dense_mul_vec(m->strains, m->strains, l.S, e, &sigma[(size_t)i * (size_t)m->strains]);
+        dense_mul_vec(m->strains, m->strains, l.C, e, &sigma[(size_t)i * (size_t)m->strains]);
     }
     linear_springs_stresses(m, x, sigma + m->elements * m->strains);
     return STATUS_OK;
@@ -191,9 +130,9 @@ status linear_geometric_stiffness(model *m, const double sigma[], double path, s
 /* Sums of the absolute terms of J x and, of S times them, of the stresses of one element. */
 static void linear_terms(model *m, int i, const double x[], double strain[], double stress[])
 {
-    linear_element l;
+    undeformed_element l;
     double local[ELEMENT_MAX_COORDINATES];
-    linear_of(m, i, &l);
+    undeformed_of(m, i, &l, NULL);
     kinematics_local(m, m->rest, &m->element[i], x, local);
     for (int k = 0; k < m->strains; k++) {
         strain[k] = 0;
@@ -203,7 +142,7 @@ static void linear_terms(model *m, int i, const double x[], double strain[], dou
     for (int k = 0; k < m->strains; k++) {
         stress[k] = 0;
         for (int j = 0; j < m->strains; j++)
-            stress[k] += fabs(l.S[k * m->strains + j]) * strain[j];
+            stress[k] += fabs(l.C[k * m->strains + j]) * strain[j];
     }
 }
 
@@ -213,16 +152,16 @@ double linear_strain_rounding(model *m, const double x[])
 {
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
-        linear_element l;
+        undeformed_element l;
         double e[ELEMENT_MAX_STRAINS], terms[ELEMENT_MAX_STRAINS], ignored[ELEMENT_MAX_STRAINS];
-        linear_of(m, i, &l);
+        undeformed_of(m, i, &l, NULL);
         linear_strains(m, i, &l, x, e);
         linear_terms(m, i, x, terms, ignored);
         for (int k = 0; k < m->strains; k++) {
             double sigma = 0, sigma_terms = 0;
             for (int j = 0; j < m->strains; j++) {
-                sigma += l.S[k * m->strains + j] * e[j];
-                sigma_terms += fabs(l.S[k * m->strains + j] * e[j]);
+                sigma += l.C[k * m->strains + j] * e[j];
+                sigma_terms += fabs(l.C[k * m->strains + j] * e[j]);
             }
             sum += DBL_EPSILON * (2 * fabs(sigma) * terms[k] + fabs(e[k]) * sigma_terms);
         }
@@ -234,11 +173,11 @@ double linear_strain_energy2(model *m, const double x[])
 {
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
-        linear_element l;
+        undeformed_element l;
         double e[ELEMENT_MAX_STRAINS];
-        linear_of(m, i, &l);
+        undeformed_of(m, i, &l, NULL);
         linear_strains(m, i, &l, x, e);
-        sum += dense_quadratic(m->strains, l.S, e);
+        sum += dense_quadratic(m->strains, l.C, e);
     }
     return sum + linear_springs_energy2(m, x);
 }

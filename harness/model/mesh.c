@@ -1,4 +1,5 @@
 /* Vertices, elements and the data that identical elements share. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,13 +57,13 @@ static int same_vector(const double a[3], const double b[3])
 }
 
 /* Index of the kind of element of a member with this section, length and curvature; made when it is
- * new. */
+ * new. rounding [m]: of the length. */
 static status kind_of(model *m, const scene_member *member, int profile, double length,
-                      const double curvature[3], int *out, fault *f)
+                      double rounding, const double curvature[3], int *out, fault *f)
 {
     int *end = &m->kind_of_section[profile];
     for (; *end != NONE; end = &m->kind[*end].next)
-        if (fabs(m->kind[*end].length - length) <= 1e-12 * length &&
+        if (fabs(m->kind[*end].length - length) <= 1e-12 * length + rounding &&
             same_vector(m->kind[*end].curvature, curvature) &&
             same_vector(m->kind[*end].strain, member->strain)) {
             *out = *end;
@@ -143,10 +144,11 @@ static status add_element(model *m, const member_arc *along, int member, int num
         for (int i = 1; i <= last; i++)
             memcpy(el->triad[i], el->triad[0], sizeof el->triad[0]);
         m->elements++;
-        return kind_of(m, sm, profile, vec3_norm(between), straight, &el->kind, f);
+        return kind_of(m, sm, profile, vec3_norm(between), 4 * DBL_EPSILON * vec3_norm(position),
+                       straight, &el->kind, f);
     }
     m->elements++;
-    return kind_of(m, sm, profile, a->length / n, a->k, &el->kind, f);
+    return kind_of(m, sm, profile, a->length / n, 0, a->k, &el->kind, f);
 }
 
 /* Warping slot of a member's end: shared by name, own, or none. */

@@ -145,7 +145,8 @@ void model_free(model *m)
     free(m->first_element);
     free(m->driver_coordinate);
     free(m->work);
-    free(m->undeformed);
+    free(m->undeformed.of);
+    free(m->undeformed.value);
     free(m->ahead);
     free(m->part);
     team_free(m->team);

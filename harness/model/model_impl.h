@@ -98,6 +98,14 @@ typedef struct mesh_ahead {
     double *e, *sigma, *J, *H, *C, *memory;
 } mesh_ahead;
 
+/* Derivatives of elements at rest: harness/equations/undeformed.h. */
+typedef struct mesh_undeformed {
+    int *of;         /* [elements] index of its values, or NONE; NULL: nothing is known */
+    int count, room; /* of values */
+    int last;        /* element that the last of them are of */
+    double *value;   /* [room x (J, C)] */
+} mesh_undeformed;
+
 /* One element's equations in model coordinates. */
 typedef struct element_part {
     status outcome;
@@ -134,8 +142,8 @@ struct model {
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
     int work_size;
-    model_state *rest;  /* undeformed */
-    double *undeformed; /* [elements x (J, C, 1 where both are known)] at rest; NULL: none yet */
+    model_state *rest; /* undeformed */
+    mesh_undeformed undeformed;
     element_rotating_frame frame; /* its velocity times the path if that is followed */
     int rotates, rotation_follows_path;
     counters counters;

@@ -1,0 +1,115 @@
+#include "harness/equations/undeformed.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/equations/ahead.h"
+#include "harness/equations/equations_impl.h"
+#include "harness/model/kinematics.h"
+
+/* Elements of a model from which on room is worth more than the last digits of each J. */
+enum { LARGE = 1000, FIRST_ROOM = 16 };
+
+static size_t size_of(const model *m)
+{
+    return (size_t)m->strains * (size_t)(m->coordinates + m->strains);
+}
+
+static status begin(model *m, fault *f)
+{
+    mesh_undeformed *u = &m->undeformed;
+    if (u->of != NULL)
+        return STATUS_OK;
+    u->room = m->elements < LARGE ? m->elements : FIRST_ROOM;
+    u->of = malloc(((size_t)m->elements + 1) * sizeof *u->of);
+    u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
+    if (u->of == NULL || u->value == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
+    for (int i = 0; i < m->elements; i++)
+        u->of[i] = NONE;
+    return STATUS_OK;
+}
+
+/* Is element i as the one whose forms were kept last? Its triads are those of chords between places
+ * that are rounded. */
+static int alike(const model *m, int i)
+{
+    const mesh_element *el = &m->element[i], *last = &m->element[m->undeformed.last];
+    if (m->undeformed.count == 0 || m->elements < LARGE || el->kind != last->kind)
+        return 0;
+    const double same = 1e-12 + 8 * DBL_EPSILON * vec3_norm(m->vertex[el->vertex[0]].position) /
+                                    m->kind[el->kind].length;
+    for (int k = 0; k < m->nodes; k++)
+        for (int j = 0; j < 9; j++)
+            if (!(fabs(el->triad[k][j] - last->triad[k][j]) <= same))
+                return 0;
+    return 1;
+}
+
+static status evaluate(model *m, int i, double J[], double C[])
+{
+    double e[ELEMENT_MAX_STRAINS] = {0}, inner[1] = {0};
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, m->rest, &m->element[i], x);
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    ahead_strain(m, i, x, &(strain_output){.e = e, .J = J});
+    return ahead_stress(m, i, e,
+                        m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
+                        &(stress_output){.C = C});
+}
+
+/* Room for one more. */
+static status grow(model *m, fault *f)
+{
+    mesh_undeformed *u = &m->undeformed;
+    if (u->count < u->room)
+        return STATUS_OK;
+    double *more = realloc(u->value, 2 * (size_t)u->room * size_of(m) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
+    u->value = more;
+    u->room *= 2;
+    return STATUS_OK;
+}
+
+static status make(model *m, int i, fault *f)
+{
+    mesh_undeformed *u = &m->undeformed;
+    if (!alike(m, i)) {
+        TRY(grow(m, f));
+        double *J = u->value + (size_t)u->count * size_of(m);
+        const status outcome = evaluate(m, i, J, J + m->strains * m->coordinates);
+        if (outcome != STATUS_OK)
+            return fault_set(
+                f, outcome,
+                "element %d of member %d: its undeformed state is outside what %s can evaluate", i,
+                m->element[i].member, m->type->name);
+        u->last = i;
+        u->count++;
+    }
+    u->of[i] = u->count - 1;
+    return STATUS_OK;
+}
+
+status undeformed_of(model *m, int i, undeformed_element *out, fault *f)
+{
+    mesh_undeformed *u = &m->undeformed;
+    TRY(begin(m, f));
+    if (u->of[i] == NONE)
+        TRY(make(m, i, f));
+    out->J = u->value + (size_t)u->of[i] * size_of(m);
+    out->C = out->J + m->strains * m->coordinates;
+    return STATUS_OK;
+}
+
+void undeformed_begin(model *m)
+{
+    if (m->undeformed.of != NULL)
+        return;
+    ahead_strains(m, m->rest, AHEAD_E | AHEAD_J, NULL);
+    ahead_stresses(m, NULL, m->rest->inner);
+}

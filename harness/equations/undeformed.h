@@ -1,0 +1,20 @@
+/* Derivatives of elements in the undeformed state, which never changes: evaluated once and kept in
+ * the model. */
+#ifndef BEAMWORK_UNDEFORMED_H
+#define BEAMWORK_UNDEFORMED_H
+
+#include "harness/model/model.h"
+
+/* de/dx [strains x 7 nodes] and dsigma/de [strains x strains]; until the next one is asked for. */
+typedef struct undeformed_element {
+    const double *J, *C;
+} undeformed_element;
+
+/* In large models elements of one kind that follow each other with the same orientation, as far as
+ * rounding of their places lets it be told, are one. FAULT: out of memory. */
+status undeformed_of(model *, int element, undeformed_element *, fault *);
+/* What no element has yet is evaluated for all together, where the formulation can, until
+ * ahead_end. */
+void undeformed_begin(model *);
+
+#endif
