@@ -10,6 +10,7 @@
 #include "harness/record/csv.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
+#include "harness/spread/timing_work.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 #include "harness/tables/table_timing.h"
@@ -68,7 +69,8 @@ static status write_out(const command_request *r, const sweep *s, const judgemen
 }
 
 /* With what bench_request frees. */
-static status measure(command_request *r, truths *t, sweep *s, judgement *j, fault *f)
+static status measure(command_request *r, truths *t, sweep *s, judgement *j, spread_end *end,
+                      fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
     const sweep_request request = {.select = r->select,
@@ -76,15 +78,21 @@ static status measure(command_request *r, truths *t, sweep *s, judgement *j, fau
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
+    int spread;
     TRY(files_check(r, 1, case_input_truths_path(r), f));
     TRY(case_input_truths(r, t, f));
     TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->threads;
-    TRY(run_sweep(&request, s, f));
+    TRY(timing_work_run(r, &request, floor_seconds, s, &spread, end, f));
+    if (end->ended)
+        return STATUS_OK;
+    if (!spread)
+        TRY(run_sweep(&request, s, f));
     TRY(judgement_make(s, t, 0, j, f));
-    if (s->threads <= 1)
+    if (s->threads <= 1 && !spread)
         rounds_pin();
-    TRY(timing_run(s, floor_seconds, r->dense, progress, f));
+    if (!spread)
+        TRY(timing_run(s, floor_seconds, r->dense, progress, f));
     return write_out(r, s, j, f);
 }
 
@@ -93,6 +101,7 @@ static int bench_request(command_request *r)
     truths t = {0};
     sweep s = {0};
     judgement j = {0};
+    spread_end end = {.ended = 0};
     fault f = {""};
     if (r->against != NULL)
         return contest_run(r);
@@ -102,11 +111,12 @@ static int bench_request(command_request *r)
         return message_fail(STATUS_REFUSED, "--error and --keep-all are of --against");
     if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
         return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
-    const status outcome = measure(r, &t, &s, &j, &f);
+    const status outcome = measure(r, &t, &s, &j, &end, &f);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
-    return message_exit(outcome, &f);
+    spread_free(&end);
+    return outcome == STATUS_OK ? end.code : message_exit(outcome, &f);
 }
 
 int cli_bench(int count, char **arguments)
@@ -126,5 +136,5 @@ int cli_bench(int count, char **arguments)
         "\vbeamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
         "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
         "beamwork bench --scene leaf.yaml --against ../before/beamwork",
-        "+fnskFojTAeXDtYK.", count, arguments, bench_request);
+        "+fnskFojTAeXDtYK.Zibw", count, arguments, bench_request);
 }

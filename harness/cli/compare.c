@@ -1,7 +1,9 @@
 #include <stdio.h>
+#include <string.h>
 
 #include "harness/cli/cli.h"
 #include "harness/comparison/comparison.h"
+#include "harness/comparison/results_hash.h"
 #include "harness/record/output.h"
 #include "harness/study/sweep.h"
 
@@ -105,6 +107,24 @@ static status read_runs(const command_request *r, comparison_limits *limits, res
     return r->second == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
+/* A line for each run; of two: are they the same? */
+static int print_hashes(const command_request *r)
+{
+    results_hash h[2] = {{.values = 0}};
+    fault f = {""};
+    if (r->output != NULL || r->threshold != NULL || r->select != NULL)
+        return message_fail(STATUS_REFUSED, "--hash is of whole files: leave -o, -k and "
+                                            "--threshold away");
+    for (int i = 0; i < r->case_count; i++) {
+        if (results_hash_of(r->cases[i], &h[i], &f) != STATUS_OK)
+            return trouble(&f);
+        printf("%s %ld %s\n", h[i].text, h[i].values, r->cases[i]);
+    }
+    if (output_flush(&f) != STATUS_OK)
+        return trouble(&f);
+    return r->case_count == 2 && strcmp(h[0].text, h[1].text) != 0 ? DIFFERS : SAME;
+}
+
 int cli_compare(int count, char **arguments)
 {
     command_request r;
@@ -118,11 +138,16 @@ int cli_compare(int count, char **arguments)
         "of the default points; a former run is never a truth. What one of them was not asked for "
         "(verify -k, -f, --scene) and new formulations in one of them are counted, and no change. "
         "-o with OLD alone writes its short "
-        "table. Exit status: 0 the same within the thresholds, 1 something is worse, better, "
+        "table. --hash: SHA-256 of all that a run says but times, machines and versions, and of "
+        "how "
+        "many values it is; two runs with the same hash say the same. Exit status: 0 the same "
+        "within the thresholds, 1 something is worse, better, "
         "changed, gone or new, 2 trouble (file, usage, nothing in common)."
         "\vbeamwork compare old.h5 new.h5\n"
         "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",
-        "ok2c", count, arguments, &r);
+        "ok2cQ", count, arguments, &r);
+    if (r.hash && r.case_count > 0)
+        return print_hashes(&r);
     if (r.case_name == NULL || (r.second == NULL) != (r.output != NULL))
         return message_fail(
             STATUS_REFUSED,

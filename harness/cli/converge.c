@@ -11,9 +11,9 @@
 #include "harness/record/json_convergence.h"
 #include "harness/record/output.h"
 #include "harness/record/reach_line.h"
+#include "harness/spread/convergence_work.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
-#include "harness/study/run.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table_beside.h"
 #include "harness/tables/table_convergence.h"
@@ -67,7 +67,8 @@ static status write_out(const command_request *r, double level, const sweep *s, 
 }
 
 /* With what converge_request frees. */
-static status converge(command_request *r, const case_type *type, sweep *s, truths *t, fault *f)
+static status converge(command_request *r, const case_type *type, sweep *s, truths *t,
+                       spread_end *end, fault *f)
 {
     const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
@@ -81,7 +82,9 @@ static status converge(command_request *r, const case_type *type, sweep *s, trut
     TRY(narrow_to(s, r->select, f));
     if (s->points > 0)
         case_input_tell_analysis(r, &s->point[0].scene);
-    TRY(run_sweep(&request, s, f));
+    TRY(convergence_work_run(r, &request, s, end, f));
+    if (end->ended)
+        return STATUS_OK;
     TRY(families_add_truths(s, 0, t, f));
     return write_out(r, level, s, t, f);
 }
@@ -106,11 +109,17 @@ static int converge_request(command_request *r)
         return r->refusal;
     if (r->formulations == 0)
         named_add(r, "all");
-    const status outcome = converge(r, type, &s, &t, &f);
+    spread_end end = {.ended = 0};
+    const status outcome = converge(r, type, &s, &t, &end, &f);
     const int nothing = sweep_cells(&s) == 0, solved = has_solution(&s);
     sweep_free(&s);
     truths_free(&t);
     const int code = message_exit(outcome, &f);
+    spread_free(&end);
+    if (code == EXIT_AS_EXPECTED && end.code != 0)
+        return end.code;
+    if (end.ended)
+        return code;
     if (code == EXIT_AS_EXPECTED && nothing)
         return EXIT_NOTHING;
     return code == EXIT_AS_EXPECTED && !solved ? EXIT_DIFFERS : code;
@@ -127,5 +136,5 @@ int cli_converge(int count, char **arguments)
         "elements, or the error given by --error."
         "\vbeamwork converge c_column -k buckling_load\n"
         "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
-        "fnskeFojTYv.", count, arguments, converge_request);
+        "fnskeFojTYv.Zibw", count, arguments, converge_request);
 }

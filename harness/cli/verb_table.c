@@ -34,6 +34,7 @@ static const verb verbs[] = {
     {"stress", cli_stress, "every formulation at extremes: a value, or a named failure"},
     {"element-test", cli_element_test,
      "a formulation against the interface: what to mend, and what it can do"},
+    {"merge", cli_merge, "what shards of verify, stress, converge or bench computed, as one run"},
     {"compare", cli_compare, "two stored runs: what became worse or better"},
     {"exchange", NULL, NULL},
     {"export", cli_export, "a structure as solids, as an input deck of another program"},
@@ -74,7 +75,8 @@ static const manual_row statuses[] = {
     {"2", "refused input"},
     {"3", "nothing was checked"},
     {"4", "file, disk or memory"},
-    {"5", "interrupted: what was judged is in *.partial.*; sweep: the same command goes on"},
+    {"5", "incomplete: interrupted (what was judged is in *.partial.*), or parts are missing; the "
+          "same command goes on"},
     {NULL, NULL},
 };
 static const manual_program about = {

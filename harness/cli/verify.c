@@ -15,7 +15,7 @@
 #include "harness/record/markdown.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
-#include "harness/request/verification.h"
+#include "harness/spread/verification_work.h"
 #include "harness/tables/table_overview.h"
 #include "harness/tables/table_run.h"
 #include "harness/tables/table_unexpected.h"
@@ -162,13 +162,15 @@ static const char *first_file(const command_request *r)
 }
 
 /* What the exit code does not say by itself. */
-static int tell(const command_request *r, const sweep *s, const judgement *j)
+static int tell(const command_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
     const char *file = first_file(r);
     char partial[PATH_MAX];
+    if (e->ended)
+        return e->code;
     if (s->unfinished > 0) {
-        fprintf(stderr, "beamwork: interrupted: %d cells were not done; what was judged is ",
-                s->unfinished);
+        fprintf(stderr, "beamwork: %s: %d cells were not done; what was judged is ",
+                r->partial ? "incomplete" : "interrupted", s->unfinished);
         if (file != NULL && output_partial(file, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
         else
@@ -203,7 +205,7 @@ static status add_beside(const char *path, int gates, sweep *s, fault *f)
 
 /* With what verify_scenes frees. */
 static status run(const command_request *r, const scenes *own, sweep *s, truths *t, judgement *j,
-                  fault *f)
+                  spread_end *end, fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
     const double begun = clock_wall_seconds();
@@ -225,7 +227,9 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
         TRY(files_check_input(r, r->beside[i], f));
     TRY(own_tables_check(r, f));
     TRY(scenes_truths(own, r, t, f));
-    TRY(verification_run(&request, t, s, f));
+    TRY(verification_work_run(r, &request, t, s, end, f));
+    if (end->ended)
+        return STATUS_OK;
     for (int i = 0; i < r->beside_count; i++)
         TRY(add_beside(r->beside[i], r->gate, s, f));
     return judge_and_write(r, s, t, j, begun, f);
@@ -236,9 +240,11 @@ static int verify_scenes(const command_request *r, const scenes *own)
     sweep s = {0};
     truths t = {0};
     judgement j = {0};
+    spread_end end = {.ended = 0};
     fault f = {""};
-    const status outcome = run(r, own, &s, &t, &j, &f);
-    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text) : tell(r, &s, &j);
+    const status outcome = run(r, own, &s, &t, &j, &end, &f);
+    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text) : tell(r, &s, &j, &end);
+    spread_free(&end);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
@@ -266,8 +272,11 @@ int cli_verify(int count, char **arguments)
         "Judges every formulation on every case and parameter point that has a truth. Exit "
         "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
         "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
-        "until then is in files named .partial"
+        "until then is in files named .partial. With --shard K/N --into FOLDER: computes a part, "
+        "0 when all of it is there, 5 when some is missing (start it again); 'beamwork merge' "
+        "judges"
         "\vbeamwork verify -k \"c_column and collocation\"\n"
+        "beamwork verify --shard 1/4 --into parts\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvqpW.", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvqpW.Zibw", count, arguments, verify_request);
 }

@@ -58,7 +58,7 @@ static void refuse_again(command_request *r, int key, const struct argp_state *s
     char message[160];
     while (o->name != NULL && o->key != key)
         o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fxnsYBTWy", key) != NULL)
+    if (o->name == NULL || o->arg == NULL || strchr("fxnsYBTWyb", key) != NULL)
         return;
     for (int i = 0; i < r->given_count; i++)
         if (r->given[i] == key) {
@@ -179,6 +179,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'Y':
         add_path(value, r->most_scenes, r->scene_path, &r->scene_count);
+        return 0;
+    case 'b':
+        add_path(value, COMMAND_MAX_CASES, r->from, &r->from_count);
         return 0;
     case 'T':
         add_truths(r, value);

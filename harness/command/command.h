@@ -14,7 +14,7 @@ enum {
     EXIT_REFUSED = 2,
     EXIT_NOTHING = 3,
     EXIT_FAULT = 4,
-    EXIT_INTERRUPTED = 5
+    EXIT_INTERRUPTED = 5 /* or parts are missing */
 };
 
 enum { COMMAND_MAX_CASES = 64, COMMAND_MAX_FORMULATIONS = 64, COMMAND_MAX_MESHES = SCENE_MESHES };
@@ -61,13 +61,17 @@ typedef struct command_request {
     const char *own_truths[COMMAND_MAX_CASES]; /* tables beside the packed truths */
     const char *findings[COMMAND_MAX_CASES];   /* tables beside the ledger */
     int own_truths_count, findings_count;
-    int takes_tables;   /* 1: --truths may name tables too; the verb lists the key '.' */
-    const char *map;    /* of columns without a header */
-    int gate;           /* 1: their verdicts count */
-    const char *to;     /* program that a deck is for */
-    int schema, keys;   /* 1: describe the keys of scene files as JSON Schema, as a list */
-    int verbose, quiet; /* 1: every limit, only what is unexpected */
-    double plant;       /* share of its time that is added to every run of the other */
+    int takes_tables;         /* 1: --truths may name tables too; the verb lists the key '.' */
+    const char *map;          /* of columns without a header */
+    int gate;                 /* 1: their verdicts count */
+    const char *to;           /* program that a deck is for */
+    int schema, keys;         /* 1: describe the keys of scene files as JSON Schema, as a list */
+    const char *shard, *into; /* K/N of the work, into which folder */
+    const char *from[COMMAND_MAX_CASES]; /* folders with batches, taken instead of computing */
+    int from_count, partial;             /* 1: what is missing is left out */
+    int hash;                            /* 1: of stored runs */
+    int verbose, quiet;                  /* 1: every limit, only what is unexpected */
+    double plant; /* share of its time that is added to every run of the other */
 } command_request;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.

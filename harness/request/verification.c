@@ -11,9 +11,14 @@ static int doubts(void *context, const sweep *s, int series_index)
 
 status verification_run(const sweep_request *request, truths *t, sweep *s, fault *f)
 {
+    TRY(plan_sweep(request, t, s, f));
+    return verification_run_planned(request, t, s, f);
+}
+
+status verification_run_planned(const sweep_request *request, truths *t, sweep *s, fault *f)
+{
     const sweep_follower follower = {.context = t, .doubts = doubts};
     sweep_request followed = *request;
     followed.follower = &follower;
-    TRY(plan_sweep(request, t, s, f));
     return run_sweep(&followed, s, f);
 }

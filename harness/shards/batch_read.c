@@ -59,6 +59,8 @@ static status read_line(FILE *from, const char *path, batch_label *out, long *si
     json_t *label = length > 0 ? json_loadb(line, (size_t)length, 0, NULL) : NULL;
     free(line);
     const int bad = !json_is_object(label) || get_label(label, out) != 0;
+    if (bad)
+        batch_label_free(out);
     *size = bad ? -1 : (long)json_integer_value(json_object_get(label, "size"));
     json_decref(label);
     return bad ? no_batch(path, f) : STATUS_OK;

@@ -225,29 +225,29 @@ void stock_tell_kinds(const stock *s, int times, FILE *to)
                 s->kind[i].node.processor, s->kind[i].node.blas);
 }
 
-/* Of all names the first. Empty: there is none. */
-static status first_name(const char *folder, char out[NAME_MAX + 1], fault *f)
+static int is_batch(const struct dirent *e)
 {
-    out[0] = '\0';
-    DIR *d = opendir(folder);
-    if (d == NULL)
-        return unreadable(folder, f);
-    for (struct dirent *e = readdir(d); e != NULL; e = readdir(d))
-        if (batch_is_name(e->d_name) && (out[0] == '\0' || strcmp(e->d_name, out) < 0))
-            snprintf(out, NAME_MAX + 1, "%s", e->d_name);
-    closedir(d);
-    return STATUS_OK;
+    return batch_is_name(e->d_name);
 }
 
 status stock_first(const char *folder, batch_label *out, fault *f)
 {
-    char name[NAME_MAX + 1], path[PATH_MAX];
+    struct dirent **entry;
+    char path[PATH_MAX];
+    int found = 0;
     memset(out, 0, sizeof *out);
-    TRY(first_name(folder, name, f));
-    if (name[0] == '\0')
-        return fault_set(f, STATUS_REFUSED,
-                         "%.200s: no batches in it; run a verb with --shard K/N --into this folder",
-                         folder);
-    TRY(path_of(folder, name, path, f));
-    return batch_read_label(path, out, f);
+    const int count = scandir(folder, &entry, is_batch, alphasort);
+    if (count < 0)
+        return unreadable(folder, f);
+    for (int i = 0; i < count; i++) {
+        found = found || (path_of(folder, entry[i]->d_name, path, NULL) == STATUS_OK &&
+                          batch_read_label(path, out, NULL) == STATUS_OK);
+        free(entry[i]);
+    }
+    free(entry);
+    return found ? STATUS_OK
+                 : fault_set(f, STATUS_REFUSED,
+                             "%.200s: no batches in it; run a verb with --shard K/N --into this "
+                             "folder",
+                             folder);
 }

@@ -36,7 +36,8 @@ status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
 void stock_missing(const stock *, const work *, char *out, size_t size);
 /* A line for each kind of machine where there are several; times: they were asked for. */
 void stock_tell_kinds(const stock *, int times, FILE *to);
-/* The first batch of a folder, by its name: what merge asks again. REFUSED: there is none. */
+/* The first batch of a folder that can be read, by its name: what merge asks again. REFUSED: there
+ * is none. */
 status stock_first(const char *folder, batch_label *out, fault *f);
 
 #endif

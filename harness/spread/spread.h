@@ -1,0 +1,23 @@
+/* Work of a verb that is computed as a shard, or taken from batches, as the command line asks. */
+#ifndef BEAMWORK_SPREAD_H
+#define BEAMWORK_SPREAD_H
+
+#include "harness/command/command.h"
+#include "harness/shards/work.h"
+
+/* How it ended. */
+typedef struct spread_end {
+    int ended; /* 1: there is nothing to judge, and this is ... */
+    int code;  /* ... the exit status */
+    int batches;
+    char *taken; /* [batches] of a merge; spread_free releases it */
+} spread_end;
+
+/* 1: --into, --shard or --from were given. REFUSED: what does not go together. */
+status spread_asked(const command_request *r, int *asked, fault *f);
+/* Computes the shard and says what became of it, or takes the batches. times: 1 where machines
+ * matter, and one process computes at a time. */
+status spread_work(const command_request *r, const work *w, int times, spread_end *out, fault *f);
+void spread_free(spread_end *);
+
+#endif
