@@ -6,6 +6,7 @@ static status run(const sweep_work *of, sweep *part, fault *f)
 {
     sweep_request alone = *of->request;
     alone.jobs = 1;
+    alone.together = 1;
     alone.progress = NULL;
     return run_sweep(&alone, part, f);
 }

@@ -7,6 +7,7 @@ static status run(const sweep_work *of, sweep *part, fault *f)
 {
     sweep_request alone = *of->request;
     alone.jobs = 1;
+    alone.together = 1;
     alone.progress = NULL;
     TRY(run_sweep(&alone, part, f));
     if (part->threads <= 1)

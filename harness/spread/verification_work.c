@@ -8,6 +8,7 @@ static status run(const sweep_work *of, sweep *part, fault *f)
 {
     sweep_request alone = *of->request;
     alone.jobs = 1;
+    alone.together = 1;
     alone.interruptible = 0;
     alone.progress = NULL;
     return verification_run_planned(&alone, of->t, part, f);
