@@ -54,21 +54,19 @@ class Answer:
 
     def same(self):
         """What answers have in common that are told together."""
-        return (self.first.mesh, self.first.box.chosen) if self.first else (self.absent,
+        return (self.first.mesh, self.first.box.lattice, self.first.box.chosen) if self.first else (self.absent,
                                                                            self.of[-1].reached)
 
 
 def ranges(found, meshes, f, q):
     """[Range] of a formulation and a quantity for every mesh."""
-    reach, out = found.reach[:, f, q], []
+    reach, out = [table[:, f, q] for table in found.reaches], []
     for m, n in enumerate(meshes):
-        good = reach[:, :m + 1].sum(axis=1)
-        if out and good.sum() == out[-1].reached:
-            out.append(Range(n, out[-1].box, out[-1].reached, out[-1].known))
-            continue
-        bad = reach.sum(axis=1) - good
-        box = boxes.largest(found.parts, good.reshape(found.shape), bad.reshape(found.shape))
-        out.append(Range(n, box, int(good.sum()), int(reach.sum())))
+        counts = [(r[:, :m + 1].sum(axis=1), r[:, m + 1:].sum(axis=1)) for r in reach]
+        reached, known = int(counts[0][0].sum()), int(reach[0].sum())
+        same = out and out[-1].reached == reached
+        box = out[-1].box if same else boxes.largest(found.lattices, counts)
+        out.append(Range(n, box, reached, known))
     return out
 
 
@@ -91,7 +89,7 @@ def of_sweep(sweep, found):
     told = [(a, r) for a in made for r in a.told]
     asked = [(r.box, sweep.keys.index(a.key), len(sweep.quantities), sweep.meshes.index(r.mesh))
              for a, r in told]
-    for (_, r), named in zip(told, gather.exceptions(sweep, found.parts, asked)):
+    for (_, r), named in zip(told, gather.exceptions(sweep, asked)):
         r.exceptions = named
     most = max((a.first.good for a in made if a.first), default=0)
 
@@ -163,7 +161,7 @@ def unknown(sweep, found, q):
     without = found.points - known
     if not without.any():
         return 0, None
-    box = boxes.largest(found.parts, without.reshape(found.shape), known.reshape(found.shape))
+    box = boxes.largest(found.lattices[:1], [(without, known)])
     return int(without.sum()), box
 
 

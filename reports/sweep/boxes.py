@@ -4,7 +4,7 @@ A box has for each axis nothing, a bound, two bounds, or some words. Each bound 
 so are words. One with more conditions is taken only where it has many more points."""
 import functools
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,9 +21,10 @@ WORDS = 6  # up to which all choices of words are tried
 
 @dataclass(frozen=True)
 class Box:
-    """chosen: for each axis None or the indices of its parts; good, bad: points that hold and do
-    not; whole: points that are asked in all; conditions: their number."""
+    """lattice: of whose columns is chosen None, or the indices of their parts; good, bad: points
+    that hold and do not; whole: points that are asked in all; conditions: their number."""
 
+    lattice: object = field(repr=False)
     chosen: tuple
     good: int
     bad: int
@@ -39,12 +40,12 @@ class Box:
         """Of all points."""
         return self.points / self.whole if self.whole else 0.0
 
-    def holds(self, index):
-        """Which points lie in it; index: of parts [points, axes]."""
-        inside = np.ones(len(index), bool)
-        for axis, chosen in enumerate(self.chosen):
+    def holds(self, at):
+        """Which points lie in it; at: [points, axes]."""
+        inside = np.ones(len(at), bool)
+        for chosen, index in zip(self.chosen, self.lattice.index(at).T):
             if chosen is not None:
-                inside &= np.isin(index[:, axis], chosen)
+                inside &= np.isin(index, chosen)
         return inside
 
 
@@ -106,11 +107,12 @@ def scored(good, bad, whole):
 
 
 class Search:
-    """good, bad: points of each cell [parts of each axis]."""
+    """good, bad: points of each cell of a lattice [cells]."""
 
-    def __init__(self, parts, good, bad):
-        self.good, self.bad = good.astype(float), bad.astype(float)
-        self.choices = [choices_of(p) for p in parts]
+    def __init__(self, lattice, good, bad):
+        self.lattice = lattice
+        self.good, self.bad = (t.reshape(lattice.shape).astype(float) for t in (good, bad))
+        self.choices = [choices_of(p) for p in lattice.parts]
         self.whole = int(good.sum() + bad.sum())
         self.best = {}  # conditions: (score, {axis: row of its choices})
 
@@ -223,18 +225,24 @@ class Search:
         for axis, row in chosen.items():
             if self.choices[axis].cost[row]:
                 parts[axis] = tuple(np.flatnonzero(self.choices[axis].member[row]).tolist())
-        return Box(tuple(parts), round(good), round(bad), self.whole, int(cost))
+        return Box(self.lattice, tuple(parts), round(good), round(bad), self.whole, int(cost))
 
 
-def largest(parts, good, bad):
-    """The Box, or None where points hold in no box that is worth a sentence."""
-    search = Search(parts, good, bad)
-    if not search.whole:
-        return None
-    search.run()
+def candidates(lattice, good, bad):
+    """[Box], the best for each number of conditions."""
+    search = Search(lattice, good, bad)
+    if search.whole:
+        search.run()
+    return [search.box(cost, chosen) for cost, (_, chosen) in sorted(search.best.items())]
+
+
+def largest(lattices, counts):
+    """The Box, or None where points hold in no box that is worth a sentence.
+    counts: [(good, bad)] of the cells of each lattice; the first one is preferred."""
+    every = [box for lattice, (good, bad) in zip(lattices, counts)
+             for box in candidates(lattice, good, bad)]
     found = None
-    for cost in sorted(search.best):
-        box = search.box(cost, search.best[cost][1])
+    for box in sorted(every, key=lambda b: b.conditions):
         if found is None or box.good >= GAIN * found.good:
             found = box
     return found

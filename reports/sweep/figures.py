@@ -6,7 +6,7 @@ from reports.chart import Chart
 from reports.sweep import gather, maps, words
 
 MOST_DOTS = 400  # scattered points that are drawn one by one
-SLICES = 4  # maps side by side over a third axis
+SLICES, WORDS = 4, 6  # maps side by side over a third axis of numbers, of words
 NARROW = 170  # width of a map that stands beside others, pixels
 TOLD = 0.01  # share of the points for which the cheapest one is told first
 FLOOR = 1e-12  # of errors that are drawn
@@ -33,9 +33,8 @@ def by_influence(found):
 
 def slices_of(part):
     """[(words, parts)] of a third axis: its parts, few of them together."""
-    groups = np.array_split(np.arange(len(part)), min(SLICES, len(part)))
-    if part.axis.words:
-        groups = [[i] for i in range(len(part))]
+    most = WORDS if part.axis.words else SLICES
+    groups = np.array_split(np.arange(len(part)), min(most, len(part)))
     return [(words.condition(part, list(g)) if len(g) < len(part) else part.axis.name, list(g))
             for g in groups]
 
@@ -122,13 +121,15 @@ class Validity:
 class Winners:
     """Who is the cheapest within the tolerance. images: [(Image, alt)]; shares: [(letter,
     formulation, points won, mean cost there, s)], most first; ahead: those of them that are told
-    first; none: points where nobody is, of so many known."""
+    first; none: points where nobody is, of so many known; unranked: formulations without costs of
+    counted work."""
 
     def __init__(self, sweep, found, axes):
         self.sweep, self.found = sweep, found
         won, known = found.wins.sum(axis=0), int(found.known[:, -1].sum())
         self.none, self.known = known - int(won.sum()), known
         spent = found.winner_cost.sum(axis=0)
+        self.unranked = [key for key, a in zip(sweep.keys, found.ranked) if not a]
         self.order = [int(f) for f in np.argsort(-won, kind="stable") if won[f]]
         self.shares = [(maps.LETTERS[k % 26], sweep.keys[f], int(won[f]), float(spent[f] / won[f]))
                        for k, f in enumerate(self.order)]

@@ -11,9 +11,10 @@ NAMED = 3  # exceptions of a box that are kept, the worst ones
 
 @dataclass
 class Gathered:
-    """F formulations, M meshes, Q quantities and their whole, C cells.
+    """F formulations, M meshes, Q quantities and their whole, C cells of the first lattice.
 
-    reach: points by the first mesh from which on all are within the tolerance [C, F, Q+1, M+2]; M:
+    reaches: for each lattice, points by the first mesh from which on all are within the tolerance
+    [C, F, Q+1, M+2], of which the first is also reach; M:
     none, M+1: none, and the finest mesh has no solution. Only points at which the formulation is
     measured. known: points with a reference [C, Q+1]. worst: largest error [C, F, Q+1, M], infinite
     without a solution, -1 where nothing is measured.
@@ -21,10 +22,11 @@ class Gathered:
     quantities, and the sum of what that costs, s [C, F]. kinds: references by kind [Q, kinds];
     doubt: largest relative one [Q]; doubtful: references whose doubt exceeds the tolerance [Q];
     status: cells by outcome [F, M, S]; failed: least and largest value of each axis where an
-    outcome occurs [F, S, 2, A]; points: all [C]."""
+    outcome occurs [F, S, 2, A]; points: all [C]; ranked: has a formulation costs of counted work at
+    any point? [F]"""
 
-    parts: list
-    reach: np.ndarray
+    lattices: list
+    reaches: list
     known: np.ndarray
     worst: np.ndarray
     wins: np.ndarray
@@ -35,6 +37,16 @@ class Gathered:
     status: np.ndarray
     failed: np.ndarray
     points: np.ndarray
+    ranked: np.ndarray
+
+    @property
+    def reach(self):
+        return self.reaches[0]
+
+    @property
+    def parts(self):
+        """Of all axes."""
+        return self.lattices[0].parts
 
     @property
     def judged(self):
@@ -43,28 +55,20 @@ class Gathered:
 
     @property
     def shape(self):
-        return tuple(len(p) for p in self.parts)
+        return self.lattices[0].shape
 
 
-def empty(sweep, parts):
-    cells = int(np.prod([len(p) for p in parts]))
+def empty(sweep, lattices):
+    cells = lattices[0].cells
     f, m, q, s = (len(x) for x in (sweep.keys, sweep.meshes, sweep.quantities, sweep.statuses))
-    failed = np.full((f, s, 2, len(parts)), np.inf)
+    failed = np.full((f, s, 2, len(sweep.axes)), np.inf)
     failed[:, :, 1] = -np.inf
-    return Gathered(parts, np.zeros((cells, f, q + 1, m + 2), np.int32),
-                    np.zeros((cells, q + 1), np.int32),
+    reaches = [np.zeros((each.cells, f, q + 1, m + 2), np.int32) for each in lattices]
+    return Gathered(lattices, reaches, np.zeros((cells, q + 1), np.int32),
                     np.full((cells, f, q + 1, m), -1, np.float32), np.zeros((cells, f), np.int32),
                     np.zeros((cells, f)), np.zeros((q, len(sweep.kinds)), np.int64), np.zeros(q),
                     np.zeros(q, np.int64), np.zeros((f, m, s), np.int64), failed,
-                    np.zeros(cells, np.int32))
-
-
-def cell_of(parts, at):
-    """The cell of each point."""
-    found = np.zeros(len(at), np.int64)
-    for part, values in zip(parts, at.T):
-        found = found * len(part) + part.index(values)
-    return found
+                    np.zeros(cells, np.int32), np.zeros(f, bool))
 
 
 def known_in(sweep, piece):
@@ -103,6 +107,7 @@ def reached_in(sweep, piece, asked):
 
 def take_winners(into, sweep, piece, cell, asked, reached):
     """Who is the cheapest within the tolerance in all quantities."""
+    into.ranked |= np.isfinite(piece.cost).any(axis=(0, 2))
     count = len(sweep.meshes)
     mesh = np.minimum(reached[:, :, -1], count - 1)
     cost = np.take_along_axis(piece.cost, mesh[..., None], axis=2)[..., 0]
@@ -133,17 +138,23 @@ def take_outcomes(into, sweep, piece):
                                      np.maximum(high, piece.at[points].max(axis=0)))
 
 
-def take(into, sweep, piece):
-    """Adds some points."""
-    asked, cell = asked_in(sweep, piece), cell_of(into.parts, piece.at)
-    reached = reached_in(sweep, piece, asked)
-    _, f, q, classes = into.reach.shape
-    np.add.at(into.points, cell, 1)
-    np.add.at(into.known, cell, known_in(sweep, piece))
+def count(reach, cell, asked, reached):
+    """Adds points to a table of what is reached."""
+    _, f, q, classes = reach.shape
     flat = ((cell[:, None, None] * f + np.arange(f)[None, :, None]) * q +
             np.arange(q)[None, None, :]) * classes + reached
-    counted = np.bincount(flat[asked], minlength=into.reach.size)
-    into.reach += counted.astype(np.int32).reshape(into.reach.shape)
+    counted = np.bincount(flat[asked], minlength=reach.size)
+    reach += counted.astype(np.int32).reshape(reach.shape)
+
+
+def take(into, sweep, piece):
+    """Adds some points."""
+    asked, cells = asked_in(sweep, piece), [each.cell_of(piece.at) for each in into.lattices]
+    reached, cell = reached_in(sweep, piece, asked), cells[0]
+    np.add.at(into.points, cell, 1)
+    np.add.at(into.known, cell, known_in(sweep, piece))
+    for reach, own in zip(into.reaches, cells):
+        count(reach, own, asked, reached)
     order = np.argsort(cell, kind="stable")
     starts = np.flatnonzero(np.diff(cell[order], prepend=-1))
     most = np.maximum.reduceat(errors_in(piece, asked)[order], starts, axis=0)
@@ -170,17 +181,16 @@ class Outlier:
     error: float
 
 
-def exceptions(sweep, parts, boxes):
+def exceptions(sweep, boxes):
     """The worst points that contradict boxes: [[Outlier]] for [(box, f, q, m)]."""
     found = [[] for _ in boxes]
     wanted = [i for i, (box, *_) in enumerate(boxes) if box.bad]
     for piece in sweep.pieces() if wanted else ():
         known = asked_in(sweep, piece)
         reached, errors = reached_in(sweep, piece, known), errors_in(piece, known)
-        index = np.stack([p.index(v) for p, v in zip(parts, piece.at.T)], axis=1)
         for i in wanted:
             box, f, q, m = boxes[i]
-            out = np.flatnonzero(box.holds(index) & known[:, f, q] & (reached[:, f, q] > m))
+            out = np.flatnonzero(box.holds(piece.at) & known[:, f, q] & (reached[:, f, q] > m))
             worst = errors[out, f, q, m:].max(axis=1)
             for k in out[np.argsort(-worst, kind="stable")[:NAMED]]:
                 found[i].append(Outlier(piece.first + int(k), piece.at[k],

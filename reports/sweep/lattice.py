@@ -1,13 +1,17 @@
 """Points of a sweep in cells: every axis is cut into few parts, so that any number of points takes
 the same memory. Parts hold whole values of a grid; those of scattered points end at short numbers.
 """
+import itertools
 import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from reports.sweep import stored
+
 MOST = 20  # parts of an axis
 CELLS = 1_500_000  # numbers that are kept of all cells together
+RATIOS = 6  # of two axes that are tried
 EACH = 4  # scattered points in a cell of two axes, in the mean
 AXES = 8  # that are cut; of more the others are one part each
 LEVELS = 4096  # different values by which an axis counts as a grid
@@ -41,6 +45,38 @@ class Parts:
         return f"{self.low[part]:.3g} to {self.high[part]:.3g}"
 
 
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """Cells of some columns. columns: an axis (i,), or the ratio of two (i, j); parts: of each."""
+
+    columns: tuple
+    parts: tuple
+
+    @property
+    def shape(self):
+        return tuple(len(p) for p in self.parts)
+
+    @property
+    def cells(self):
+        return int(np.prod(self.shape))
+
+    def index(self, at):
+        """The part of each point in each column [points, columns]; at: [points, axes]."""
+        return np.stack([p.index(values_of(c, at)) for c, p in zip(self.columns, self.parts)], 1)
+
+    def cell_of(self, at):
+        """The cell of each point."""
+        found = np.zeros(len(at), np.int64)
+        for k, part in enumerate(self.index(at).T):
+            found = found * len(self.parts[k]) + part
+        return found
+
+
+def values_of(column, at):
+    """Values of a column at points [points, axes]."""
+    return at[:, column[0]] / at[:, column[1]] if len(column) > 1 else at[:, column[0]]
+
+
 @dataclass
 class Extent:
     """What an axis takes: its different values while they are few, least and largest one."""
@@ -66,7 +102,7 @@ def parts_of(axis, extent, most):
     if axis.words:
         number = np.arange(len(axis.words), dtype=float)
         return Parts(axis, number, number, number[1:] - 0.5, True, levels=number)
-    if not axis.scattered and len(extent.levels) <= LEVELS:
+    if not axis.scattered and axis.kind != "ratio" and len(extent.levels) <= LEVELS:
         groups = np.array_split(extent.levels, min(most, len(extent.levels)))
         low, high = (np.array([g[k] for g in groups]) for k in (0, -1))
         middle = np.sqrt(low[1:] * high[:-1]) if axis.log else (low[1:] + high[:-1]) / 2
@@ -91,12 +127,43 @@ def most_parts(sweep):
     return max(2, most)
 
 
-def of_sweep(sweep):
-    """[Parts] of all axes: one pass over the points."""
-    extents = [Extent(np.zeros(0)) for _ in sweep.axes]
+def ratios_of(sweep, extents):
+    """Columns of ratios that may say more than their axes: of one unit, all values positive."""
+    pairs = []
+    for i, j in itertools.combinations(range(min(AXES, len(sweep.axes))), 2):
+        a, b = sweep.axes[i], sweep.axes[j]
+        same = a.unit == b.unit and a.unit not in ("", "1") and not (a.words or b.words)
+        if same and min(extents[i].low, extents[j].low) > 0:
+            pairs.append((i, j) if extents[i].high >= extents[j].high else (j, i))
+    return pairs[:RATIOS]
+
+
+def with_ratio(sweep, parts, pair, extent):
+    """The lattice of a ratio and the axes that are not in it."""
+    names = "/".join(sweep.axes[k].name for k in pair)
+    axis = stored.Axis(names, "1", "ratio", 0, True)
+    rest = [k for k in range(len(parts)) if k not in pair]
+    most = 2 * max(len(parts[k]) for k in pair)  # one column in the place of two
+    return Lattice((pair, *((k,) for k in rest)),
+                   (parts_of(axis, extent, most), *(parts[k] for k in rest)))
+
+
+def extents_of(sweep, columns):
+    found = [Extent(np.zeros(0)) for _ in columns]
     for at in sweep.points_only():
-        for extent, values in zip(extents, at.T):
-            extent.take(values)
+        for extent, column in zip(found, columns):
+            extent.take(values_of(column, at))
+    return found
+
+
+def of_sweep(sweep):
+    """[Lattice], all axes first, then those with a ratio: two passes over the points."""
+    columns = tuple((k,) for k in range(len(sweep.axes)))
+    extents = extents_of(sweep, columns)
     most = most_parts(sweep)
-    return [parts_of(a, e, most if i < AXES else 1)
-            for i, (a, e) in enumerate(zip(sweep.axes, extents))]
+    parts = tuple(parts_of(a, e, most if i < AXES else 1)
+                  for i, (a, e) in enumerate(zip(sweep.axes, extents)))
+    pairs = ratios_of(sweep, extents)
+    found = extents_of(sweep, pairs) if pairs else []
+    return [Lattice(columns, parts),
+            *(with_ratio(sweep, parts, pair, extent) for pair, extent in zip(pairs, found))]

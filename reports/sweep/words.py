@@ -65,13 +65,14 @@ def condition(part, chosen):
     return f"{axis.name} {said[0][0]} {said[0][1]:.4g}{unit}"
 
 
-def conditions(parts, box: Box):
+def conditions(box: Box):
     """All of a box: empty where it is everywhere."""
-    return " and ".join(condition(p, c) for p, c in zip(parts, box.chosen) if c is not None)
+    return " and ".join(condition(p, c) for p, c in zip(box.lattice.parts, box.chosen)
+                        if c is not None)
 
 
-def where(parts, box):
-    return f"where {conditions(parts, box)}" if box.conditions else "everywhere"
+def where(box):
+    return f"where {conditions(box)}" if box.conditions else "everywhere"
 
 
 def held(box):

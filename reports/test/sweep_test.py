@@ -15,8 +15,8 @@ SHAPE = ("shape", "1", "words", ("C", "box", "strip"))
 QUANTITIES = (("u", "m"), ("v", "m"))
 
 
-def parts_of(*axes):
-    """Axes as the parts that a grid of few values has."""
+def lattice_of(*axes):
+    """The cells of a grid of few values."""
     out = []
     for name, unit, kind, values in axes:
         axis = stored.Axis(name, unit, kind, len(values), False,
@@ -24,18 +24,17 @@ def parts_of(*axes):
         extent = lattice.Extent(np.zeros(0))
         extent.take(np.arange(len(values), dtype=float) if kind == "words" else values)
         out.append(lattice.parts_of(axis, extent, lattice.MOST))
-    return out
+    return lattice.Lattice(tuple((k,) for k in range(len(axes))), tuple(out))
 
 
 class Boxes(unittest.TestCase):
 
     def largest(self, axes, holds):
         """The box, and its words, of grid points that hold by their indices."""
-        parts = parts_of(*axes)
-        shape = tuple(len(p) for p in parts)
-        good = np.array([holds(*at) for at in itertools.product(*map(range, shape))], int)
-        box = boxes.largest(parts, good.reshape(shape), 1 - good.reshape(shape))
-        return box, box and words.where(parts, box)
+        cells = lattice_of(*axes)
+        good = np.array([holds(*at) for at in itertools.product(*map(range, cells.shape))], int)
+        box = boxes.largest([cells], [(good, 1 - good)])
+        return box, box and words.where(box)
 
     def test_everywhere(self):
         box, said = self.largest((WIDTH, ANGLE), lambda i, j: 1)
@@ -89,14 +88,14 @@ class Boxes(unittest.TestCase):
         draw = np.random.default_rng(3)
         for _ in range(20):
             table = draw.random((5, 6)) < np.add.outer(np.arange(5), np.arange(6)) / 6
-            parts = parts_of(("x", "1", "linear", np.arange(5.0)),
-                             ("y", "1", "linear", np.arange(6.0)))
+            cells = lattice_of(("x", "1", "linear", np.arange(5.0)),
+                               ("y", "1", "linear", np.arange(6.0)))
             best = -np.inf
             for (a, b), (c, d) in itertools.product(
                     itertools.combinations(range(6), 2), itertools.combinations(range(7), 2)):
                 part = table[a:b, c:d]
                 best = max(best, float(boxes.scored(part.sum(), (~part).sum(), 30)))
-            search = boxes.Search(parts, table.astype(int), 1 - table)
+            search = boxes.Search(cells, table.astype(int), 1 - table)
             search.run()
             found = max((score for score, _ in search.best.values()), default=-np.inf)
             self.assertEqual(found, best)
@@ -136,7 +135,7 @@ class Counts(ProgramTest):
     def check(self, sweep):
         found = gather.of_sweep(sweep)
         piece, = sweep.pieces()
-        cell = gather.cell_of(found.parts, piece.at)
+        cell = found.lattices[0].cell_of(piece.at)
         reach = np.zeros((len(found.points), 3, 6), int)
         worst = np.full((len(found.points), 3, 4), -1.0)
         cost = np.full((sweep.points, 3), np.inf)
@@ -200,6 +199,29 @@ class Counts(ProgramTest):
         first, second = answers.of_sweep(sweep, found)
         self.assertEqual((first.key, first.first.box.good), ("collocation", 100))
         self.assertIsNone(second.first)
+
+    def test_a_ratio(self):
+        """Of two axes of one unit, where it says more than the axes do; its counts are those of the
+        points, and so is the exception."""
+        axes = (("length", "m", "sobol", "linear"), ("width", "m", "sobol", "linear"), ANGLE)
+        points = sweeps.scattered(3000, (1, 10), (1, 4), (0, 0.9))
+
+        def errors(at, n):
+            length, width = 1 + 9 * at[:, 0], 1 + 3 * at[:, 1]
+            return np.where((length < 2 * width) | (at[:, 2] > 0.7), 0.5, 0.001)
+        sweep = stored.read(sweeps.store(self.folder / "r.h5", axes, points, {"beamw": errors}))
+        found = gather.of_sweep(sweep)
+        made, = answers.of_sweep(sweep, found)
+        box = made.first.box
+        self.assertRegex(words.where(box), r"^where length/width ≥ [12]\.\d+ and angle ≤ 0\.\d+ rad$")
+        inside = box.holds(points)
+        good = (points[:, 0] >= 2 * points[:, 1]) & (points[:, 2] <= 0.7 * 0.9)
+        self.assertEqual((box.good, box.bad), ((inside & good).sum(), (inside & ~good).sum()))
+        self.assertGreater(box.good, 0.85 * good.sum())
+        for each in found.reaches:
+            self.assertEqual(each[:, 0, 0].sum(), 3000)
+        for outlier in made.first.exceptions:
+            self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
     def test_exceptions_are_named(self):
         def errors(at, n):
