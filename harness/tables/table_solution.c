@@ -52,18 +52,32 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     fputc('\n', to);
 }
 
+/* Load steps that were chosen, and tries of longer ones. */
+static void count_steps(const counters *c, char text[FAULT_TEXT])
+{
+    const char *plural = c->steps == 1 ? "" : "s";
+    text[0] = '\0';
+    if (c->rejected_steps > 0)
+        snprintf(text, FAULT_TEXT, " in %ld load step%s (%ld longer rejected)", c->steps, plural,
+                 c->rejected_steps);
+    else if (c->steps > 0)
+        snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural);
+}
+
 void table_solution(FILE *to, const sweep *s, const truths *t)
 {
     const series *one = &s->series[0];
     const point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
+    char steps[FAULT_TEXT];
     table_series(to, s, 0);
+    count_steps(&c->counters, steps);
     const int at = fprintf(to, "%s", status_name(c->solve.status));
     paragraph_say(to, at, INDENT,
-                  "%s%s; %d elements, %d free coordinates, %ld iterations, %ld factorisations, "
-                  "%.3g s set-up, %.3g s solution",
+                  "%s%s; %d elements, %d free coordinates, %ld iterations%s, "
+                  "%ld factorisations, %.3g s set-up, %.3g s solution",
                   c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements,
-                  c->size.free, c->counters.iterations, c->counters.factorisations,
+                  c->size.free, c->counters.iterations, steps, c->counters.factorisations,
                   c->solve.seconds_setup, c->solve.seconds_solve);
     if (c->counters.negative_pivots > 0)
         paragraph_say(

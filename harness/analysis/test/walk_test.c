@@ -58,6 +58,43 @@ static void turning_back(void)
     cell_result_free(&r);
 }
 
+/* Steps to begin with are those to the first station: what went well goes on. */
+static void shorter_first_steps(void)
+{
+    cell_result whole, shorter;
+    cell_request request = cells_of(case_find("sheet_cantilever", NULL), "sheet_third", 2);
+    fault f = {""};
+    solve("sheet_cantilever", "sheet_third", 2, SOLVE_MIXED, &whole);
+    request.solve.steps_between = 3;
+    gsl_test(cell_run(&request, &shorter, &f) != STATUS_OK, "three steps: %s", f.text);
+    gsl_test_int(whole.solve.steps, STATIONS, "a step to each station");
+    gsl_test_int(shorter.solve.steps, STATIONS + 1, "a third and the rest to the first one");
+    const double worst = worst_difference(&whole, &shorter);
+    gsl_test(!(worst < 1e-10), "the same states (%.1e)", worst);
+    cell_result_free(&whole);
+    cell_result_free(&shorter);
+}
+
+/* A large deflection in one step is that of forty. */
+static void large_deflection(void)
+{
+    cell_result r[2];
+    for (int i = 0; i < 2; i++) {
+        cell_request request = cells_of(case_find("elastica", NULL), "collocation", 4);
+        fault f = {""};
+        request.solve.steps_between = i == 0 ? 1 : 40;
+        gsl_test(cell_run(&request, &r[i], &f) != STATUS_OK, "elastica: %s", f.text);
+    }
+    gsl_test_int(r[0].solve.steps, 1, "one step");
+    gsl_test(2 * r[0].counters.iterations > r[1].counters.iterations,
+             "less than half the work: %ld iterations, %ld", r[0].counters.iterations,
+             r[1].counters.iterations);
+    gsl_test_rel(cells_value(&r[0], "theta"), cells_value(&r[1], "theta"), 1e-11,
+                 "of the same branch");
+    cell_result_free(&r[0]);
+    cell_result_free(&r[1]);
+}
+
 /* The first iteration of each step has the tangent of the last one of the step before. */
 static void continuations(void)
 {
@@ -74,6 +111,8 @@ int main(void)
 {
     compliances();
     turning_back();
+    shorter_first_steps();
+    large_deflection();
     continuations();
     return gsl_test_summary();
 }

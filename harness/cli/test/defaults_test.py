@@ -22,6 +22,19 @@ class Solve(ProgramTest):
             self.assertTrue(truths)
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
+    def test_steps(self):
+        """How many were chosen and how many tries of longer ones failed stands in the first
+        lines, as the steps themselves say."""
+        for case, rejects in (("elastica", True), ("bend_45", False)):
+            more = ("--set", "load=10") if rejects else ()
+            what = ("solve", case, "-f", "beamw", "-n", "8", *more)
+            steps = self.record(*what)["steps"]
+            failed = sum(s["rejected"] for s in steps)
+            self.assertEqual(failed > 0, rejects)
+            told = f" in {len(steps)} load step" + ("s" if len(steps) > 1 else "")
+            told += f" ({failed} longer rejected)," if rejects else ","
+            self.assertIn(told, " ".join(self.answered(*what).stdout.split()))
+
     def test_one_of_them(self):
         text = self.answered("solve", "elastica", "-f", "beamw").stdout
         self.assertTrue(text.startswith("-n "), text)
