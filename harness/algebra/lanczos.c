@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 20, PARAMETERS = 11, POINTERS = 14 };
+enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 12, PARAMETERS = 11, POINTERS = 14 };
 enum {
     ENDED_EARLY = 1,
     CONVERGED = 4
@@ -28,7 +28,7 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
     memset(w, 0, sizeof *w);
     w->n = n;
     w->wanted = wanted;
-    w->vectors = 2 * wanted + EXTRA_VECTORS < room ? 2 * wanted + EXTRA_VECTORS : room;
+    w->vectors = wanted + EXTRA_VECTORS < room ? wanted + EXTRA_VECTORS : room;
     w->size = w->vectors * (w->vectors + 8);
     const size_t N = (size_t)n, vectors = (size_t)w->vectors;
     w->numbers = malloc((4 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
