@@ -57,9 +57,10 @@ static int is_named(const command_request *r)
     return r->case_count > 0 || r->scene != NULL;
 }
 
-static status write_out(const command_request *r, const sweep *s, const judgement *j, fault *f)
+static status write_out(const command_request *r, const sweep *s, const judgement *j,
+                        const spread_end *end, fault *f)
 {
-    const environment e = environment_now(s->threads > 1 ? s->threads : 1);
+    const environment e = spread_environment(end, s->threads > 1 ? s->threads : 1);
     if (r->format[0] == 'c')
         csv_timing(stdout, s, j);
     else
@@ -93,7 +94,7 @@ static status measure(command_request *r, truths *t, sweep *s, judgement *j, spr
         rounds_pin();
     if (!spread)
         TRY(timing_run(s, floor_seconds, r->dense, progress, f));
-    return write_out(r, s, j, f);
+    return write_out(r, s, j, end, f);
 }
 
 static int bench_request(command_request *r)

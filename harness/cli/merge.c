@@ -7,7 +7,10 @@
 static const struct {
     const char *name;
     cli_verb *run;
-} verbs[] = {{"verify", cli_verify}, {"converge", cli_converge}, {"bench", cli_bench}};
+} verbs[] = {{"verify", cli_verify},
+             {"converge", cli_converge},
+             {"bench", cli_bench},
+             {"stress", cli_stress}};
 
 static int ask(const again *a)
 {

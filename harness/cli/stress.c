@@ -4,9 +4,9 @@
 
 #include "harness/cli/cli.h"
 #include "harness/extremes/extreme_json.h"
-#include "harness/extremes/extreme_run.h"
 #include "harness/extremes/extreme_table.h"
 #include "harness/record/output.h"
+#include "harness/spread/extreme_work.h"
 
 static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
 {
@@ -30,7 +30,7 @@ static status write_out(const command_request *r, const extreme_sweep *s, fault 
 }
 
 /* With what cli_stress frees. */
-static status run(const command_request *r, extreme_sweep *s, fault *f)
+static status run(const command_request *r, extreme_sweep *s, spread_end *end, fault *f)
 {
     const extreme_request request = {.select = r->select,
                                      .jobs = r->jobs,
@@ -38,7 +38,9 @@ static status run(const command_request *r, extreme_sweep *s, fault *f)
                                      .formulation = r->formulation,
                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     TRY(files_check(r, 0, case_input_truths_path(r), f));
-    TRY(extreme_run(&request, case_input_truths_path(r), s, f));
+    TRY(extreme_work_run(r, &request, case_input_truths_path(r), s, end, f));
+    if (end->ended)
+        return STATUS_OK;
     TRY(write_out(r, s, f));
     if (extreme_sweep_exit(s) == EXIT_NOTHING)
         fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
@@ -49,6 +51,7 @@ int cli_stress(int count, char **arguments)
 {
     command_request r;
     extreme_sweep s = {0};
+    spread_end end = {.ended = 0};
     fault f = {""};
     command_parse(
         "stress", "",
@@ -56,13 +59,16 @@ int cli_stress(int count, char **arguments)
         "every answer: a value, coarse, a "
         "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, "
         "3 nothing was tried, 4 file, disk "
-        "or memory."
+        "or memory, 5 batches are missing (--shard K/N --into FOLDER, 'beamwork merge')."
         "\vbeamwork stress -k \"thin_sheet and collocation\"",
-        "fokjJFT", count, arguments, &r);
+        "fokjJFTZibw", count, arguments, &r);
     if (r.case_name != NULL)
         return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");
-    const status outcome = run(&r, &s, &f);
-    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text) : extreme_sweep_exit(&s);
+    const status outcome = run(&r, &s, &end, &f);
+    int code = end.ended ? end.code : extreme_sweep_exit(&s);
+    if (outcome != STATUS_OK)
+        code = message_fail(outcome, f.text);
+    spread_free(&end);
     extreme_sweep_free(&s);
     return code;
 }

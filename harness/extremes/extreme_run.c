@@ -34,7 +34,15 @@ static int is_open(const extreme_outcome *o)
     return o->kind == OUTCOME_WRONG && isfinite(o->error);
 }
 
-static status look_closer(const sweep_request *run, extreme_sweep *s, const truths *t, fault *f)
+static status run_cells(const extreme_request *request, sweep *s, fault *f)
+{
+    const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
+    return request->cells != NULL ? request->cells(request->context, &run, s, f)
+                                  : run_sweep(&run, s, f);
+}
+
+static status look_closer(const extreme_request *request, extreme_sweep *s, const truths *t,
+                          fault *f)
 {
     for (int i = 0; i < s->outcomes; i++) {
         extreme_outcome *o = &s->outcome[i];
@@ -46,7 +54,7 @@ static status look_closer(const sweep_request *run, extreme_sweep *s, const trut
             TRY(refine(s, base, f));
     }
     if (s->neighbours.seriess > 0)
-        TRY(run_sweep(run, &s->neighbours, f));
+        TRY(run_cells(request, &s->neighbours, f));
     for (int i = 0; i < s->outcomes; i++)
         if (is_open(&s->outcome[i]))
             extreme_judge_neighbours(s, t, &s->outcome[i]);
@@ -64,14 +72,13 @@ static status read_all(const char *path, truths *t, extreme_sweep *out, fault *f
 static status run_all(const extreme_request *request, const char *path, truths *t,
                       extreme_sweep *out, fault *f)
 {
-    const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
     TRY(read_all(path, t, out, f));
     TRY(extreme_plan(request, out, f));
     if (out->outcomes > 0)
-        TRY(run_sweep(&run, &out->first, f));
+        TRY(run_cells(request, &out->first, f));
     for (int i = 0; i < out->outcomes; i++)
         TRY(extreme_judge_first(out, t, &out->outcome[i], f));
-    TRY(look_closer(&run, out, t, f));
+    TRY(look_closer(request, out, t, f));
     extreme_expect(out, request->select == NULL && request->formulations == 0);
     return STATUS_OK;
 }

@@ -65,6 +65,23 @@ static status compute(const command_request *r, const work *w, int times, spread
     return output_flush(f);
 }
 
+/* All kinds that there are. */
+static void name_processors(const stock *s, spread_end *out)
+{
+    size_t at = 0;
+    for (int i = 0; i < s->kinds && at < sizeof out->processor; i++)
+        at += (size_t)snprintf(out->processor + at, sizeof out->processor - at, "%s%s (%s)",
+                               i > 0 ? "; " : "", s->kind[i].node.processor, s->kind[i].node.host);
+}
+
+environment spread_environment(const spread_end *end, int threads)
+{
+    environment e = environment_now(threads);
+    if (end->processor[0] != '\0')
+        memcpy(e.processor, end->processor, sizeof e.processor);
+    return e;
+}
+
 static status take(const command_request *r, const work *w, int times, const stock *s,
                    spread_end *out, fault *f)
 {
@@ -79,6 +96,7 @@ static status take(const command_request *r, const work *w, int times, const sto
             return STATUS_OK;
     }
     stock_tell_kinds(s, times, stderr);
+    name_processors(s, out);
     for (int i = 0; i < s->batches; i++)
         out->taken[i] = s->where[i] >= 0;
     return merge_take(w, s, f);

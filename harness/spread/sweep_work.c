@@ -82,22 +82,37 @@ static int alloc(cut *c)
     return c->begin != NULL && c->each != NULL && c->first != NULL && c->cost != NULL;
 }
 
-static void make_batches(cut *c)
+static void sum_costs(int batches, const int first[], const double each[], double cost[])
+{
+    for (int b = 0; b < batches; b++) {
+        cost[b] = 0;
+        for (int i = first[b]; i < first[b + 1]; i++)
+            cost[b] += each[i];
+    }
+}
+
+int sweep_work_cut(int items, const double each[], int first[], double cost[])
 {
     double all = 0;
+    for (int i = 0; i < items; i++)
+        all += each[i];
+    const double most = fmin(fmax(batch_share * all, batch_least), batch_most);
+    const int batches = deal_cut(items, each, most, first);
+    sum_costs(batches, first, each, cost);
+    return batches;
+}
+
+static void make_batches(cut *c)
+{
     for (int i = 0; i < c->s->seriess; i++)
         if (cells_runs(c->s, i))
             add_item(c, i, cells_expense(c->s, i));
     c->begin[c->items] = c->s->seriess;
-    for (int i = 0; i < c->items; i++)
-        all += c->each[i];
-    const double most = fmin(fmax(batch_share * all, batch_least), batch_most);
-    c->w.batches = deal_cut(c->items, c->each, c->of->points ? 0 : most, c->first);
-    for (int b = 0; b < c->w.batches; b++) {
-        c->cost[b] = 0;
-        for (int i = c->first[b]; i < c->first[b + 1]; i++)
-            c->cost[b] += c->each[i];
-    }
+    if (c->of->points) {
+        c->w.batches = deal_cut(c->items, c->each, 0, c->first);
+        sum_costs(c->w.batches, c->first, c->each, c->cost);
+    } else
+        c->w.batches = sweep_work_cut(c->items, c->each, c->first, c->cost);
 }
 
 /* Series of batches that are not there are taken out. */

@@ -22,5 +22,8 @@ struct sweep_work {
  * --partial is taken out and counted as unfinished. */
 status sweep_work_do(const sweep_work *, const command_request *r, sweep *s, spread_end *out,
                      fault *f);
+/* Items of these costs [s] in batches of about half a second, or less where there is little work:
+ * deal_cut. cost: of each batch. Returns their number. */
+int sweep_work_cut(int items, const double each[], int first[], double cost[]);
 
 #endif

@@ -175,8 +175,52 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
+/* A batch of another processor, and one of another BLAS: machines are told, hosts alone are not. */
+static void machines(void)
+{
+    filled of;
+    stock s;
+    char said[1200];
+    fault f = {""};
+    static const char *const model[] = {"another processor", NULL, NULL}, *const blas[] = {
+                                                                              NULL, "another BLAS",
+                                                                              NULL};
+    for (int i = 0; i < 3; i++) {
+        batch_label label;
+        FILE *from;
+        long end;
+        fill(&of);
+        gsl_test(batch_open(of.path.text, &label, &from, &end, &f) != STATUS_OK, "%s", f.text);
+        char bytes[400];
+        const size_t size = fread(bytes, 1, (size_t)(end - ftell(from)), from);
+        fclose(from);
+        snprintf(label.node.host, sizeof label.node.host, "elsewhere");
+        if (model[i] != NULL)
+            snprintf(label.node.processor, sizeof label.node.processor, "%s", model[i]);
+        if (blas[i] != NULL)
+            snprintf(label.node.blas, sizeof label.node.blas, "%s", blas[i]);
+        gsl_test(batch_write(of.of.path, &label, bytes, size, &f) != STATUS_OK, "%s", f.text);
+        batch_label_free(&label);
+        memset(said, 0, sizeof said);
+        FILE *tell = fmemopen(said, sizeof said - 1, "w");
+        gsl_test(stock_take(&of.w.w, of.folder, 1, NULL, NULL, &s, &f) != STATUS_OK, "%s", f.text);
+        stock_tell_kinds(&s, 1, tell);
+        fclose(tell);
+        gsl_test_int(s.kinds, i < 2 ? 2 : 1, "kinds of machines");
+        gsl_test(i < 2 && (strstr(said, "their times do not compare") == NULL ||
+                           strstr(said, "1 on elsewhere") == NULL ||
+                           strstr(said, i == 0 ? model[0] : blas[1]) == NULL),
+                 "what differs is told: %s", said);
+        gsl_test(i == 2 && said[0] != '\0', "another host of the same kind is not told: %s", said);
+        stock_free(&s);
+        numbers_are_whole(&of.w, of.folder, 1, "its answers are taken");
+        folder_remove(&of.of);
+    }
+}
+
 int main(void)
 {
+    machines();
     damaged();
     foreign();
     others();

@@ -9,6 +9,8 @@ import subprocess
 import time
 import zlib
 
+import h5py
+
 from harness.test.program import PROGRAM, TRUTHS, ProgramTest, environment, read_json, run
 
 CASES = "(roll_up or bend_45 or right_angle_frame or snap_through) and default"
@@ -257,8 +259,28 @@ class Others(SpreadTest):
             self.assertIn(" 1 batches", self.shard(which, *ask).stdout)
         done = self.answered("merge", self.folder / "parts", "-o", self.folder / "merged.h5")
         self.assertIn("elastica", done.stdout)
+        with h5py.File(self.folder / "merged.h5") as file:
+            self.assertIn(f"({os.uname().nodename})", file.attrs["processor"].decode())
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.folder / "alone.h5"))
+
+    def test_stress(self):
+        """Values, coarse ones and failures from three shards, as in one run."""
+        ask = ("stress", "-k", "decay_free or soft_square or twist_wagner or thin_sheet",
+               "--format", "json")
+        alone = run(*ask)
+        for which in ("1/3", "2/3", "3/3"):
+            self.shard(which, *ask)
+        self.assertGreater(len(self.names()), 2)
+        self.refused(2, ["leave --partial away"], *ask, "--from", self.folder / "parts",
+                     "--partial")
+        merged = run("merge", self.folder / "parts", "--format", "json")
+        self.assertEqual(merged.returncode, alone.returncode, merged.stderr)
+        ours, theirs = ([line for line in text.splitlines()
+                         if "seconds" not in line and "clock" not in line]
+                        for text in (merged.stdout, alone.stdout))
+        self.assertIn("coarse", alone.stdout)
+        self.assertEqual(ours, theirs)
 
     def test_refused(self):
         """What does not go together is told before anything is computed."""
