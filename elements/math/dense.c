@@ -95,7 +95,9 @@ double dense_quadratic(int n, const double A[], const double x[])
     return sum;
 }
 
-void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
+/* Rows of a length that is known where this is inlined. */
+static inline __attribute__((always_inline)) void mul_rows(int m, int n, const double *A,
+                                                           const double *x, double *y)
 {
     for (int i = 0; i < m; i++) {
         double sum = 0;
@@ -103,6 +105,16 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
             sum += A[i * n + j] * x[j];
         y[i] = sum;
     }
+}
+
+void dense_mul_vec(int m, int n, const double *A, const double *x, double *y)
+{
+    if (n == 14)
+        mul_rows(m, 14, A, x, y);
+    else if (n == 8)
+        mul_rows(m, 8, A, x, y);
+    else
+        mul_rows(m, n, A, x, y);
 }
 
 void dense_add_congruence(int m, int n, const double *restrict J, const double *restrict S,

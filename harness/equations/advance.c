@@ -22,9 +22,9 @@ static double advance_element(model *m, model_state *s, int i, const double dx[]
     dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
     dense_mul_vec(m->strains, m->strains, w.C, de, more);
     for (int k = 0; k < m->strains; k++) {
-        const double next = w.sigma[k] + more[k];
-        stress->change = fmax(stress->change, fabs(next - sigma[k]));
-        stress->largest = fmax(stress->largest, fabs(next));
+        const double next = w.sigma[k] + more[k], change = fabs(next - sigma[k]);
+        stress->change = change > stress->change ? change : stress->change;
+        stress->largest = fabs(next) > stress->largest ? fabs(next) : stress->largest;
         sigma[k] = next;
         de[k] += w.incompatibility[k];
         e[k] += de[k];
