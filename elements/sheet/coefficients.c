@@ -66,7 +66,7 @@ static void add_bending(const element_request *r, double x, double ds, const she
         for (int j = 0; j < SHEET_STRESSES; j++) {
             out->A[i][j][ONE][ONE] += ds * My[i] * My[j] / EIy;
             for (int a = 0; a < V; a++)
-                for (int b = 0; b < V; b++)
+                for (int b = 0; b < V && Mz[i][a] != 0; b++)
                     out->A[i][j][a][b] += ds * Mz[i][a] * Mz[j][b] / EIz;
         }
         if (initial)
