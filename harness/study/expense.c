@@ -11,10 +11,11 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
+/* Steps that were shorter to begin with become whole ones. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
-    return scene_path_of(a)->stations * (double)between;
+    return scene_path_of(a)->stations + between - 1;
 }
 
 static void count_analysis(const scene *s, const scene_analysis *a, int steps, double times[])

@@ -41,9 +41,9 @@ def work_of(scene):
         body = body or {}
         stations = stations_of(analyses, body)
         if kind == "static":
-            times["load_step"] += stations * body.get("steps", 1)
+            times["load_step"] += stations + body.get("steps", 1) - 1
         elif kind == "rotation":
-            times["rotation_step"] += stations * body.get("steps", 1)
+            times["rotation_step"] += stations + body.get("steps", 1) - 1
             times["rotation_station"] += stations
         elif kind == "compliance":
             times[kind] += stations
