@@ -35,9 +35,9 @@ static void values_are(const char *text, axis_kind kind, int count, const double
 /* The ends are the numbers that stand there, not sums. */
 static void ends_are_exact(void)
 {
-    axis a = read_good("width=0.1..0.7/3"), b = read_good("width=0.1..0.7/3:log");
-    gsl_test(axis_value(&a, 0) != 0.1 || axis_value(&a, 3) != 0.7, "equal parts");
-    gsl_test(axis_value(&b, 0) != 0.1 || axis_value(&b, 3) != 0.7, "equal ratios");
+    axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
+    gsl_test(axis_value(&a, 0) != 0.2 || axis_value(&a, 7) != 0.9, "equal parts");
+    gsl_test(axis_value(&b, 0) != 0.2 || axis_value(&b, 7) != 0.9, "equal ratios");
     axis_free(&a);
     axis_free(&b);
 }
@@ -79,6 +79,7 @@ int main(void)
     is_refused("width", "NAME=A..B/N");
     is_refused("width=", "NAME=A..B/N");
     is_refused("width=1..20/3", "outside its range");
+    is_refused("width=1..11/3", "outside its range");
     is_refused("width=1,20", "outside its range");
     is_refused("width=1mm..2/3", "SI without units");
     is_refused("width=1..2/2.5", "whole number");
