@@ -163,7 +163,7 @@ static status fill_point(const making *m, int at, fault *f)
 
 static status solve(const ranges *r, int batch, sweep *s, rows *out, fault *f)
 {
-    const sweep_request request = {.jobs = 1, .time_limit = r->request.time_limit};
+    const sweep_request request = {.jobs = 1, .together = 1, .time_limit = r->request.time_limit};
     const making m = {r, s, out};
     const rows_shape shape = ranges_shape(r);
     TRY(plan(r, batch, s, f));
