@@ -10,7 +10,8 @@ static const struct {
 } verbs[] = {{"verify", cli_verify},
              {"converge", cli_converge},
              {"bench", cli_bench},
-             {"stress", cli_stress}};
+             {"stress", cli_stress},
+             {"sweep", cli_sweep}};
 
 static int ask(const again *a)
 {
@@ -40,7 +41,7 @@ int cli_merge(int count, char **arguments)
 {
     return command_run(
         "merge", "FOLDER...",
-        "Puts together the batches that shards of verify, stress, converge or bench wrote with "
+        "Puts together the batches that shards of verify, stress, converge, bench or sweep wrote with "
         "--into, and writes what the verb would have written in one run. The verb, its "
         "options and its files are those of the shards. Exit status: that of the verb; 2 batches "
         "of another request, build or input, or two that differ; 5 batches are missing, which are "

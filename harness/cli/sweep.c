@@ -9,10 +9,12 @@
 #include "harness/cli/cli.h"
 #include "harness/command/errors.h"
 #include "harness/ranges/ranges_collect.h"
-#include "harness/ranges/ranges_csv.h"
+#include "harness/ranges/ranges_identity.h"
 #include "harness/ranges/ranges_table.h"
 #include "harness/shards/merge.h"
 #include "harness/shards/shard.h"
+#include "harness/spread/identity.h"
+#include "harness/spread/spread.h"
 #include "harness/truth/derive.h"
 
 /* A sweep and what it needs while it runs. */
@@ -23,7 +25,12 @@ typedef struct sweeping {
     ranges_output output;
     char batches[PATH_MAX]; /* folder */
     char script[PATH_MAX];  /* of --derive */
-    int lost;               /* batches that are not there: exit status 5 */
+    char partial[PATH_MAX]; /* output of --partial */
+    identity_texts texts;
+    work all;
+    int asked;      /* 1: as a shard, or from batches */
+    spread_end end; /* how that was */
+    int lost;       /* batches that are not there: exit status 5 */
 } sweeping;
 
 static status read_design(const command_request *r, ranges_request *q, fault *f)
@@ -58,6 +65,17 @@ static status check_set(const command_request *r, const ranges *s, fault *f)
     return STATUS_OK;
 }
 
+static status identify(const command_request *r, sweeping *s, fault *f)
+{
+    digest plan;
+    s->all = ranges_work_of(&s->work);
+    TRY(identity_make("sweep", r, &s->texts, &plan, f));
+    ranges_identity_add(&s->ranges, &plan);
+    identity_set(&s->texts, &plan, &s->all);
+    s->output.plan = s->texts.plan;
+    return STATUS_OK;
+}
+
 static status prepare(command_request *r, const case_type *type, sweeping *s, fault *f)
 {
     ranges_request q = {.type = type,
@@ -89,19 +107,29 @@ static status prepare(command_request *r, const case_type *type, sweeping *s, fa
     }
     TRY(ranges_make(&q, &s->ranges, f));
     TRY(check_set(r, &s->ranges, f));
-    return ranges_work_make(&s->ranges, r->scene == NULL ? case_input_truths_path(r) : NULL, NULL,
-                            &s->work, f);
+    TRY(ranges_work_make(&s->ranges, &s->work, f));
+    return identify(r, s, f);
+}
+
+/* Where results go. */
+static status place_output(const command_request *r, sweeping *s, fault *f)
+{
+    if (r->output == NULL)
+        return STATUS_OK;
+    s->output.path = r->output;
+    if (r->partial) {
+        TRY(output_partial(r->output, s->partial, f));
+        s->output.path = s->partial;
+    }
+    TRY(ranges_collect_beside(s->output.path, ".worst", s->output.folder, f));
+    return ranges_collect_check(&s->output, f);
 }
 
 /* Where batches are kept until all are there: beside the output, or where nobody looks. */
 static status place_batches(const command_request *r, sweeping *s, fault *f)
 {
-    if (r->output != NULL) {
-        s->output.path = r->output;
-        TRY(ranges_collect_beside(r->output, ".worst", s->output.folder, f));
-        TRY(ranges_collect_beside(r->output, ".batches", s->batches, f));
-        return ranges_collect_check(&s->output, f);
-    }
+    if (r->output != NULL)
+        return ranges_collect_beside(r->output, ".batches", s->batches, f);
     const char *temporary = getenv("TMPDIR");
     snprintf(s->batches, sizeof s->batches, "%s/beamwork-sweep-XXXXXX",
              temporary != NULL ? temporary : "/tmp");
@@ -110,28 +138,27 @@ static status place_batches(const command_request *r, sweeping *s, fault *f)
                                                    s->batches, strerror(errno));
 }
 
-/* All batches of the stock. */
+/* Batches of the stock, or those that --from names; where some of these are missing, nothing. */
 static status take_all(const command_request *r, sweeping *s, const stock *there, fault *f)
 {
     ranges_collect c;
     status outcome = ranges_collect_begin(&s->work, &s->output, &c, f);
-    const work all = ranges_work_of(&s->work);
-    if (outcome == STATUS_OK && s->work.csv != NULL)
-        ranges_csv_head(s->work.csv, &s->ranges);
     if (outcome == STATUS_OK)
-        outcome = ranges_collect_end(&c, merge_take(&all, there, f), f);
-    if (outcome == STATUS_OK && s->work.csv == NULL)
+        outcome =
+            there != NULL ? merge_take(&s->all, there, f) : spread_work(r, &s->all, 0, &s->end, f);
+    const int ended = outcome == STATUS_OK && s->end.ended;
+    outcome = ranges_collect_end(&c, ended ? STATUS_NO_VALUE : outcome, f);
+    if (outcome == STATUS_OK && s->work.csv == NULL && !r->quiet)
         ranges_table(stdout, &c.tally, r->verbose, s->output.folder, f);
     tally_free(&c.tally);
-    return outcome;
+    return ended ? STATUS_OK : outcome;
 }
 
 static status collect(const command_request *r, sweeping *s, fault *f)
 {
     const char *const folder[] = {s->batches};
-    const work all = ranges_work_of(&s->work);
     stock there = {.batches = 0};
-    status outcome = stock_take(&all, folder, 1, NULL, stderr, &there, f);
+    status outcome = stock_take(&s->all, folder, 1, NULL, stderr, &there, f);
     s->lost = there.batches - there.there;
     if (outcome == STATUS_OK && s->lost == 0)
         outcome = take_all(r, s, &there, f);
@@ -141,29 +168,40 @@ static status collect(const command_request *r, sweeping *s, fault *f)
     return outcome;
 }
 
-static status run(command_request *r, const case_type *type, sweeping *s, fault *f)
+/* All batches here and now. */
+static status run_here(const command_request *r, sweeping *s, fault *f)
 {
     shard_outcome done = {0};
-    TRY(prepare(r, type, s, f));
     TRY(place_batches(r, s, f));
     const shard_request request = {.count = 1,
                                    .into = s->batches,
                                    .jobs = r->jobs,
-                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL,
+                                   .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL,
                                    .tell = stderr};
-    const work all = ranges_work_of(&s->work);
+    TRY(shard_run(&s->all, &request, &done, f));
+    return collect(r, s, f);
+}
+
+static status run(command_request *r, const case_type *type, sweeping *s, fault *f)
+{
+    TRY(spread_asked(r, &s->asked, f));
+    TRY(prepare(r, type, s, f));
+    TRY(place_output(r, s, f));
     if (strcmp(r->format, "csv") == 0)
         s->work.csv = stdout;
-    else
+    else if (!r->quiet)
         ranges_table_head(stdout, &s->ranges);
     TRY(output_flush(f));
-    TRY(shard_run(&all, &request, &done, f));
-    return collect(r, s, f);
+    if (!s->asked)
+        return run_here(r, s, f);
+    return r->from_count > 0 ? take_all(r, s, NULL, f) : spread_work(r, &s->all, 0, &s->end, f);
 }
 
 /* What is not there is computed when the same command is given again. */
 static int tell(const command_request *r, const sweeping *s)
 {
+    if (s->asked)
+        return s->end.code;
     if (s->lost == 0)
         return EXIT_AS_EXPECTED;
     fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->lost, s->ranges.batches);
@@ -183,6 +221,8 @@ static int sweep_request_of(command_request *r)
         return r->refusal;
     const status outcome = run(r, type, &s, &f);
     const int code = outcome == STATUS_OK ? tell(r, &s) : message_fail(outcome, f.text);
+    spread_free(&s.end);
+    identity_free(&s.texts);
     ranges_work_free(&s.work);
     ranges_free(&s.ranges);
     truths_free(&s.truths);
@@ -212,5 +252,5 @@ int cli_sweep(int count, char **arguments)
         "\vbeamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
         "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
         "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
-        "yfnskedzrgojLTYFv", count, arguments, sweep_request_of);
+        "yfnskedzrgojLTYFvqZibw", count, arguments, sweep_request_of);
 }

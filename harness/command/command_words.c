@@ -72,6 +72,20 @@ static void add_files(json_t *to, const command_request *r, command_paths paths)
     add_paths(to, "--beside", r->beside, r->beside_count, paths);
 }
 
+/* Of a sweep over parameters. */
+static void add_ranges(json_t *to, const command_request *r)
+{
+    for (int i = 0; i < r->varies; i++)
+        add(to, "--vary", r->vary[i]);
+    add(to, "--design", r->design);
+    add_number(to, "--points", (int)r->points);
+    if (r->seed > 0)
+        add_number(to, "--seed", (int)r->seed);
+    else if (r->seed == 0)
+        add(to, "--seed", "0");
+    add_switch(to, "--derive", r->derive);
+}
+
 json_t *command_words(const command_request *r, command_paths paths)
 {
     json_t *to = json_array();
@@ -85,6 +99,7 @@ json_t *command_words(const command_request *r, command_paths paths)
         add(to, "--set", r->assignment[i]);
     add(to, "--select", r->select);
     add(to, "--error", r->error);
+    add_ranges(to, r);
     add_files(to, r, paths);
     add_switch(to, "--built-in", r->built_in);
     add_switch(to, "--gate", r->gate);

@@ -84,7 +84,7 @@ status ranges_collect_begin(ranges_work *w, const ranges_output *o, ranges_colle
     w->content = digest_begin();
     if (o->path == NULL)
         return STATUS_OK;
-    TRY(ranges_file_open(o->path, w->of, w->identity.plan, &out->file, f));
+    TRY(ranges_file_open(o->path, w->of, o->plan, &out->file, f));
     w->file = &out->file;
     return STATUS_OK;
 }
@@ -96,7 +96,7 @@ status ranges_collect_end(ranges_collect *c, status taken, fault *f)
     if (taken == STATUS_OK)
         taken = write_scenes(c->output, &c->tally, f);
     if (c->work->file != NULL)
-        taken = ranges_file_close(c->work->file, &c->tally, content, taken, f);
+        taken = ranges_file_close(c->work->file, &c->tally, c->output->folder, content, taken, f);
     c->work->file = NULL;
     c->work->tally = NULL;
     return taken;

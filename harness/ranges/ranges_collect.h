@@ -9,6 +9,7 @@
 
 typedef struct ranges_output {
     const char *path;      /* HDF5; NULL: none */
+    const char *plan;      /* digits that say which sweep it is */
     char folder[PATH_MAX]; /* of the worst points' scenes; empty: none */
 } ranges_output;
 

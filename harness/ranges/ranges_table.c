@@ -417,6 +417,8 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
 {
     const ranges *r = t->of;
     int shown = -1;
+    if (t->points < r->design.points)
+        fprintf(to, "%ld of %ld points are there\n", t->points, r->design.points);
     write_references(to, t);
     write_all_shares(to, t, every);
     write_failures(to, t);

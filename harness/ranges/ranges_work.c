@@ -52,6 +52,9 @@ static status keep(ranges_work *own, int batch, FILE *from, rows *w, fault *f)
     add_content(&own->content, w);
     if (own->tally != NULL)
         TRY(tally_add(own->tally, first, w, f));
+    if (own->csv != NULL && !own->csv_begun)
+        ranges_csv_head(own->csv, own->of);
+    own->csv_begun = 1;
     if (own->csv != NULL)
         TRY(ranges_csv_add(own->csv, own->of, first, w, f));
     return own->file != NULL ? ranges_file_add(own->file, first, w, f) : STATUS_OK;
@@ -65,11 +68,9 @@ static status take(void *context, int batch, FILE *from, fault *f)
     return outcome;
 }
 
-status ranges_work_make(const ranges *r, const char *truths_path, const char *origin,
-                        ranges_work *out, fault *f)
+status ranges_work_make(const ranges *r, ranges_work *out, fault *f)
 {
-    *out = (ranges_work){.of = r, .origin = origin, .content = digest_begin()};
-    TRY(ranges_identity_make(r, truths_path, &out->identity, f));
+    *out = (ranges_work){.of = r, .content = digest_begin()};
     out->cost = calloc((size_t)r->batches + 1, sizeof *out->cost);
     if (out->cost == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
@@ -89,10 +90,6 @@ void ranges_work_free(ranges_work *w)
 work ranges_work_of(ranges_work *w)
 {
     return (work){.verb = "sweep",
-                  .build = w->identity.build,
-                  .request = w->identity.request,
-                  .plan = w->identity.plan,
-                  .origin = w->origin,
                   .batches = w->of->batches,
                   .cost = w->cost,
                   .context = w,

@@ -159,7 +159,8 @@ static void take_formulations(ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
-static const double scene_cost = 5e-5; /* [s] beside its cells */
+/* [s] of a point beside its cells: its scene; a truth that is derived, of a case, of a scene */
+static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
 /* [s] about, of all cells. */
 static double cost_of(const sweep *s)
@@ -181,6 +182,8 @@ static status survey_points(ranges *r, sweep *s, fault *f)
         TRY(add_point(r, looks > 1 ? last * i / (looks - 1) : 0, s, f));
     TRY(judge(r, s, f));
     r->point_cost = cost_of(s) / looks;
+    if (r->request.derive != NULL)
+        r->point_cost += r->request.file != NULL ? derive_scene_cost : derive_cost;
     return STATUS_OK;
 }
 

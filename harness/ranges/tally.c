@@ -150,9 +150,8 @@ static void join(const tally *t, seen *all, const seen *one)
         *all = *one;
     for (int k = 0; k < t->of->meshes; k++)
         all->within[k] = all->within[k] && one->within[k];
-    all->least = all->least == 0 || one->least == 0 ? 0
-                 : one->least > all->least          ? one->least
-                                                    : all->least;
+    if (all->least != 0 && (one->least == 0 || one->least > all->least))
+        all->least = one->least;
 }
 
 /* No value is worse than any error. */

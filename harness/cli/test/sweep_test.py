@@ -91,7 +91,7 @@ class Grid(ProgramTest):
         """The same digits as the sweep's."""
         for row in self.of["worst"]:
             which = ("beamw", "collocation").index(row["formulation"].decode())
-            path = self.path.with_suffix(".worst") / row["scene"].decode()
+            path = self.path.parent / row["scene"].decode()
             alone = solved("--scene", path, "-f", row["formulation"].decode(), "-n", row["mesh"],
                            quantity=row["quantity"].decode())
             self.assertEqual(self.of["value"][row["point"], which, 2, 0], alone)
@@ -236,6 +236,32 @@ class Going(ProgramTest):
             for name in ("value", "error", "least", "status", "cost", "reference"):
                 np.testing.assert_array_equal(one[name][()], other[name][()])
         self.assertFalse((self.folder / "s.batches").exists())
+
+    def test_shards(self):
+        """Computed by several that never meet, and put together: the same; some missing: told."""
+        words = ("sweep", "snap_through", "--vary", "angle=0.1..0.6/1199", "-f", "beamw", "-n",
+                 "1,2", "-k", "limit_load")
+        into = [self.folder / name for name in ("a", "b")]
+        for i, folder in enumerate(into):
+            self.answered(*words, "--shard", f"{i + 1}/2", "--into", folder)
+        done = self.answered("merge", into[0], "-o", self.folder / "m.h5", code=5)
+        self.assertIn("incomplete", done.stderr)
+        self.assertEqual({p.name for p in self.folder.iterdir()}, {"a", "b"})
+        done = self.answered("merge", into[0], "-o", self.folder / "m.h5", "--partial", code=5)
+        self.assertRegex(done.stdout, r"\d+ of 1200 points are there")
+        self.answered("merge", *into, "-o", self.folder / "m.h5")
+        self.answered(*words, "-o", self.folder / "whole.h5")
+        with h5py.File(self.folder / "m.h5") as one, h5py.File(
+                self.folder / "whole.h5") as whole, h5py.File(
+                    self.folder / "m.partial.h5") as part:
+            for name in ("plan", "content"):
+                self.assertEqual(one.attrs[name], whole.attrs[name])
+            state = part["status"].attrs["names"].decode().split("\n").index("not_computed")
+            missing = part["status"][()] == state
+            self.assertTrue(missing.any() and not missing.all())
+            self.assertTrue(np.isnan(part["value"][()][missing]).all())
+            np.testing.assert_array_equal(part["value"][()][~missing],
+                                          whole["value"][()][~missing])
 
     def test_other_files_among_batches_stay(self):
         (self.folder / "e.batches").mkdir()
