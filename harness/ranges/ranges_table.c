@@ -9,7 +9,13 @@
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 
-enum { NAME = 24, COLUMN = 7, LINE = 1024, SHOWN_MESHES = 7 };
+enum {
+    NAME = 24,
+    COLUMN = 7,
+    LINE = 1024,
+    SHOWN_MESHES = 7,
+    LAST_KNOWN = 2 /* kind of reference */
+};
 
 static void write_axis(FILE *to, const ranges *r, int index)
 {
@@ -68,12 +74,14 @@ static void say_reference(const tally *t, int q, char text[LINE])
     size_t used = 0;
     int parts = 0;
     text[0] = '\0';
-    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++)
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         if (part[i].count > 0)
             used += (size_t)snprintf(text + used, LINE - used, "%s%ld points by %s",
                                      parts++ > 0 ? "; " : "", part[i].count, part[i].words);
-    if (kind[ROWS_STORED] + kind[ROWS_DERIVED] + kind[ROWS_LIMIT] > 0)
-        snprintf(text + used, LINE - used, " (known to %.0e or better)", fmax(t->doubt[q], 1e-16));
+        if (i == LAST_KNOWN && parts > 0)
+            used += (size_t)snprintf(text + used, LINE - used, ", known to %.0e or better",
+                                     fmax(t->doubt[q], 1e-16));
+    }
 }
 
 /* Quantities that are measured by the same stand together. */
