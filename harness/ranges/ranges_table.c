@@ -79,8 +79,8 @@ static void say_reference(const tally *t, int q, char text[LINE])
             used += (size_t)snprintf(text + used, LINE - used, "%s%ld points by %s",
                                      parts++ > 0 ? "; " : "", part[i].count, part[i].words);
         if (i == LAST_KNOWN && parts > 0)
-            used += (size_t)snprintf(text + used, LINE - used, ", known to %.0e or better",
-                                     fmax(t->doubt[q], 1e-16));
+            used += (size_t)snprintf(text + used, LINE - used, ", known to %.1g %% or better",
+                                     100 * fmax(t->doubt[q], 1e-16));
     }
 }
 
