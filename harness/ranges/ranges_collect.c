@@ -96,7 +96,7 @@ status ranges_collect_end(ranges_collect *c, status taken, fault *f)
     if (taken == STATUS_OK)
         taken = write_scenes(c->output, &c->tally, f);
     if (c->work->file != NULL)
-        taken = ranges_file_close(c->work->file, &c->tally, c->output->folder, content, taken, f);
+        taken = ranges_file_close(c->work->file, &c->tally, content, taken, f);
     c->work->file = NULL;
     c->work->tally = NULL;
     return taken;

@@ -263,7 +263,7 @@ status ranges_file_open(const char *path, const ranges *r, const char *plan, ran
         put_columns(out);
     if (!out->record.bad)
         return STATUS_OK;
-    return ranges_file_close(out, NULL, "", "", failed(out, f), f);
+    return ranges_file_close(out, NULL, "", failed(out, f), f);
 }
 
 static void write_piece(record *r, hid_t set, const column *c, long first, int points,
@@ -312,7 +312,7 @@ status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
     return file->record.bad ? failed(file, f) : STATUS_OK;
 }
 
-static void put_worst(record *r, const ranges *of, const tally *t, const char *folder)
+static void put_worst(record *r, const ranges *of, const tally *t)
 {
     worst_row row[RANGES_FORMULATIONS * TALLY_WORST];
     int count = 0;
@@ -328,9 +328,7 @@ static void put_worst(record *r, const ranges *of, const tally *t, const char *f
             snprintf(out->quantity, sizeof out->quantity, "%s",
                      w->quantity >= 0 ? of->quantity[w->quantity].name : "");
             snprintf(out->status, sizeof out->status, "%s", rows_status_name(w->status));
-            if (w->scene[0] != '\0')
-                snprintf(out->scene, sizeof out->scene, "%.*s/%s", LONG_TEXT - TALLY_SCENE - 2,
-                         folder, w->scene);
+            snprintf(out->scene, sizeof out->scene, "%s", w->scene);
         }
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof row[0]);
     H5Tinsert(type, "point", offsetof(worst_row, point), H5T_NATIVE_LONG);
@@ -356,13 +354,13 @@ static status seal(ranges_file *file, fault *f)
     return output_finish(&file->to, summed, f);
 }
 
-status ranges_file_close(ranges_file *file, const tally *t, const char *folder, const char *content,
-                         status written, fault *f)
+status ranges_file_close(ranges_file *file, const tally *t, const char *content, status written,
+                         fault *f)
 {
     record *r = &file->record;
     if (written == STATUS_OK) {
         record_text(r, r->file, "content", content);
-        put_worst(r, file->of, t, place_leaf(folder));
+        put_worst(r, file->of, t);
     }
     for (int i = 0; i < RANGES_FILE_COLUMNS; i++)
         if (file->column[i] >= 0)

@@ -20,10 +20,10 @@ status ranges_file_open(const char *path, const ranges *r, const char *plan, ran
                         fault *f);
 /* Points from `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
-/* The last: worst points with their scenes in a folder beside (""; none were kept), and content:
+/* The last: worst points with the names of their scenes, and content:
  * digits of all values that are equal however they were computed. written: of what came before; not
  * OK: nothing is left. */
-status ranges_file_close(ranges_file *, const tally *, const char *folder, const char *content,
-                         status written, fault *f);
+status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
+                         fault *f);
 
 #endif

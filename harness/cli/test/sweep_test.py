@@ -91,7 +91,7 @@ class Grid(ProgramTest):
         """The same digits as the sweep's."""
         for row in self.of["worst"]:
             which = ("beamw", "collocation").index(row["formulation"].decode())
-            path = self.path.parent / row["scene"].decode()
+            path = self.path.with_suffix(".worst") / row["scene"].decode()
             alone = solved("--scene", path, "-f", row["formulation"].decode(), "-n", row["mesh"],
                            quantity=row["quantity"].decode())
             self.assertEqual(self.of["value"][row["point"], which, 2, 0], alone)
