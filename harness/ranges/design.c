@@ -90,7 +90,9 @@ static void end(design_mark *m)
 /* A mark at every stride. */
 static status set_marks(design *d, fault *f)
 {
-    const long wanted = (d->points + DESIGN_STRIDE - 1) / DESIGN_STRIDE;
+    const long least = (d->points + DESIGN_MARKS - 1) / DESIGN_MARKS;
+    d->stride = least > DESIGN_STRIDE ? least : DESIGN_STRIDE;
+    const long wanted = (d->points + d->stride - 1) / d->stride;
     double share[CASE_MAX_PARAMETERS];
     d->mark = calloc((size_t)wanted, sizeof *d->mark);
     if (d->mark == NULL)
@@ -100,7 +102,7 @@ static status set_marks(design *d, fault *f)
         *here = d->marks == 0 ? begin(d) : copy(here - 1);
         if (!is_there(here))
             return fault_set(f, STATUS_FAULT, "out of memory for the points of a sweep");
-        for (int i = 0; d->marks > 0 && i < DESIGN_STRIDE; i++)
+        for (long i = 0; d->marks > 0 && i < d->stride; i++)
             next(d, here, share);
     }
     return STATUS_OK;
@@ -146,10 +148,10 @@ static void grid_point(const design *d, long index, double out[])
 static status box_points(const design *d, long first, long count, double out[], fault *f)
 {
     double share[CASE_MAX_PARAMETERS];
-    design_mark at = copy(&d->mark[first / DESIGN_STRIDE]);
+    design_mark at = copy(&d->mark[first / d->stride]);
     if (!is_there(&at))
         return fault_set(f, STATUS_FAULT, "out of memory for the points of a sweep");
-    for (long i = 0; i < first % DESIGN_STRIDE; i++)
+    for (long i = 0; i < first % d->stride; i++)
         next(d, &at, share);
     for (long i = 0; i < count; i++) {
         next(d, &at, share);

@@ -23,11 +23,12 @@ typedef struct design {
     const axis *axis;   /* [axes]; not owned */
     long points;        /* all */
     unsigned long seed; /* of DESIGN_RANDOM: GSL's mt19937 */
-    long marks;
-    design_mark *mark; /* [marks] at every DESIGN_STRIDE points: any of them is soon found */
+    long marks, stride;
+    design_mark *mark; /* [marks] at every `stride` points: any of them is soon found */
 } design;
 
-enum { DESIGN_STRIDE = 16384, DESIGN_MOST_POINTS = 1000000000 };
+/* Least stride; most marks, of some kilobytes each. */
+enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
 
 /* points: of what is no grid. Grids: the last axis changes first. The first point of Sobol's and
  * Halton's sequences is the one behind the origin, as GSL has them. REFUSED: too many points, an
