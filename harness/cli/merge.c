@@ -41,7 +41,8 @@ int cli_merge(int count, char **arguments)
 {
     return command_run(
         "merge", "FOLDER...",
-        "Puts together the batches that shards of verify, stress, converge, bench or sweep wrote with "
+        "Puts together the batches that shards of verify, stress, converge, bench or sweep wrote "
+        "with "
         "--into, and writes what the verb would have written in one run. The verb, its "
         "options and its files are those of the shards. Exit status: that of the verb; 2 batches "
         "of another request, build or input, or two that differ; 5 batches are missing, which are "
