@@ -1,5 +1,6 @@
 """The page of a sweep: over which range each formulation is within a tolerance."""
 import functools
+import math
 import pathlib
 import shlex
 
@@ -7,7 +8,7 @@ from reports.site import file_name
 from reports.sweep import answers, cells, figures, gather, stored, words
 
 NAVIGATION = []  # its files have the names of the sweeps
-MOST_WORST = 20  # points that are named
+MOST_WORST, MOST_CURVES = 20, 12  # points that are named, quantities with curves of their own
 
 
 def navigation(site):
@@ -26,8 +27,8 @@ def axis_words(part):
     if axis.words:
         return f"{axis.name}: {', '.join(axis.words)}"
     unit = f" {axis.unit}" if axis.unit not in ("", "1") else ""
-    how = {"log": f"{count} values by equal factors", "sobol": "Sobol points",
-           "halton": "Halton points", "random": "random points"}.get(axis.kind, f"{count} values")
+    how = {"log": f"{words.many(count, 'value')} by equal factors", "sobol": "Sobol points",
+           "halton": "Halton points", "random": "random points"}.get(axis.kind, words.many(count, "value"))
     return f"{axis.name}: {part.low[0]:.4g} to {part.high[-1]:.4g}{unit}, {how}"
 
 
@@ -38,15 +39,26 @@ def solving(sweep, row):
 
 
 def worst_rows(sweep):
-    """[(Worst, place in words, command or empty)]"""
-    wanted = {row.point for row in sweep.worst[:MOST_WORST]}
+    """[(Worst, place in words, command or empty)], those without a solution first."""
+    rows = sorted(sweep.worst, key=lambda r: -abs(r.error) if r.quantity else -math.inf)
+    rows = rows[:MOST_WORST]
+    wanted = {row.point for row in rows}
     at, first = {}, 0
     for values in sweep.points_only() if wanted else ():
         for point in [p for p in wanted if first <= p < first + len(values)]:
             at[point] = values[point - first]
         first += len(values)
     return [(row, sweep.place(at[row.point]) if row.point in at else "",
-             solving(sweep, row) if row.scene else "") for row in sweep.worst[:MOST_WORST]]
+             solving(sweep, row) if row.scene else "") for row in rows]
+
+
+def curves_of(site, sweep, found):
+    """[(quantity or empty for all of them, Image)] over the axis of a sweep that has only one."""
+    if len(found.parts) > 1:
+        return []
+    single = sweep.quantities[:MOST_CURVES] if len(sweep.quantities) > 1 else []
+    return [("", figures.curves(site, sweep, found)),
+            *((q.name, figures.curves(site, sweep, found, i)) for i, q in enumerate(single))]
 
 
 def glance(site, sweep):
@@ -67,7 +79,7 @@ def write(site, said):
         cells.write(site, data, sweep, found, order)
     site.write("sweep.html", said["page"], **said, validity=validity, data=data,
                winners=figures.Winners(sweep, found, validity.axes),
-               curves=figures.curves(site, sweep, found) if len(found.parts) == 1 else None,
+               curves=curves_of(site, sweep, found),
                worst=worst_rows(sweep), references=answers.references(sweep, found),
                outcomes=answers.outcomes(sweep, found),
                crowded=bool((found.points > 1).any()) and validity.dots is None)

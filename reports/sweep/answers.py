@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from reports.sweep import boxes, gather, stored
 
 ENOUGH = 0.9  # of the largest range, with which fewer elements are told first
+FEWER = 0.15  # of the first one, from which a range of fewer elements is told
+BEHIND = 0.95  # of the points of the next quantity, below which one decides
 WIDER = 1.01  # of the first one, for which a range of more elements is told, too
 
 
@@ -28,7 +30,8 @@ class Range:
 class Answer:
     """of: ranges in all quantities by mesh; single: {quantity: the same}; first: the one that is
     told first, None where there is none; fewer: one of fewer elements; wider: one of more;
-    absent: it offers at no point what is needed."""
+    absent: it offers at no point what is needed; decided: the quantity that takes the most
+    elements, empty where no single one does."""
 
     key: str
     of: list
@@ -37,6 +40,17 @@ class Answer:
     fewer: Range = None
     wider: Range = None
     absent: bool = False
+    decided: str = ""
+
+    def decide(self):
+        """With the most elements that do not do in all quantities: is one of these behind?"""
+        short = [i for i, r in enumerate(self.of) if r.reached < r.known]
+        if not short or not self.single:
+            return
+        reached = sorted((of[short[-1]].reached, name) for name, of in self.single.items()
+                         if of[short[-1]].known)
+        if len(reached) > 1 and reached[0][0] < BEHIND * reached[1][0]:
+            self.decided = reached[0][1]
 
     def choose(self):
         """What is told first: nearly the widest range with the fewest elements."""
@@ -44,7 +58,8 @@ class Answer:
         if not most:
             return
         self.first = next(r for r in self.of if r.good >= ENOUGH * most)
-        before = [r for r in self.of if r.mesh < self.first.mesh and r.box]
+        before = [r for r in self.of if r.mesh < self.first.mesh and
+                  r.good >= FEWER * self.first.good and r.box]
         self.fewer = max(before, key=lambda r: r.good, default=None)
         self.wider = next((r for r in self.of if r.good == most > WIDER * self.first.good), None)
 
@@ -78,6 +93,7 @@ def answer(sweep, found, f):
               } if count > 1 else {}
     made = Answer(sweep.keys[f], of, single)
     made.choose()
+    made.decide()
     absent = found.status[f][:, sweep.outcomes(stored.ABSENT)].sum()
     made.absent = bool(absent == found.status[f].sum())
     return made

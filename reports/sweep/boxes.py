@@ -99,10 +99,15 @@ def choices_of(parts):
     return of_words(len(parts)) if parts.axis.words else of_numbers(len(parts))
 
 
+def fewest(whole):
+    """Points of a box that is worth a sentence."""
+    return max(min(FEWEST, whole), LEAST * whole)
+
+
 def scored(good, bad, whole):
     """Points that hold less what exceptions weigh; -infinite where a box is not allowed."""
     points = good + bad
-    fine = (bad <= ALLOWED * points) & (points >= max(FEWEST, LEAST * whole))
+    fine = (bad <= ALLOWED * points) & (points >= fewest(whole))
     return np.where(fine, good - WEIGHT * bad, -np.inf)
 
 
@@ -200,7 +205,7 @@ class Search:
     def run(self):
         axes = range(self.good.ndim)
         self.one(0, {})
-        if 0 in self.best or self.good.sum() < max(FEWEST, LEAST * self.whole) * (1 - ALLOWED):
+        if 0 in self.best or self.good.sum() < fewest(self.whole) * (1 - ALLOWED):
             return
         for a in axes:
             self.one(a, {})

@@ -55,7 +55,7 @@ class Validity:
         self.look, self.used, self.axes = maps.Look(sweep.meshes), set(), by_influence(found)
         self.dots = self.scattered()
         count = len(found.parts)
-        self.rows = [("", [self.strips()])] if count == 1 else [
+        self.rows = [("", [self.strips(order)])] if count == 1 and order else [
             (key, self.of(sweep.keys.index(key), key)) for key in order]
 
     @property
@@ -82,13 +82,14 @@ class Validity:
         return drawn.image(name, drawn.fields(state, self.look.fill, self.look.sign), title), (
             f"{what}: {counted(state, self.look)}")
 
-    def strips(self):
-        """One axis: a row for each formulation."""
-        found = self.found
-        state = maps.states(found.reach[:, :, self.q], found.points[:, None], self.look)
+    def strips(self, order):
+        """One axis: a row for each formulation, the first on top."""
+        found, upward = self.found, order[::-1]
+        rows = [self.sweep.keys.index(key) for key in upward]
+        state = maps.states(found.reach[:, rows, self.q], found.points[:, None], self.look)
         left = round(20 + 6.4 * max(map(len, self.sweep.keys)))
-        drawn = maps.Map(found.parts[0], self.sweep.keys[::-1], 2 * maps.WIDE, left)
-        return self.draw(drawn, state[:, ::-1], "sweep_map", "",
+        drawn = maps.Map(found.parts[0], upward, 2 * maps.WIDE, left)
+        return self.draw(drawn, state, "sweep_map", "",
                          f"elements needed over {found.parts[0].axis.name}")
 
     def of(self, f, key):
@@ -126,15 +127,17 @@ class Winners:
 
     def __init__(self, sweep, found, axes):
         self.sweep, self.found = sweep, found
-        won, known = found.wins.sum(axis=0), int(found.known[:, -1].sum())
-        self.none, self.known = known - int(won.sum()), known
+        won, known = found.wins.sum(axis=0), found.judged
+        self.none, self.known = found.unwon, known
         spent = found.winner_cost.sum(axis=0)
         self.unranked = [key for key, a in zip(sweep.keys, found.ranked) if not a]
         self.order = [int(f) for f in np.argsort(-won, kind="stable") if won[f]]
         self.shares = [(maps.LETTERS[k % 26], sweep.keys[f], int(won[f]), float(spent[f] / won[f]))
                        for k, f in enumerate(self.order)]
         self.ahead = [row for row in self.shares if row[2] >= TOLD * known][:3]
-        self.images = self.strip() if len(found.parts) == 1 else self.drawn(axes)
+        self.images = []
+        if self.shares:
+            self.images = self.strip() if len(found.parts) == 1 else self.drawn(axes)
 
     def strip(self):
         x = self.found.parts[0]
@@ -161,8 +164,8 @@ class Winners:
             f"cheapest formulation{', ' + title if title else ''}: {said or 'none'}")
 
 
-def curves(site, sweep, found):
-    """Of one axis: the largest error in each of its parts, a panel for each mesh."""
+def curves(site, sweep, found, q=-1):
+    """Of one axis: the largest error in each of its parts, a panel for each mesh. q: quantity."""
     part = found.parts[0]
     x = np.where(part.low == part.high, part.low, (part.low + part.high) / 2)
     columns = 2 if len(sweep.meshes) > 1 else 1
@@ -172,11 +175,11 @@ def curves(site, sweep, found):
                             xlog=part.log)
         panel.level(sweep.tolerance, words.tolerance(sweep))
         for f, key in enumerate(sweep.keys):
-            error = found.worst[:, f, -1, m]
+            error = found.worst[:, f, q, m]
             keep = np.isfinite(error) & (error >= 0)
             if not keep.any():
                 continue
             rows = [(float(v), float(e)) for v, e in zip(x[keep], error[keep])]
             look = site.points(key, (maps.title_of(part), "error"), rows)
             panel.plot([v for v, _ in rows], [max(e, FLOOR) for _, e in rows], label=key, **look)
-    return chart.image(site, "sweep_errors")
+    return chart.image(site, f"sweep_errors{q if q >= 0 else ''}")

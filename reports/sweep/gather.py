@@ -19,7 +19,8 @@ class Gathered:
     measured. known: points with a reference [C, Q+1]. worst: largest error [C, F, Q+1, M], infinite
     without a solution, -1 where nothing is measured.
     wins, winner_cost: points where a formulation is the cheapest within the tolerance in all
-    quantities, and the sum of what that costs, s [C, F]. kinds: references by kind [Q, kinds];
+    quantities, or as cheap within what prices are known to, and the sum of what that costs, s
+    [C, F]; unwon: points with a reference where none is. kinds: references by kind [Q, kinds];
     doubt: largest relative one [Q]; doubtful: references whose doubt exceeds the tolerance [Q];
     status: cells by outcome [F, M, S]; failed: least and largest value of each axis where an
     outcome occurs [F, S, 2, A]; points: all [C]; ranked: has a formulation costs of counted work at
@@ -38,6 +39,7 @@ class Gathered:
     failed: np.ndarray
     points: np.ndarray
     ranked: np.ndarray
+    unwon: int = 0
 
     @property
     def reach(self):
@@ -112,11 +114,11 @@ def take_winners(into, sweep, piece, cell, asked, reached):
     mesh = np.minimum(reached[:, :, -1], count - 1)
     cost = np.take_along_axis(piece.cost, mesh[..., None], axis=2)[..., 0]
     cost = np.where((reached[:, :, -1] < count) & asked[:, :, -1] & np.isfinite(cost), cost, np.inf)
-    best = cost.argmin(axis=1)
-    least = cost[np.arange(len(best)), best]
-    won = np.isfinite(least)
-    np.add.at(into.wins, (cell[won], best[won]), 1)
-    np.add.at(into.winner_cost, (cell[won], best[won]), least[won])
+    least = cost.min(axis=1, keepdims=True)
+    won = np.isfinite(cost) & (cost <= sweep.noise * least)
+    np.add.at(into.wins, cell, won)
+    np.add.at(into.winner_cost, cell, np.where(won, cost, 0))
+    into.unwon += int((known_in(sweep, piece)[:, -1] & ~won.any(axis=1)).sum())
 
 
 def take_outcomes(into, sweep, piece):

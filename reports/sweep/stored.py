@@ -81,13 +81,15 @@ class Sweep:
     """What a file says of itself; pieces() reads its tables.
 
     subject: the scene file or the case; fixed: values of all its parameters where they do not vary;
-    points: their number; statuses, kinds: names by number."""
+    noise: costs whose ratio is below it tie; points: their number; statuses, kinds: names by
+    number."""
 
     path: str
     subject: str
     fixed: str
     program: str
     tolerance: float
+    noise: float
     axes: list
     quantities: list
     keys: list
@@ -207,7 +209,8 @@ def read(path):
                           for r in file["quantities"][()]]
             found = Sweep(str(path), text(told["scene" if "scene" in told else "case"]),
                           text(told.get("parameters", "")), text(told["program"]),
-                          float(told["tolerance"]), axes_of(file), quantities,
+                          float(told["tolerance"]), float(told.get("cost_noise", 1)),
+                          axes_of(file), quantities,
                           [text(r["key"]) for r in file["formulations"][()]],
                           [int(n) for n in file["meshes"][()]], file["points"].shape[0],
                           listed(file["status"].attrs["names"]),

@@ -14,6 +14,11 @@ def plenty(number):
     return f"{number:,}".replace(",", "\u202f")
 
 
+def many(number, noun):
+    """A number of things."""
+    return f"{plenty(number)} {noun}" + ("s" if number != 1 else "")
+
+
 def percent(share):
     """Of all points; never 0 or 100 where it is neither."""
     value = 100 * share
@@ -25,7 +30,8 @@ def percent(share):
 
 
 def error(value):
-    """Relative, in percent."""
+    """The size of a relative error, in percent."""
+    value = abs(value)
     if value == float("inf"):
         return "no solution"
     return f"{100 * value:.2g} %" if value < 10 else f"{100 * value:.1e} %"
@@ -36,7 +42,7 @@ def tolerance(sweep):
 
 
 def elements(number):
-    return f"{number} element" + ("s" if number != 1 else "")
+    return many(number, "element")
 
 
 def bounds(part, chosen):
@@ -77,7 +83,7 @@ def where(box):
 
 def held(box):
     """The counts behind a statement."""
+    there = " there" if box.conditions else ""
     if not box.bad:
-        return f"all {plenty(box.points)} points" + (" there" if box.conditions else "")
-    return f"{plenty(box.good)} of {plenty(box.points)} points" + (
-        " there" if box.conditions else "")
+        return ("all " if box.points > 1 else "") + many(box.points, "point") + there
+    return f"{plenty(box.good)} of {many(box.points, 'point')}{there}"

@@ -70,7 +70,9 @@ class Pages(ProgramTest):
     def test_one_axis(self):
         page = self.page((WIDTH,))
         self.assertIn('id="sweep_errors"', page)
-        self.assertEqual(page.count('id="sweep_map"'), 1)
+        drawn = re.search(r'<svg id="sweep_map".*?</svg>', page, re.S).group()
+        names = re.findall(r">([a-z_]+)</text>", drawn)
+        self.assertEqual(names[:3], ["sheet_third", "beamw", "collocation"])  # the best on top
         self.assertIn("beamw with 1 element is within 1 % where width ≤ 5 m", text_of(page))
 
     def test_three_axes(self):
@@ -102,6 +104,8 @@ class Pages(ProgramTest):
                       "80 points to less than 1 %", "angle from 0.7 rad to 0.9 rad",
                       "20 of 100 points have nothing to measure by"):
             self.assertIn(words, said)
+        worst = said[said.index("Worst points"):said.index("What errors are against")]
+        self.assertLess(worst.index("not converged"), worst.index("25 %"))
 
     def test_what_a_file_says_is_text(self):
         page = self.page((WIDTH, ANGLE), worst=[(0, "beamw", 8, "<b>", 0.1, "ok", "<i>.yaml")])
@@ -115,6 +119,30 @@ class Pages(ProgramTest):
         self.assertIn("300 000 cells", text_of(page))
         for file in (self.folder / "site").iterdir():
             self.assertLess(file.stat().st_size, PAGE, file.name)
+
+    def test_nothing_to_measure_by(self):
+        for axes in ((WIDTH,), (WIDTH, ANGLE), (WIDTH, ANGLE, SHAPE)):
+            said = text_of(self.page(axes, kind=lambda at: np.full(len(at), 4)))
+            self.assertIn("within 1 % in no range worth naming: nothing to measure it by", said)
+            self.assertIn("No point has anything to measure by", said)
+            self.assertNotIn("Who is cheapest", said)
+
+    def test_one_point(self):
+        """And one formulation, one mesh."""
+        axes = (("width", "m", "list", (2.5,)), ("shape", "1", "words", ("C",)))
+        said = text_of(self.page(axes, keys=("collocation",), meshes=(2,)))
+        self.assertIn("collocation with 2 elements", said)
+
+    def test_without_costs(self):
+        """Formulations that rank nothing win nowhere, and are told."""
+        path = sweeps.store(self.folder / "c.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
+                            {key: errors(key) for key in KEYS})
+        with sweeps.h5py.File(path, "r+") as file:
+            file["cost"][:, 0] = np.nan
+        self.assertEqual(report(path, self.folder / "site").returncode, 0)
+        said = text_of((self.folder / "site" / "index.html").read_text(encoding="utf-8"))
+        self.assertIn("by counted work: collocation at 100 % of the points.", said)
+        self.assertIn("in no order: beamw.", said)
 
     def test_beside_results(self):
         """A page of its own, in the bar, and a sentence on the first page."""

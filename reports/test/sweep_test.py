@@ -6,7 +6,7 @@ import numpy as np
 
 from harness.test.program import ProgramTest
 from reports import data
-from reports.sweep import answers, boxes, gather, lattice, stored, words
+from reports.sweep import answers, boxes, cells, gather, lattice, maps, stored, words
 from reports.test import sweeps
 
 WIDTH = ("width", "m", "linear", np.linspace(1, 10, 10))
@@ -147,17 +147,25 @@ class Counts(ProgramTest):
                 cost[p, f] = piece.cost[p, f, first]
         wins = np.zeros_like(found.wins)
         for p in np.flatnonzero(np.isfinite(cost).any(axis=1)):
-            wins[cell[p], cost[p].argmin()] += 1
+            wins[cell[p]] += cost[p] <= sweep.noise * cost[p].min()
         np.testing.assert_array_equal(found.reach[:, :, -1], reach)
         np.testing.assert_allclose(found.worst[:, :, -1], worst, rtol=1e-6)
         np.testing.assert_array_equal(found.wins, wins)
         self.assertGreater(wins.sum(), 20)
+        nobody = np.isinf(cost).all(axis=1) & (piece.kind[:, 0] < 3)
+        self.assertEqual(found.unwon, nobody.sum())
         self.assertEqual(found.points.sum(), sweep.points)
         self.assertEqual(found.judged, (piece.kind[:, 0] < 3).sum())
         return found
 
     def test_a_grid(self):
         self.assertEqual(self.check(self.made()).shape, (10, 10))
+
+    def test_costs_that_tie(self):
+        """Work of the second formulation is twice that of the first, of the third three times."""
+        alone = self.check(self.made()).wins.sum(axis=0)
+        tied = self.check(self.made(noise=2.5)).wins.sum(axis=0)
+        self.assertGreater(tied[1], alone[1])
 
     def test_words_and_scattered_points(self):
         axes = (("width", "m", "sobol", "log"), SHAPE)
@@ -223,6 +231,17 @@ class Counts(ProgramTest):
         for outlier in made.first.exceptions:
             self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
+    def test_the_quantity_that_decides(self):
+        """It takes more elements than the other one; where both do not, none does."""
+        def made(errors):
+            sweep = stored.read(sweeps.store(self.folder / "d.h5", (WIDTH, ANGLE),
+                                             sweeps.grid(WIDTH, ANGLE), {"beamw": errors},
+                                             quantities=QUANTITIES))
+            return answers.of_sweep(sweep, gather.of_sweep(sweep))[0].decided
+        flat = np.full(100, 0.001)
+        self.assertEqual(made(lambda at, n: np.stack([flat, 0.05 * at[:, 0] / n], 1)), "v")
+        self.assertEqual(made(lambda at, n: np.stack([0.05 * at[:, 0] / n] * 2, 1)), "")
+
     def test_exceptions_are_named(self):
         def errors(at, n):
             return np.where((at[:, 0] > 0.95) & (at[:, 1] > 0.95), 0.02, 0.001)
@@ -233,6 +252,42 @@ class Counts(ProgramTest):
         named, = made.first.exceptions
         self.assertEqual(sweep.place(named.at), "width = 10 m, angle = 0.9 rad")
         self.assertEqual((named.point, words.error(named.error)), (99, "2 %"))
+
+
+class Fields(unittest.TestCase):
+    """What a map says of a field of several points."""
+
+    def state(self, *reached, points=None):
+        """Of points by the first mesh within: 0, 1, 2, none or without a solution."""
+        look = maps.Look((1, 2, 4))
+        reach = np.bincount(reached, minlength=5)
+        found = int(maps.states(reach, np.array(points or len(reached)), look))
+        return look.words[found] if found != maps.EMPTY else "no point"
+
+    def test_states(self):
+        for reached, said in (((0, 0), "1 element"), ((0, 2, 1), "4 elements"),
+                              ((3, 3), "not with 4"), ((0, 3), "at some of its points only"),
+                              ((0, 0, 4), "no solution with 4"), ((), "no point")):
+            self.assertEqual(self.state(*reached), said)
+        self.assertEqual(self.state(points=3), "nothing to measure by")
+
+    def test_runs(self):
+        row = np.array([1, 1, maps.EMPTY, 2, 2, 2, 1])
+        self.assertEqual(maps.runs(row), [(0, 2, 1), (3, 3, 2), (6, 1, 1)])
+
+    def test_signs_differ(self):
+        """Also without colours."""
+        look = maps.Look((1, 2, 4, 8, 16, 32))
+        self.assertEqual(len(set(look.sign.values())), len(look.sign))
+        self.assertEqual(len(set(look.fill.values())), len(look.fill))
+
+    def test_errors(self):
+        """A class is not below any error in it, and the next smaller one is."""
+        for error in (1e-9, 0.0123, 0.01, 0.5, 0.99):
+            k = int(cells.classes(np.float32(error), np.array(1)))
+            self.assertGreaterEqual(cells.LEVELS[k] * (1 + 1e-6), 100 * error)
+            self.assertTrue(k == 0 or cells.LEVELS[k - 1] < 100 * error)
+        self.assertEqual(cells.written(np.array([0, 0, 0, 2, maps.EMPTY, maps.UNKNOWN])), "a3c_?")
 
 
 class Told(unittest.TestCase):

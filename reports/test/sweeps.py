@@ -49,14 +49,14 @@ def table_of(rows, columns):
 
 
 def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"),),
-          tolerance=0.01, status=None, kind=None, doubt=1e-9, worst=()):
+          tolerance=0.01, status=None, kind=None, doubt=1e-9, worst=(), noise=1.0):
     """Writes a sweep.
 
     axes: [(name, unit, kind, values, words or, where they are scattered, "log" or "linear")];
     points: [P, A]; errors: {formulation: function of points [p, A], taken to 0..1 along each axis,
     and of elements to [p] or [p, Q]}; status: function of points, formulation index and mesh index
     to numbers [p]; kind: of points to numbers [p];
-    worst: rows of WORST."""
+    worst: rows of WORST; noise: costs whose ratio is below it tie."""
     points = np.asarray(points, float)
     low = points.min(axis=0)
     span = np.where(points.max(axis=0) > low, points.max(axis=0) - low, 1)
@@ -64,7 +64,7 @@ def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"
     with h5py.File(path, "w") as file:
         file.attrs.update({"beamwork_sweep": 1, "scene": "made_up.yaml", "program": "tests",
                            "plan": "0", "tolerance": tolerance, "axes": len(axes),
-                           "parameters": "load=1"})
+                           "parameters": "load=1", "cost_noise": f"{noise}"})
         rows = [(n, u, k, v, p) if k in SCATTERED else
                 (n, u, k, k if k in ("linear", "log") else "", len(v)) for n, u, k, v in axes]
         file["axes"] = table_of(rows, AXIS)
