@@ -28,7 +28,8 @@ def axis_words(part):
         return f"{axis.name}: {', '.join(axis.words)}"
     unit = f" {axis.unit}" if axis.unit not in ("", "1") else ""
     how = {"log": f"{words.many(count, 'value')} by equal factors", "sobol": "Sobol points",
-           "halton": "Halton points", "random": "random points"}.get(axis.kind, words.many(count, "value"))
+           "halton": "Halton points", "random": "random points"}.get(
+               axis.kind, words.many(count, "value"))
     return f"{axis.name}: {part.low[0]:.4g} to {part.high[-1]:.4g}{unit}, {how}"
 
 

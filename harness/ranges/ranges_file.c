@@ -6,6 +6,7 @@
 
 #include "harness/catalogue/environment.h"
 #include "harness/catalogue/parameters.h"
+#include "harness/timing/price.h"
 #include "harness/truth/checksum.h"
 
 enum { MOST_RANKS = 4, LEVEL = 3, TEXT = 64, LONG_TEXT = 128 };
@@ -212,7 +213,7 @@ static void put_request(record *r, const ranges *of, const char *plan)
 {
     const environment e = environment_now(1);
     const ranges_request *q = &of->request;
-    char program[2 * LONG_TEXT], fixed[PARAMETERS_TEXT];
+    char program[2 * LONG_TEXT], fixed[PARAMETERS_TEXT], noise[TEXT];
     const hsize_t meshes = (hsize_t)of->meshes;
     snprintf(program, sizeof program, "beamwork %s (%s)", e.version, e.commit);
     parameters_text(q->type, of->base, fixed, sizeof fixed);
@@ -227,6 +228,8 @@ static void put_request(record *r, const ranges *of, const char *plan)
         record_count(r, r->file, "seed", (long)of->design.seed);
     if (q->select != NULL)
         record_text(r, r->file, "selection", q->select);
+    snprintf(noise, sizeof noise, "%.15g", price_noise);
+    record_text(r, r->file, "cost_noise", noise); /* ratios of costs below it tie */
     record_count(r, r->file, "axes", of->design.axes);
     const hid_t tolerance =
         H5Acreate2(r->file, "tolerance", H5T_NATIVE_DOUBLE, r->scalar, H5P_DEFAULT, H5P_DEFAULT);

@@ -69,8 +69,9 @@ class Answer:
 
     def same(self):
         """What answers have in common that are told together."""
-        return (self.first.mesh, self.first.box.lattice, self.first.box.chosen) if self.first else (self.absent,
-                                                                           self.of[-1].reached)
+        if not self.first:
+            return self.absent, self.of[-1].reached
+        return self.first.mesh, self.first.box.lattice, self.first.box.chosen
 
 
 def ranges(found, meshes, f, q):

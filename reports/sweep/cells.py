@@ -73,7 +73,8 @@ def of_sweep(sweep, found, order):
     keys = range(len(sweep.keys))
     return {
         "axes": [axis_of(p) for p in found.parts], "keys": sweep.keys, "meshes": sweep.meshes,
-        "order": [sweep.keys.index(key) for key in order],         "none": elements.none, "some": elements.some, "failed": elements.failed,
+        "order": [sweep.keys.index(key) for key in order],
+        "none": elements.none, "some": elements.some, "failed": elements.failed,
         "sizes": {"left": maps.LEFT, "top": maps.TOP, "below": maps.BELOW, "right": maps.RIGHT,
                   "letter": maps.LETTER, "wide": maps.WIDE, "narrow": figures.NARROW},
         "elements": {k: look(elements.fill[k], elements.sign[k], elements.words[k])

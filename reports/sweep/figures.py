@@ -48,7 +48,8 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of least elements. order: of formulations, by key; axes: across, up, side by side. rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
+    """Maps of least elements. order: of formulations, by key; axes: across, up, side by side.
+    rows: [(formulation or empty, [(Image, alt)])]; used: states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
         self.sweep, self.found, self.q = sweep, found, q

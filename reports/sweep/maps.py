@@ -1,5 +1,5 @@
 """Maps of a sweep as SVG of their own: a field for each cell of two axes, with a colour and a sign
-that says the same. Fields of a row that are alike are one, so that any number of points stays short.
+that says the same. Fields of a row that are alike are one, so that maps stay short.
 
 assets/sweep.js draws the same maps over other axes: what is changed here is changed there."""
 import numpy as np
@@ -95,7 +95,7 @@ def place_of(part, values):
 
 
 def marks(part):
-    """[(place in parts, words)] where ticks may stand: at fields of one value, or at round numbers."""
+    """[(place in parts, words)] where ticks may stand: at fields of one value, or round numbers."""
     if part.axis.words or (part.exact and (part.low == part.high).all()):
         return [(i + 0.5, part.name(i)) for i in range(len(part))]
     low, high = part.low[0], part.high[-1]
@@ -191,7 +191,8 @@ class Map:
         above = 0 if title else TOP - 6 if isinstance(self.y, list) else TOP - 22
         height = TOP + self.size[1] + BELOW - above
         return Image(f"{name}.svg",
-                     f'<svg viewBox="0 {above} {number(width)} {number(height)}" width="{width:.0f}" '
+                     f'<svg viewBox="0 {above} {number(width)} {number(height)}" '
+                     f'width="{width:.0f}" '
                      f'height="{height:.0f}" fill="currentColor" font-size="11" '
                      f'font-family="{FONT}">{drawn}{self.frame(title)}</svg>')
 
