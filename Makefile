@@ -148,6 +148,11 @@ causes: all ## errors that the rules of the ledger allow beside those seen; expe
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
 	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
 
+.PHONY: engines
+# Installs nothing: an engine that is not there is skipped by name.
+engines: all ## run shards by Slurm, mpirun, GNU parallel and Snakemake, killed, out of disk, damaged; needs what is installed of them; build/engines.json
+	@$(PYTHON) -B -m harness.cluster.engines $(PROGRAM) -o $(BUILD)/engines.json $(ENGINES)
+
 mutants: ## plant faults one by one; each must be noticed
 	@harness/tools/mutants.sh $(BUILD)/mutants
 

@@ -139,8 +139,8 @@ def write(path, cells):
         "# Expected seconds of a cell on the reference machine, written by `make expense`.",
         "# work: seconds for each time that it is due, once and for each element; formulation:"
         " factors of both.",
-        f"# {len(cells)} cells of {len({c['case'] for c in cells})} cases; factor in the median, for"
-        " nine of ten: " + "; ".join(f"{n} {a:.2f}, {b:.2f}" for n, a, b in said) + ".",
+        f"# {len(cells)} cells of {len({c['case'] for c in cells})} cases; factor in the median,"
+        " for nine of ten: " + "; ".join(f"{n} {a:.2f}, {b:.2f}" for n, a, b in said) + ".",
         "table,name,once,element"]
     lines += [f"work,{kind},{once:.3e},{element:.3e}"
               for kind, (once, element) in zip(WORK, prices)]
