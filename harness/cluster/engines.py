@@ -81,7 +81,7 @@ def main():
     parser.add_argument("engines", nargs="*", metavar="ENGINE", help="those alone")
     parser.add_argument("-o", "--output", type=pathlib.Path, help="the same as JSON")
     parser.add_argument("--kills", type=int, default=5, help="of each engine (5)")
-    chosen = parser.parse_args()
+    chosen = parser.parse_intermixed_args()
     known = [engine.name for engine in ENGINES]
     for name in chosen.engines:
         if name not in known:
