@@ -117,7 +117,8 @@ def killed(bench, wanted):
             code = bench.engine.status(process.returncode)
             if output.exists():
                 break
-            expect(code in (INCOMPLETE, None), f"start {restart}: status {code}, not {INCOMPLETE}: "
+            begun = INCOMPLETE if into.exists() and batches(into) else REFUSED  # nothing to merge
+            expect(code in (begun, None), f"start {restart}: status {code}, not {begun}: "
                    + (bench.folder / "log").read_text()[-600:])
         bench.same(output, code)
         names = [p.name for p in batches(into)]
