@@ -137,5 +137,5 @@ int cli_bench(int count, char **arguments)
         "\vbeamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
         "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
         "beamwork bench --scene leaf.yaml --against ../before/beamwork",
-        "+fnskFojTAeXDtYK.Zibw", count, arguments, bench_request);
+        "+fnskFojTAeXDtYK.ZiCbw", count, arguments, bench_request);
 }

@@ -136,5 +136,5 @@ int cli_converge(int count, char **arguments)
         "elements, or the error given by --error."
         "\vbeamwork converge c_column -k buckling_load\n"
         "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
-        "fnskeFojTYv.Zibw", count, arguments, converge_request);
+        "fnskeFojTYv.ZiCbw", count, arguments, converge_request);
 }

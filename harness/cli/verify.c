@@ -278,5 +278,5 @@ int cli_verify(int count, char **arguments)
         "\vbeamwork verify -k \"c_column and collocation\"\n"
         "beamwork verify --shard 1/4 --into parts\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvqpW.Zibw", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvqpW.ZiCbw", count, arguments, verify_request);
 }

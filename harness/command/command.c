@@ -14,6 +14,7 @@
 #include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
 #include "harness/request/meshes.h"
+#include "harness/shards/shard.h"
 
 static int whole_number(const char *text, const char *what, long least, long most)
 {
@@ -212,6 +213,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         return 0;
     case 'X':
         r->plant = 0.01 * whole_number(value, "planted percentage", 0, 1000);
+        return 0;
+    case 'C':
+        r->plan = whole_number(value, "number of shards", 1, SHARD_MOST);
         return 0;
     case 'N':
         r->doublings = whole_number(value, "number of doublings", 1, 10);

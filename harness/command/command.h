@@ -67,6 +67,7 @@ typedef struct command_request {
     const char *to;           /* program that a deck is for */
     int schema, keys;         /* 1: describe the keys of scene files as JSON Schema, as a list */
     const char *shard, *into; /* K/N of the work, into which folder */
+    int plan;                 /* how long so many shards take; 0: not asked */
     const char *from[COMMAND_MAX_CASES]; /* folders with batches, taken instead of computing */
     int from_count, partial;             /* 1: what is missing is left out */
     int hash;                            /* 1: of stored runs */

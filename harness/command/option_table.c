@@ -110,6 +110,10 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, shard)},
     {"into", 'i', "FOLDER", "of the batches of --shard (without it: of all); it is made",
      offsetof(command_request, into)},
+    {"plan", 'C', "N",
+     "when would 1, 2, 4, ..., N shards end? Nothing is computed; with --into by what the batches "
+     "of that folder took",
+     0},
     {"from", 'b', "FOLDER",
      "take the batches that are there instead of computing, as 'beamwork merge' does; again for "
      "another",

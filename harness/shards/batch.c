@@ -51,11 +51,12 @@ int batch_is_name(const char *name)
 static int write_label(FILE *to, const batch_label *b, size_t size)
 {
     json_t *out = json_pack(
-        "{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:s,s:f,s:s,s:s,s:s,s:O?,s:I}", "beamwork_batch", 1,
-        "verb", b->verb, "build", b->build, "request", b->request, "plan", b->plan, "batch",
+        "{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:s,s:f,s:f,s:s,s:s,s:s,s:O?,s:I}", "beamwork_batch",
+        1, "verb", b->verb, "build", b->build, "request", b->request, "plan", b->plan, "batch",
         b->batch + 1, "batches", b->batches, "shard", b->shard + 1, "shards", b->shards, "content",
-        b->content, "seconds", b->seconds, "host", b->node.host, "processor", b->node.processor,
-        "blas", b->node.blas, "origin", b->origin, "size", (json_int_t)size);
+        b->content, "seconds", b->seconds, "processor_seconds", b->processor_seconds, "host",
+        b->node.host, "processor", b->node.processor, "blas", b->node.blas, "origin", b->origin,
+        "size", (json_int_t)size);
     const int bad = out == NULL || json_dumpf(out, to, JSON_COMPACT) != 0 || fputc('\n', to) == EOF;
     json_decref(out);
     return bad ? -1 : 0;

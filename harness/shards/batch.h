@@ -17,7 +17,8 @@ typedef struct batch_label {
     int batch, batches; /* counted from 0 */
     int shard, shards;  /* who computed it, counted from 0 */
     char content[DIGEST_TEXT];
-    double seconds; /* that it took */
+    double seconds;           /* that it took */
+    double processor_seconds; /* of these, those of the processor, of all its processes */
     node node;
     json_t *origin; /* batch_label_free releases it */
 } batch_label;

@@ -45,6 +45,7 @@ static int get_label(const json_t *from, batch_label *b)
     b->shard = get_index(from, "shard");
     b->shards = get_index(from, "shards") + 1;
     b->seconds = json_number_value(json_object_get(from, "seconds"));
+    b->processor_seconds = json_number_value(json_object_get(from, "processor_seconds"));
     b->origin = json_incref(json_object_get(from, "origin"));
     return b->batch >= 0 && b->batch < b->batches && b->shard >= 0 ? 0 : -1;
 }

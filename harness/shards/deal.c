@@ -33,29 +33,49 @@ void deal_order(int batches, const double cost[], int order[])
     qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
 }
 
-static int least(int count, const double sum[])
+/* What a shard has so far; a heap of them has the one with the least on top, of two the first. */
+typedef struct hand {
+    double sum;
+    int shard;
+} hand;
+
+static int is_before(const hand *a, const hand *b)
 {
-    int found = 0;
-    for (int i = 1; i < count; i++)
-        if (sum[i] < sum[found])
-            found = i;
-    return found;
+    return a->sum < b->sum || (a->sum == b->sum && a->shard < b->shard);
+}
+
+/* The top has changed. */
+static void sift(hand heap[], int count)
+{
+    const hand moved = heap[0];
+    int at = 0;
+    for (int below = 1; below < count; below = 2 * at + 1) {
+        if (below + 1 < count && is_before(&heap[below + 1], &heap[below]))
+            below++;
+        if (!is_before(&heap[below], &moved))
+            break;
+        heap[at] = heap[below];
+        at = below;
+    }
+    heap[at] = moved;
 }
 
 int deal_out(int batches, const double cost[], int shards, int shard[])
 {
     int *order = malloc(((size_t)batches + 1) * sizeof *order);
-    double *sum = calloc((size_t)shards + 1, sizeof *sum);
-    const int good = order != NULL && sum != NULL;
+    hand *heap = malloc(((size_t)shards + 1) * sizeof *heap);
+    const int good = order != NULL && heap != NULL;
     if (good) {
         deal_order(batches, cost, order);
+        for (int k = 0; k < shards; k++)
+            heap[k] = (hand){0, k};
         for (int i = 0; i < batches; i++) {
-            const int to = least(shards, sum);
-            shard[order[i]] = to;
-            sum[to] += cost[order[i]];
+            shard[order[i]] = heap[0].shard;
+            heap[0].sum += cost[order[i]];
+            sift(heap, shards);
         }
     }
     free(order);
-    free(sum);
+    free(heap);
     return good ? 0 : -1;
 }

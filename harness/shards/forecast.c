@@ -80,7 +80,7 @@ static status read_batch(const work *w, const char *folder, int batch, double se
         return STATUS_OK;
     const status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK)
-        seconds[batch] = label.seconds;
+        seconds[batch] = label.processor_seconds;
     batch_label_free(&label);
     return outcome;
 }
@@ -95,21 +95,23 @@ static int ascending(const void *left, const void *right)
 static status compare(const work *w, forecast_seconds *out, fault *f)
 {
     double cost = 0, all = 0;
+    int count = 0;
     double *off = malloc(((size_t)w->batches + 1) * sizeof *off);
     if (off == NULL)
         return no_memory(f);
     for (int i = 0; i < w->batches; i++)
         if (out->seconds[i] >= 0) {
+            out->measured++;
             cost += w->cost[i];
             all += out->seconds[i];
         }
     out->factor = cost > 0 && all > 0 ? all / cost : 1;
     for (int i = 0; i < w->batches; i++)
         if (out->seconds[i] > 0 && w->cost[i] > 0)
-            off[out->measured++] = fabs(log(out->seconds[i] / (w->cost[i] * out->factor)));
-    qsort(off, (size_t)out->measured, sizeof *off, ascending);
-    out->median = out->measured > 0 ? exp(off[out->measured / 2]) : 1;
-    out->tenth = out->measured > 0 ? exp(off[(int)(0.9 * (out->measured - 1))]) : 1;
+            off[count++] = fabs(log(out->seconds[i] / (w->cost[i] * out->factor)));
+    qsort(off, (size_t)count, sizeof *off, ascending);
+    out->median = count > 0 ? exp(off[count / 2]) : 1;
+    out->tenth = count > 0 ? exp(off[(int)(0.9 * (count - 1))]) : 1;
     free(off);
     return STATUS_OK;
 }

@@ -13,9 +13,10 @@ typedef struct forecast {
 
 /* What batches took, beside what was expected. */
 typedef struct forecast_seconds {
-    int measured;         /* batches that are there */
-    double *seconds;      /* [batches] measured; of the others the expected ones times `factor` */
-    double factor;        /* measured by expected, of all that are there together; 1: none is */
+    int measured;    /* batches that are there */
+    double *seconds; /* [batches] of the processor, measured; of the others the expected ones times
+                        `factor` */
+    double factor;   /* measured by expected, of all that are there together; 1: none is */
     double median, tenth; /* factors of single batches beside that one, and that of nine of ten */
 } forecast_seconds;
 

@@ -2,9 +2,24 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "harness/algebra/clock.h"
+
+/* Of this process and those that it has waited for. */
+static double processor_seconds(void)
+{
+    static const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};
+    double all = 0;
+    for (int i = 0; i < 2; i++) {
+        struct rusage used;
+        getrusage(whose[i], &used);
+        all += (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+               1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    }
+    return all;
+}
 
 /* One batch, from nothing to its file. */
 static status compute(const labour *c, int batch, double *seconds, fault *f)
@@ -18,7 +33,7 @@ static status compute(const labour *c, int batch, double *seconds, fault *f)
                          .shard = c->request->index,
                          .shards = c->request->count,
                          .node = c->here};
-    const double begun = clock_wall_seconds();
+    const double begun = clock_wall_seconds(), worked = processor_seconds();
     FILE *to = open_memstream(&bytes, &size);
     if (to == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a batch");
@@ -32,6 +47,7 @@ static status compute(const labour *c, int batch, double *seconds, fault *f)
         snprintf(label.request, sizeof label.request, "%s", w->request);
         snprintf(label.plan, sizeof label.plan, "%s", w->plan);
         label.seconds = *seconds;
+        label.processor_seconds = processor_seconds() - worked;
         label.origin = w->origin != NULL ? json_loads(w->origin, 0, NULL) : NULL;
         digest_text(&content, label.content);
         outcome = batch_write(c->request->into, &label, bytes, size, f);

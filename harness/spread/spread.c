@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "harness/record/output.h"
+#include "harness/shards/forecast.h"
 #include "harness/shards/merge.h"
 #include "harness/shards/shard.h"
 
@@ -17,7 +18,12 @@ static int writes(const command_request *r)
 status spread_asked(const command_request *r, int *asked, fault *f)
 {
     int index, count;
-    *asked = r->into != NULL || r->shard != NULL || r->from_count > 0;
+    *asked = r->into != NULL || r->shard != NULL || r->from_count > 0 || r->plan > 0;
+    if (r->plan > 0 && (r->shard != NULL || r->from_count > 0 || writes(r)))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--plan says when all shards would end, on standard output: leave --shard, "
+            "--from and outputs away");
     if (r->from_count > 0 && (r->into != NULL || r->shard != NULL))
         return fault_set(f, STATUS_REFUSED, "--from takes batches, --into computes them: give one");
     if (r->shard != NULL && r->into == NULL)
@@ -82,6 +88,14 @@ environment spread_environment(const spread_end *end, int threads)
     return e;
 }
 
+static status plan(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+{
+    out->ended = 1;
+    out->code = EXIT_AS_EXPECTED;
+    TRY(forecast_tell(w, r->into, r->plan, times ? 1 : r->jobs, stdout, f));
+    return output_flush(f);
+}
+
 static status take(const command_request *r, const work *w, int times, const stock *s,
                    spread_end *out, fault *f)
 {
@@ -118,6 +132,8 @@ static status merge(const command_request *r, const work *w, int times, spread_e
 
 status spread_work(const command_request *r, const work *w, int times, spread_end *out, fault *f)
 {
+    if (r->plan > 0)
+        return plan(r, w, times, out, f);
     return r->from_count > 0 ? merge(r, w, times, out, f) : compute(r, w, times, out, f);
 }
 

@@ -15,10 +15,10 @@ typedef struct spread_end {
     char processor[128]; /* that the batches were computed on; empty: they were not merged */
 } spread_end;
 
-/* 1: --into, --shard or --from were given. REFUSED: what does not go together. */
+/* 1: --into, --shard, --from or --plan were given. REFUSED: what does not go together. */
 status spread_asked(const command_request *r, int *asked, fault *f);
-/* Computes the shard and says what became of it, or takes the batches. times: 1 where machines
- * matter, and one process computes at a time. */
+/* Computes the shard and says what became of it, takes the batches, or says how long they take.
+ * times: 1 where machines matter, and one process computes at a time. */
 status spread_work(const command_request *r, const work *w, int times, spread_end *out, fault *f);
 /* What a result was made with: here, or where the batches were computed. */
 environment spread_environment(const spread_end *, int threads);

@@ -84,8 +84,32 @@ static void dealt(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
+/* As by the rule itself: the dearest that is left to the first of the shards that have least. */
+static void dealt_by_the_rule(void)
+{
+    enum { BATCHES = 300, MOST = 40 };
+    double cost[BATCHES];
+    int shard[BATCHES], order[BATCHES];
+    for (int i = 0; i < BATCHES; i++)
+        cost[i] = 1 + i * 7 % 4; /* many cost the same */
+    deal_order(BATCHES, cost, order);
+    for (int shards = 1; shards <= MOST; shards++) {
+        double sum[MOST] = {0};
+        int wrong = deal_out(BATCHES, cost, shards, shard) != 0;
+        for (int i = 0; i < BATCHES; i++) {
+            int to = 0;
+            for (int k = 1; k < shards; k++)
+                to = sum[k] < sum[to] ? k : to;
+            wrong += shard[order[i]] != to;
+            sum[to] += cost[order[i]];
+        }
+        gsl_test_int(wrong, 0, "%d shards", shards);
+    }
+}
+
 int main(void)
 {
+    dealt_by_the_rule();
     known_digests();
     same_numbers();
     cut();

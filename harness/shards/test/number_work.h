@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/algebra/clock.h"
 #include "harness/record/test/folder.h"
 #include "harness/shards/merge.h"
 #include "harness/shards/shard.h"
@@ -18,6 +19,7 @@ typedef struct numbers {
     int crashes; /* batch whose process ends itself, or -1 */
     int fails;   /* batch that cannot be done, or -1 */
     int wait;    /* [us] that a batch takes */
+    double busy; /* [s] of the processor that it takes */
     double sign; /* other answers: -1 */
     int taken, next;
     double sum;
@@ -31,6 +33,9 @@ static inline int numbers_in(int batch)
 static inline status numbers_run(void *context, int batch, FILE *to, digest *content, fault *f)
 {
     const numbers *n = context;
+    const double begun = clock_processor_seconds();
+    while (clock_processor_seconds() - begun < n->busy)
+        ;
     if (n->wait > 0)
         usleep((useconds_t)n->wait);
     if (batch == n->crashes)
