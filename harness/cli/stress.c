@@ -61,7 +61,7 @@ int cli_stress(int count, char **arguments)
         "3 nothing was tried, 4 file, disk "
         "or memory, 5 batches are missing (--shard K/N --into FOLDER, 'beamwork merge')."
         "\vbeamwork stress -k \"thin_sheet and collocation\"",
-        "fokjJFTZibw", count, arguments, &r);
+        "fokjJFTZiCbw", count, arguments, &r);
     if (r.case_name != NULL)
         return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");
     const status outcome = run(&r, &s, &end, &f);
