@@ -7,98 +7,18 @@
 #include "harness/command/own_tables.h"
 #include "harness/command/scenes.h"
 #include "harness/imports/import_store.h"
-#include "harness/judge/families.h"
-#include "harness/judge/proposal.h"
 #include "harness/judge/sentence.h"
-#include "harness/record/json.h"
-#include "harness/record/junit.h"
-#include "harness/record/markdown.h"
 #include "harness/record/output.h"
-#include "harness/record/store.h"
+#include "harness/request/verification.h"
+#include "harness/request/verification_files.h"
 #include "harness/spread/verification_work.h"
+#include "harness/study/plan.h"
 #include "harness/tables/table_overview.h"
 #include "harness/tables/table_run.h"
 #include "harness/tables/table_unexpected.h"
 #include "harness/tables/table_verdicts.h"
 
 enum { PICTURED_STATES = 5 };
-
-static status write_json(const char *path, const sweep *s, const judgement *j, const environment *e,
-                         fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    return output_finish(&file, json_write_verdicts(file.stream, s, j, e, f), f);
-}
-
-static status write_junit(const char *path, const sweep *s, const judgement *j, fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    junit_write(file.stream, s, j);
-    return output_close(&file, f);
-}
-
-static status write_markdown(const char *path, const sweep *s, const judgement *j,
-                             const overview *o, const environment *e, fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    markdown_write(file.stream, s, j, o, e);
-    return output_close(&file, f);
-}
-
-static status write_proposal(const char *path, const sweep *s, const judgement *j, fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    proposal_write(file.stream, s, j);
-    return output_close(&file, f);
-}
-
-/* Where each file goes: of an interrupted run, under names that say so. */
-typedef struct places {
-    char output[PATH_MAX], json[PATH_MAX], junit[PATH_MAX], markdown[PATH_MAX], propose[PATH_MAX];
-} places;
-
-static status place_one(const char *path, int partial, char out[PATH_MAX], fault *f)
-{
-    out[0] = '\0';
-    if (path == NULL)
-        return STATUS_OK;
-    if (partial)
-        return output_partial(path, out, f);
-    snprintf(out, PATH_MAX, "%s", path);
-    return STATUS_OK;
-}
-
-static status place_all(const command_request *r, int partial, places *out, fault *f)
-{
-    TRY(place_one(r->output, partial, out->output, f));
-    TRY(place_one(r->json, partial, out->json, f));
-    TRY(place_one(r->junit, partial, out->junit, f));
-    TRY(place_one(r->markdown, partial, out->markdown, f));
-    return place_one(r->propose, partial, out->propose, f);
-}
-
-static status write_all(const command_request *r, const sweep *s, const judgement *j,
-                        const overview *o, fault *f)
-{
-    const environment e = environment_now(r->jobs);
-    places to;
-    TRY(place_all(r, s->unfinished > 0, &to, f));
-    if (to.output[0] != '\0')
-        TRY(store_write(to.output, s, j, &e, f));
-    if (to.json[0] != '\0')
-        TRY(write_json(to.json, s, j, &e, f));
-    if (to.junit[0] != '\0')
-        TRY(write_junit(to.junit, s, j, f));
-    if (to.markdown[0] != '\0')
-        TRY(write_markdown(to.markdown, s, j, o, &e, f));
-    if (to.propose[0] != '\0')
-        TRY(write_proposal(to.propose, s, j, f));
-    return STATUS_OK;
-}
 
 /* Is every limit shown? Where it was asked for, or somebody looks at something in particular. */
 static int shows_limits(const command_request *r, const overview *o)
@@ -125,30 +45,6 @@ static void show(const command_request *r, const sweep *s, const judgement *j, c
     table_unexpected(stdout, look, s, j, t);
     sentence_of_run(s, j, sentence, sizeof sentence);
     table_run_end(stdout, look, sentence);
-}
-
-static status show_and_write(const command_request *r, const sweep *s, const judgement *j,
-                             const truths *t, const overview *o, double begun, fault *f)
-{
-    show(r, s, j, t, o, clock_wall_seconds() - begun);
-    TRY(output_flush(f));
-    return write_all(r, s, j, o, f);
-}
-
-static status judge_and_write(const command_request *r, const sweep *s, truths *t, judgement *j,
-                              double begun, fault *f)
-{
-    const int whole = r->select == NULL && r->formulations == 0 && s->unfinished == 0 &&
-                      (r->built_in || r->scene_count == 0);
-    overview o = {0};
-    if (r->scene_count > 0)
-        TRY(families_add_truths(s, 1, t, f));
-    TRY(judgement_make(s, t, whole, j, f));
-    status outcome = overview_make(s, j, &o, f);
-    if (outcome == STATUS_OK)
-        outcome = show_and_write(r, s, j, t, &o, begun, f);
-    overview_free(&o);
-    return outcome;
 }
 
 /* The first file that is written, or NULL. */
@@ -203,9 +99,57 @@ static status add_beside(const char *path, int gates, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* With what verify_scenes frees. */
-static status run(const command_request *r, const scenes *own, sweep *s, truths *t, judgement *j,
-                  spread_end *end, fault *f)
+/* All that a verification makes; verify_scenes frees it. */
+typedef struct trial {
+    sweep sweep;
+    truths truths;
+    judgement judgement;
+    overview overview;
+    verification_files files;
+    spread_end end; /* of shards, or of batches that are merged */
+} trial;
+
+static status check_files(const command_request *r, const scenes *own, fault *f)
+{
+    TRY(files_check(r, 1, case_input_truths_path(r), f));
+    for (int i = 0; i < own->count; i++)
+        TRY(files_check_input(r, own->path[i], f));
+    for (int i = 0; i < r->beside_count; i++)
+        TRY(files_check_input(r, r->beside[i], f));
+    return own_tables_check(r, f);
+}
+
+static status add_all_beside(const command_request *r, sweep *s, fault *f)
+{
+    for (int i = 0; i < r->beside_count; i++)
+        TRY(add_beside(r->beside[i], r->gate, s, f));
+    return STATUS_OK;
+}
+
+/* Here, or by batches of shards, which are judged when all of them are there. */
+static status run_and_judge(const command_request *r, const sweep_request *request, trial *v,
+                            fault *f)
+{
+    const int whole =
+        r->select == NULL && r->formulations == 0 && (r->built_in || r->scene_count == 0);
+    const verification_reader reader = {&v->files, verification_files_case};
+    int asked;
+    TRY(spread_asked(r, &asked, f));
+    TRY(plan_sweep(request, &v->truths, &v->sweep, f));
+    if (asked)
+        TRY(verification_work_run(r, request, &v->truths, &v->sweep, &v->end, f));
+    if (v->end.ended)
+        return STATUS_OK;
+    TRY(add_all_beside(r, &v->sweep, f));
+    TRY(verification_files_open(&v->files, &v->sweep, &v->judgement, f));
+    if (asked)
+        TRY(verification_judge(whole, &v->truths, &v->sweep, &v->judgement, f));
+    else
+        TRY(verification_run(request, whole, &reader, &v->truths, &v->sweep, &v->judgement, f));
+    return overview_make(&v->sweep, &v->judgement, &v->overview, f);
+}
+
+static status run(const command_request *r, const scenes *own, trial *v, fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
     const double begun = clock_wall_seconds();
@@ -220,34 +164,29 @@ static status run(const command_request *r, const scenes *own, sweep *s, truths 
                                    .formulation = r->formulation,
                                    .shapes = states,
                                    .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL};
-    TRY(files_check(r, 1, case_input_truths_path(r), f));
-    for (int i = 0; i < own->count; i++)
-        TRY(files_check_input(r, own->path[i], f));
-    for (int i = 0; i < r->beside_count; i++)
-        TRY(files_check_input(r, r->beside[i], f));
-    TRY(own_tables_check(r, f));
-    TRY(scenes_truths(own, r, t, f));
-    TRY(verification_work_run(r, &request, t, s, end, f));
-    if (end->ended)
+    TRY(check_files(r, own, f));
+    TRY(scenes_truths(own, r, &v->truths, f));
+    TRY(run_and_judge(r, &request, v, f));
+    if (v->end.ended)
         return STATUS_OK;
-    for (int i = 0; i < r->beside_count; i++)
-        TRY(add_beside(r->beside[i], r->gate, s, f));
-    return judge_and_write(r, s, t, j, begun, f);
+    show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
+    TRY(output_flush(f));
+    return verification_files_close(&v->files, &v->overview, r->jobs, f);
 }
 
 static int verify_scenes(const command_request *r, const scenes *own)
 {
-    sweep s = {0};
-    truths t = {0};
-    judgement j = {0};
-    spread_end end = {.ended = 0};
+    trial v = {.files = {r->output, r->json, r->junit, r->markdown, r->propose}};
     fault f = {""};
-    const status outcome = run(r, own, &s, &t, &j, &end, &f);
-    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text) : tell(r, &s, &j, &end);
-    spread_free(&end);
-    judgement_free(&j);
-    sweep_free(&s);
-    truths_free(&t);
+    const status outcome = run(r, own, &v, &f);
+    const int code = outcome != STATUS_OK ? message_fail(outcome, f.text)
+                                          : tell(r, &v.sweep, &v.judgement, &v.end);
+    verification_files_drop(&v.files);
+    spread_free(&v.end);
+    overview_free(&v.overview);
+    judgement_free(&v.judgement);
+    sweep_free(&v.sweep);
+    truths_free(&v.truths);
     return code;
 }
 

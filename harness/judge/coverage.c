@@ -34,9 +34,9 @@ static void count(const sweep *s, const verdict *v, coverage *row)
     }
 }
 
-status coverage_count(const sweep *s, judgement *out, fault *f)
+status coverage_count(const sweep *s, int first, judgement *out, fault *f)
 {
-    for (int i = 0; i < out->verdicts; i++) {
+    for (int i = first; i < out->verdicts; i++) {
         const verdict *v = &out->verdict[i];
         if (v->truth == NULL || strcmp(v->truth->kind, "exact") != 0 || isnan(v->fit.limit))
             continue;

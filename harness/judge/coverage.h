@@ -4,7 +4,7 @@
 
 #include "harness/judge/judgement.h"
 
-/* Fills the coverages of a judgement from its verdicts. */
-status coverage_count(const sweep *s, judgement *out, fault *f);
+/* Adds to the coverages of a judgement what its verdicts show, from the given one on. */
+status coverage_count(const sweep *s, int first, judgement *out, fault *f);
 
 #endif

@@ -128,11 +128,9 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
                         truths *t, fault *f)
 {
     const point *p = &s->point[point_index];
-    truth *more = realloc(t->row, (size_t)(t->rows + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for truths");
-    t->row = more;
-    truth *row = &more[t->rows++];
+    truth *row = truths_add(t, f);
+    if (row == NULL)
+        return STATUS_FAULT;
     *row = (truth){.type = p->type,
                    .value = l->value,
                    .uncertainty = l->uncertainty,
@@ -160,22 +158,39 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-status families_add_truths(const sweep *s, int files_only, truths *t, fault *f)
+/* May agreements of it become truths? */
+static int is_open(const point *p, int files_only)
 {
-    for (int i = 0; i < s->points; i++) {
-        const point *p = &s->point[i];
-        if (p->status != STATUS_OK || (files_only && p->type->build_from == NULL))
+    return p->status == STATUS_OK && (!files_only || p->type->build_from != NULL);
+}
+
+status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f)
+{
+    const point *p = &s->point[point_index];
+    for (int q = 0; is_open(p, files_only) && q < p->scene.quantities; q++) {
+        const char *name = p->scene.quantity[q].name;
+        if (p->scene.quantity[q].reduction == SCENE_CURVE ||
+            truth_of(t, p->type, p->parameter, name, "same") != NULL ||
+            truth_agreed(t, p->type, p->parameter, name) != NULL)
             continue;
-        for (int q = 0; q < p->scene.quantities; q++) {
-            const char *name = p->scene.quantity[q].name;
-            if (p->scene.quantity[q].reduction == SCENE_CURVE ||
-                truth_of(t, p->type, p->parameter, name, "same") != NULL ||
-                truth_agreed(t, p->type, p->parameter, name) != NULL)
-                continue;
-            const families_limit l = families_limit_of(s, i, q);
-            if (l.families >= 2 && !l.disputed)
-                TRY(add_truth(s, i, q, &l, t, f));
-        }
+        const families_limit l = families_limit_of(s, point_index, q);
+        if (l.families >= 2 && !l.disputed)
+            TRY(add_truth(s, point_index, q, &l, t, f));
     }
     return STATUS_OK;
+}
+
+status families_add_truths(const sweep *s, int files_only, truths *t, fault *f)
+{
+    for (int i = 0; i < s->points; i++)
+        TRY(families_add_point(s, i, files_only, t, f));
+    return STATUS_OK;
+}
+
+status families_reserve(const sweep *s, int files_only, truths *t, fault *f)
+{
+    int most = 0;
+    for (int i = 0; i < s->points; i++)
+        most += is_open(&s->point[i], files_only) ? s->point[i].scene.quantities : 0;
+    return truths_reserve(t, most, f);
 }

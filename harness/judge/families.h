@@ -29,5 +29,9 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity);
 /* Adds a truth of kind agreement for every quantity of a point that has none of its model.
  * files_only: 1: of scene files, not of built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
+/* The same of one point, all of whose series are done. */
+status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
+/* Room for all that can be added, before the first verdict refers to a truth. */
+status families_reserve(const sweep *s, int files_only, truths *t, fault *f);
 
 #endif

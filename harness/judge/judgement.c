@@ -222,7 +222,7 @@ static void count_missed(const truths *t, judgement *out)
     out->unmet += t->strangers;
 }
 
-status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f)
 {
     int count = 0;
     memset(out, 0, sizeof *out);
@@ -232,17 +232,33 @@ status judgement_make(const sweep *s, truths *t, int whole, judgement *out, faul
     out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
     if (out->verdict == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
-    TRY(check_units(s, t, f));
-    for (int i = 0; i < s->seriess; i++) {
-        judge_series(s, t, i, out);
-        TRY(agreements_add(s, t, i, out, f));
-        if (s->series[i].imported == NULL && !formulations_is_new(s->series[i].formulation.type))
-            TRY(check_cells(s, i, out, f));
-    }
-    TRY(coverage_count(s, out, f));
+    return check_units(s, t, f);
+}
+
+status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f)
+{
+    const series *one = &s->series[series_index];
+    const int first = out->verdicts;
+    judge_series(s, t, series_index, out);
+    TRY(agreements_add(s, t, series_index, out, f));
+    if (one->imported == NULL && !formulations_is_new(one->formulation.type))
+        TRY(check_cells(s, series_index, out, f));
+    return coverage_count(s, first, out, f);
+}
+
+void judgement_end(const sweep *s, truths *t, int whole, judgement *out)
+{
     out->unobserved = missed_rules(s, t, whole);
     if (whole)
         count_missed(t, out);
+}
+
+status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+{
+    TRY(judgement_begin(s, t, out, f));
+    for (int i = 0; i < s->seriess; i++)
+        TRY(judgement_add(s, t, i, out, f));
+    judgement_end(s, t, whole, out);
     return STATUS_OK;
 }
 

@@ -54,8 +54,14 @@ typedef struct judgement {
 /* 1: verdicts of the series may turn on the noise of its finest mesh, which is then worth
  * measuring. */
 int judgement_doubts(const sweep *s, const truths *t, int series_index);
-/* FAULT when a truth has another unit than its quantity. whole: 1 when nothing was selected away,
- * so that a rule nobody observed and a truth that speaks of nothing are failures. */
+/* Begins with the planned series, which are then judged one by one, in their order, when they have
+ * been run. FAULT when a truth has another unit than its quantity. */
+status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
+status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
+/* whole: 1 when nothing was selected away, so that a rule nobody observed and a truth that speaks
+ * of nothing are failures. */
+void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
+/* All three. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
 /* Exit code: 0 as expected, 1 a verdict differs, 3 nothing was checked. */

@@ -1,6 +1,5 @@
 #include <limits.h>
 
-#include "harness/judge/families.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
 #include "harness/library/known.h"
@@ -11,6 +10,7 @@
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/request/verification.h"
+#include "harness/study/plan.h"
 #include "harness/study/worker.h"
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
@@ -63,14 +63,12 @@ static status judge(trial *v, fault *f)
 {
     const sweep_request *r = &v->request;
     const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
-    TRY(verification_run(r, &v->truths, &v->sweep, f));
-    TRY(contestants_finished(&v->sweep, f));
-    if (v->scene != NULL)
-        TRY(families_add_truths(&v->sweep, 1, &v->truths, f));
-    return judgement_make(&v->sweep, &v->truths, whole, &v->judgement, f);
+    TRY(plan_sweep(r, &v->truths, &v->sweep, f));
+    TRY(verification_run(r, whole, NULL, &v->truths, &v->sweep, &v->judgement, f));
+    return contestants_finished(&v->sweep, f);
 }
 
-static status store(const trial *v, const environment *e, fault *f)
+static status keep(const trial *v, const environment *e, fault *f)
 {
     if (v->results == NULL)
         return STATUS_OK;
@@ -85,9 +83,9 @@ static status answer(trial *v, char **json, fault *f)
     text t;
     TRY(judge(v, f));
     const environment e = environment_now(v->request.jobs);
-    TRY(store(v, &e, f));
+    TRY(keep(v, &e, f));
     TRY(text_begin(&t, f));
-    return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->judgement, &e, f), json, f);
+    return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->judgement, &e, NULL, f), json, f);
 }
 
 static status verify(trial *v, const char *names, const char *options, char **json, fault *f)

@@ -182,11 +182,9 @@ static void check_row(reader *r, const truth *row)
 
 static status add(reader *r, const truth *row, fault *f)
 {
-    truth *more = realloc(r->t->row, ((size_t)r->t->rows + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for truths");
-    r->t->row = more;
-    truth *to = &more[r->t->rows++];
+    truth *to = truths_add(r->t, f);
+    if (to == NULL)
+        return STATUS_FAULT;
     *to = *row;
     char **const text[] = {&to->formulation, &to->theory, &to->quantity,   &to->unit,
                            &to->kind,        &to->model,  &to->convention, &to->source};

@@ -2,12 +2,16 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/record/json_record.h"
 #include "harness/schema/gather.h"
 #include "harness/study/noise.h"
 #include "harness/truth/truth.h"
+
+enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
+static const char unwritten[] = "the JSON could not be written (full disk or out of memory)";
 
 static json_t *values_of(const assignment_list *l, const double value[])
 {
@@ -89,13 +93,9 @@ static void add_curves(json_t *root, const gathering *g)
 
 status json_finish(json_t *root, FILE *to, fault *f)
 {
-    const int bad = root == NULL ||
-                    json_dumpf(root, to, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0 ||
-                    fputc('\n', to) == EOF;
+    const int bad = root == NULL || json_dumpf(root, to, DUMP) != 0 || fputc('\n', to) == EOF;
     json_decref(root);
-    return bad ? fault_set(f, STATUS_FAULT,
-                           "the JSON could not be written (full disk or out of memory)")
-               : STATUS_OK;
+    return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
 }
 
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
@@ -120,16 +120,54 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
     return json_finish(root, to, f);
 }
 
-status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
-                           fault *f)
+/* What stands before and behind the verdicts where they are alone, as they stand among the rest. */
+static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
+                  none[] = "\n \"verdicts\": []";
+
+void json_part_begin(json_part *part)
+{
+    *part = (json_part){.verdicts = 0};
+    part->to = open_memstream(&part->text, &part->size);
+}
+
+void json_part_add(json_part *part, const sweep *s, const judgement *j)
 {
     const gathering g = {s, j, NULL};
-    json_t *verdicts = json_array(), *agreements = json_array(), *coverages = json_array(),
-           *counts = json_object();
-    for (int i = 0; i < j->verdicts; i++) {
-        const subject one = gather_verdict(&g, &j->verdict[i]);
-        json_record_add(verdicts, &record_verdict, &one, KEY_AROUND);
+    json_t *list = json_array(), *alone = json_pack("{s:o}", record_verdict.table, list);
+    if (part->to == NULL || part->verdicts == j->verdicts) {
+        json_decref(alone);
+        return;
     }
+    if (part->verdicts > 0)
+        fputc(',', part->to);
+    for (; part->verdicts < j->verdicts; part->verdicts++) {
+        const subject one = gather_verdict(&g, &j->verdict[part->verdicts]);
+        json_record_add(list, &record_verdict, &one, KEY_AROUND);
+    }
+    char *text = json_dumps(alone, DUMP);
+    const size_t around = strlen(alone_before) + strlen(alone_behind);
+    if (text == NULL || strlen(text) < around) {
+        fclose(part->to);
+        part->to = NULL;
+    } else
+        fwrite(text + strlen(alone_before), 1, strlen(text) - around, part->to);
+    free(text);
+    json_decref(alone);
+}
+
+void json_part_free(json_part *part)
+{
+    if (part->to != NULL)
+        fclose(part->to);
+    free(part->text);
+    *part = (json_part){.verdicts = 0};
+}
+
+/* All but the verdicts. */
+static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
+{
+    const gathering g = {s, j, NULL};
+    json_t *agreements = json_array(), *coverages = json_array(), *counts = json_object();
     for (int i = 0; i < j->agreements; i++) {
         const subject one = gather_agreement(&g, &j->agreement[i]);
         json_record_add(agreements, &record_agreement, &one, KEY_AROUND);
@@ -150,8 +188,37 @@ status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const e
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
     json_object_set_new(root, "contradictory_cells", json_integer(j->flaws));
     json_object_set_new(root, "counts", counts);
-    json_object_set_new(root, record_verdict.table, verdicts);
+    json_object_set_new(root, record_verdict.table, json_array());
     json_object_set_new(root, record_agreement.table, agreements);
     json_object_set_new(root, record_coverage.table, coverages);
-    return json_finish(root, to, f);
+    return root;
+}
+
+/* With the verdicts in their place. 0: written. */
+static int write_around(FILE *to, const char *around, const json_part *part)
+{
+    const char *place = strstr(around, none);
+    if (place == NULL || part->to == NULL || fflush(part->to) != 0)
+        return -1;
+    const char *behind = place + strlen(none);
+    fwrite(around, 1, (size_t)(behind - around) - 1, to);
+    fwrite(part->text, 1, part->size, to);
+    fprintf(to, "%s]%s\n", part->verdicts > 0 ? "\n " : "", behind);
+    return ferror(to);
+}
+
+status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
+                           json_part *part, fault *f)
+{
+    json_part whole = {.verdicts = 0};
+    json_t *root = around_verdicts(s, j, e);
+    char *around = json_dumps(root, DUMP);
+    if (part == NULL)
+        json_part_begin(&whole);
+    json_part_add(part != NULL ? part : &whole, s, j);
+    const int bad = around == NULL || write_around(to, around, part != NULL ? part : &whole) != 0;
+    json_part_free(&whole);
+    json_decref(root);
+    free(around);
+    return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
 }

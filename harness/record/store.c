@@ -210,35 +210,58 @@ static void put_declarations(record *r, const gathering *g)
     gather_free(&list);
 }
 
-static void put_cases(record *r, const gathering *g, const environment *e)
+status store_open(const sweep *s, const judgement *j, store *out, fault *f)
 {
-    put_environment(r, e);
-    put_selection(r, g->sweep);
-    put_declarations(r, g);
-    const hid_t cases = record_group(r, r->file, "cases");
-    for (int i = 0; i < g->sweep->seriess; i++)
-        put_case(r, cases, g, g->sweep->point[g->sweep->series[i].point].type);
-    H5Gclose(cases);
+    *out = (store){.sweep = s, .judged = j};
+    TRY(record_open(&out->file, f));
+    out->cases = record_group(&out->file, out->file.file, "cases");
+    return STATUS_OK;
+}
+
+void store_case(store *to, const case_type *of)
+{
+    const gathering g = {to->sweep, to->judged, NULL};
+    put_case(&to->file, to->cases, &g, of);
+}
+
+/* All cases that are not there yet, and what is said of the run. */
+static void finish(store *to, const environment *e)
+{
+    const sweep *s = to->sweep;
+    const gathering g = {s, to->judged, NULL};
+    for (int i = 0; i < s->seriess; i++)
+        store_case(to, s->point[s->series[i].point].type);
+    H5Gclose(to->cases);
+    put_environment(&to->file, e);
+    put_selection(&to->file, s);
+    put_declarations(&to->file, &g);
+}
+
+status store_close(store *to, const char *path, const environment *e, fault *f)
+{
+    if (path != NULL) {
+        record_count(&to->file, to->file.file, "unfinished_cells", to->sweep->unfinished);
+        finish(to, e);
+    } else
+        H5Gclose(to->cases);
+    return record_close(&to->file, path, f);
 }
 
 status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
                    fault *f)
 {
-    record r;
-    const gathering g = {s, j, NULL};
-    TRY(record_open(&r, f));
-    record_count(&r, r.file, "unfinished_cells", s->unfinished);
-    put_cases(&r, &g, e);
-    return record_close(&r, path, f);
+    store to;
+    TRY(store_open(s, j, &to, f));
+    return store_close(&to, path, e, f);
 }
 
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f)
 {
-    record r;
-    const gathering g = {s, NULL, NULL};
-    TRY(record_open(&r, f));
-    put_cases(&r, &g, e);
+    store to;
+    TRY(store_open(s, NULL, &to, f));
+    finish(&to, e);
     if (s->series[0].cell[0].solve.shapes.states > 0)
-        vtkhdf_write(&r, &s->point[s->series[0].point].scene, &s->series[0].cell[0].solve.shapes);
-    return record_close(&r, path, f);
+        vtkhdf_write(&to.file, &s->point[s->series[0].point].scene,
+                     &s->series[0].cell[0].solve.shapes);
+    return record_close(&to.file, path, f);
 }

@@ -8,6 +8,22 @@
 #include "harness/judge/judgement.h"
 #include "harness/record/record.h"
 
+/* A file that is filled case by case, while others are still run. */
+typedef struct store {
+    record file;
+    hid_t cases;
+    const sweep *sweep;
+    const judgement *judged;
+} store;
+
+/* Both live as long as the file is open. */
+status store_open(const sweep *s, const judgement *j, store *out, fault *f);
+/* A case, all of whose series have been judged. */
+void store_case(store *, const case_type *);
+/* With the cases that are not there yet, and what is said of the run. Written beside and renamed:
+ * FAULT leaves nothing behind. path NULL: nothing is written. */
+status store_close(store *, const char *path, const environment *e, fault *f);
+
 /* Written beside and renamed: FAULT leaves nothing behind. */
 status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
                    fault *f);

@@ -119,12 +119,17 @@ static int tell(int to, int i, int same, const cell_result *cell)
 {
     heading head = {.task = i, .same = same};
     char *bytes = NULL;
-    FILE *text = open_memstream(&bytes, &head.bytes);
-    int bad = text == NULL || (same < 0 && serialise_write(text, cell) != 0);
+    size_t size = 0;
+    FILE *text = open_memstream(&bytes, &size);
+    int bad = text == NULL || fwrite(&head, sizeof head, 1, text) != 1 ||
+              (same < 0 && serialise_write(text, cell) != 0);
     if (text != NULL)
         bad |= fclose(text) != 0;
-    bad = bad || write_all(to, (const char *)&head, sizeof head) != 0 ||
-          write_all(to, bytes, head.bytes) != 0;
+    if (!bad) {
+        head.bytes = size - sizeof head;
+        memcpy(bytes, &head, sizeof head);
+        bad = write_all(to, bytes, size) != 0;
+    }
     free(bytes);
     return bad ? -1 : 0;
 }

@@ -11,18 +11,36 @@
 #include "harness/truth/truth_rows.h"
 #include "harness/truth/truths_file.h"
 
+status truths_reserve(truths *t, int more, fault *f)
+{
+    if (t->rows + more <= t->room)
+        return STATUS_OK;
+    const size_t room = (size_t)t->rows + (size_t)more;
+    truth *row = realloc(t->row, (room + 1) * sizeof *row);
+    if (row == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for truths");
+    t->row = row;
+    t->room = (int)room;
+    return STATUS_OK;
+}
+
+truth *truths_add(truths *t, fault *f)
+{
+    if (t->rows >= t->room && truths_reserve(t, t->rows / 4 + 16, f) != STATUS_OK)
+        return NULL;
+    memset(&t->row[t->rows], 0, sizeof *t->row);
+    return &t->row[t->rows++];
+}
+
 static status read_table(columns *r, const case_type *type, truths *out)
 {
     r->rows = r->group >= 0 ? columns_length(r->group, "value") : -1;
     if (r->rows < 0)
         return columns_broken(r, "value");
-    truth *more = realloc(out->row, (size_t)(out->rows + r->rows + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for truths");
-    out->row = more;
-    memset(more + out->rows, 0, (size_t)r->rows * sizeof *more);
-    out->rows += r->rows;
-    return truth_rows_read(r, type, more + out->rows - r->rows);
+    TRY(truths_reserve(out, r->rows, r->f));
+    for (int i = 0; i < r->rows; i++)
+        truths_add(out, r->f);
+    return truth_rows_read(r, type, out->row + out->rows - r->rows);
 }
 
 static status read_case(const char *path, hid_t all, const case_type *type, truths *out, fault *f)

@@ -27,7 +27,7 @@ typedef struct truth {
 } truth;
 
 typedef struct truths {
-    int rows, rules;
+    int rows, rules, room; /* room: rows that there is memory for */
     truth *row;
     /* of truth_index.h: the first row of each case and quantity, the next one of the same */
     int indexed, places; /* rows that it knows: the first ones */
@@ -47,6 +47,10 @@ status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values at the extremes, which no verification runs. On failure the truths read
  * before stay. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
+/* Rows stay where they are until so many more are added. FAULT: out of memory. */
+status truths_reserve(truths *, int more, fault *f);
+/* One more row, all zero; NULL: out of memory. */
+truth *truths_add(truths *, fault *f);
 void truths_free(truths *t);
 
 #endif

@@ -95,6 +95,60 @@ static void jobs(void)
     sweep_free(&s[1]);
 }
 
+/* What a follower was told. */
+typedef struct follower_log {
+    int told, disorder, unfinished, doubted;
+    int most; /* series it is told of; then it fails */
+} follower_log;
+
+static int doubts(void *context, const sweep *s, int series_index)
+{
+    follower_log *log = context;
+    (void)s;
+    log->doubted++;
+    return series_index % 2;
+}
+
+static status is_told(void *context, const sweep *s, int series_index, fault *f)
+{
+    follower_log *log = context;
+    const series *one = &s->series[series_index];
+    log->disorder += series_index != log->told++;
+    for (int k = 0; k < one->meshes && one->missing[0] == '\0'; k++)
+        log->unfinished += one->cell[k].solve.quantities == 0;
+    log->unfinished += one->missing[0] == '\0' && (one->noise != NULL) != (series_index % 2);
+    return log->told <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
+}
+
+/* Told of every series in order, with its cells and its noise, while others are run. */
+static void followed(int jobs, int most)
+{
+    static const int mesh[] = {1, 2, 4};
+    double value[CASE_MAX_PARAMETERS] = {0};
+    formulation chosen[64];
+    int count = 0, runs = 0;
+    sweep s;
+    fault f = {""};
+    for (; registry_formulations[count] != NULL; count++)
+        formulation_default(registry_formulations[count], &chosen[count]);
+    parameters_default(registry_cases[0], value);
+    follower_log log = {.most = most < count ? most : count};
+    const sweep_follower follower = {&log, doubts, is_told};
+    const sweep_request request = {.jobs = jobs, .share = 1, .follower = &follower};
+    gsl_test(plan_one(registry_cases[0], value, chosen, count, mesh, 3, &s, &f) != STATUS_OK,
+             "planned %s", f.text);
+    const status outcome = run_sweep(&request, &s, &f);
+    for (int i = 0; i < count; i++)
+        runs += s.series[i].missing[0] == '\0';
+    gsl_test(outcome != (most < count ? STATUS_REFUSED : STATUS_OK), "%d jobs: %s", jobs, f.text);
+    gsl_test_int(log.told, most < count ? most + 1 : count, "%d jobs: told of all", jobs);
+    gsl_test_int(log.disorder, 0, "%d jobs: in their order", jobs);
+    gsl_test_int(log.unfinished, 0, "%d jobs: with cells and noise", jobs);
+    gsl_test(most >= count && log.doubted != runs, "%d jobs: asked of %d series, not %d", jobs,
+             runs, log.doubted);
+    sweep_free(&s);
+}
+
 /* The first case of the registry, in the planning process only. */
 static status build_in_plan(const double value[], scene *s, fault *f)
 {
@@ -141,6 +195,10 @@ int main(void)
     together(ENDED, 0);
     together(HANGING, 0);
     jobs();
+    for (int i = 1; i < 6; i += 2) {
+        followed(i, 64);
+        followed(i, 2);
+    }
     cells_share_a_scene();
     return gsl_test_summary();
 }
