@@ -135,6 +135,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
+    factor_free(c.left);
     if (result->status != STATUS_OK && f != NULL)
         snprintf(f->text, sizeof f->text, "%s", result->reason);
     return result->status;

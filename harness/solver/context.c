@@ -34,6 +34,24 @@ status context_factor_condensed(analysis_context *c, condensation *s, fault *f)
     return outcome;
 }
 
+void context_leave_factor(analysis_context *c, factor *fa)
+{
+    int compliances = 0;
+    for (int i = 0; i < c->scene->analyses; i++)
+        compliances += c->scene->analysis[i].kind == SCENE_COMPLIANCE;
+    if (compliances == 0 || c->left != NULL)
+        factor_free(fa);
+    else
+        c->left = fa;
+}
+
+factor *context_take_factor(analysis_context *c)
+{
+    factor *fa = c->left;
+    c->left = NULL;
+    return fa;
+}
+
 void context_count_condition(const analysis_context *c, factor *fa, const sparse *K)
 {
     counters *n = model_counters(c->model);

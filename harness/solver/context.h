@@ -14,6 +14,8 @@ typedef struct analysis_context {
     analysis_outcome *outcomes; /* [analyses], those before the present one are complete */
     double setup;               /* [s] spent on patterns and symbolic factorisation */
     int singular;               /* 1: the last factorisation failed */
+    factor *left;               /* of the pattern of the free coordinates, whose numbers nobody
+                                   needs any more; NULL: none */
 } analysis_context;
 
 /* From here on the axes of the model turn as those of the analysis do. */
@@ -26,6 +28,11 @@ status context_condensation(const analysis_context *, int count, const int relea
                             condensation **out, fault *);
 /* The same of a tangent whose members are condensed. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
+/* A symmetric factor of the pattern of the free coordinates is not needed any more: it is kept
+ * where a compliance may ask for one, so that order and pattern need not be found again. */
+void context_leave_factor(analysis_context *, factor *);
+/* NULL: none was left. */
+factor *context_take_factor(analysis_context *);
 /* When it was asked for: the condition of a matrix just factored, into the counters. */
 void context_count_condition(const analysis_context *, factor *, const sparse *K);
 /* The work of an eigenvalue problem, into the counters. */

@@ -85,9 +85,13 @@ void newton_free(newton *n)
     free(n->dense);
     free(n->unknown);
     free(n->pivot);
+    const int used = n->factor != NULL && factor_count(n->factor).factorisations > 0;
+    if (used && n->K.value != NULL && n->K.symmetric)
+        context_leave_factor(n->c, n->factor);
+    else
+        factor_free(n->factor);
     sparse_free_values(&n->K);
     sparse_free_values(&n->whole);
-    factor_free(n->factor);
     kinematics_state_free(n->state);
     kinematics_state_free(n->backup);
 }

@@ -81,6 +81,8 @@ void tangent_free(tangent *t)
 static status factor_inside(analysis_context *c, tangent *t, fault *f)
 {
     counters *n = model_counters(c->model);
+    if (t->own == NULL && t->inside.symmetric)
+        t->own = context_take_factor(c);
     if (t->own == NULL) {
         const double start = clock_processor_seconds();
         const status allocated = factor_alloc(&t->inside, &t->own, f);
