@@ -79,8 +79,13 @@ status compliance_take(analysis_context *c, int analysis, const newton *n, tange
     const scene_compliance *what = scene_compliance_of(&c->scene->analysis[analysis]);
     double reaction[6];
     reaction_of(c, what, n->state, reaction);
-    TRY(tangent_take(c, what, n->state, reaction, t->border.count > 0 ? &n->whole : &n->K, &n->K,
-                     n->factor, t, f));
+    if (!arrival_tangent_stands(&n->arrival))
+        TRY(tangent_at(c, what, n->state, reaction, t, f));
+    else if (n->condensed != NULL)
+        TRY(tangent_take_condensed(c, what, n->state, reaction, n->condensed, t, f));
+    else
+        TRY(tangent_take(c, what, n->state, reaction, t->border.count > 0 ? &n->whole : &n->K,
+                         &n->K, n->factor, t, f));
     return matrices_of(c, what, reaction, t, wanted_columns(c, analysis), out, f);
 }
 
@@ -114,7 +119,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
     outcome_path *o = &out->path;
     nodal_matrices *m = NULL;
     o->stations = path != NULL ? path->stations : 1;
-    TRY(tangent_alloc(c, what, t, f));
+    TRY(tangent_alloc(c, what, NULL, t, f));
     TRY(matrices_alloc(c->result, what, o->stations, &m, f));
     out->matrix = m->compliance;
     o->value = calloc((size_t)o->stations + 1, sizeof *o->value);

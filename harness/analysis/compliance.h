@@ -6,7 +6,7 @@
 #include "harness/solver/tangent.h"
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* The analysis at a state that Newton has just reached, from his last tangent. */
+/* The analysis at a state that Newton has just reached, from his last tangent where that stands. */
 status compliance_take(analysis_context *, int analysis, const newton *, tangent *,
                        station_matrices *out, fault *);
 

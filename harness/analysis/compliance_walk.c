@@ -29,8 +29,9 @@ static status add(newton *n, int analysis, compliance_walk *w, fault *f)
     outcome_compliance *o = &c->outcomes[analysis].left.compliance;
     follower *of = &w->of[w->count++];
     of->analysis = analysis;
-    TRY(tangent_alloc(c, scene_compliance_of(&c->scene->analysis[analysis]), &of->tangent, f));
-    if (of->tangent.border.count > 0)
+    TRY(tangent_alloc(c, scene_compliance_of(&c->scene->analysis[analysis]), n->condensed,
+                      &of->tangent, f));
+    if (of->tangent.border.count > 0 && n->condensed == NULL)
         TRY(newton_keep_driven(n, f));
     o->taken = calloc((size_t)w->path->stations + 1, sizeof *o->taken);
     return o->taken == NULL ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
@@ -44,8 +45,7 @@ status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *
     *out = NULL;
     for (int i = 0; i < s->analyses; i++)
         count += follows(s, i, path);
-    if (count == 0 || n->condensed != NULL || n->c->options->newton == SOLVE_DENSE ||
-        scene_rotates(&s->analysis[path]))
+    if (count == 0 || n->c->options->newton == SOLVE_DENSE || scene_rotates(&s->analysis[path]))
         return STATUS_OK;
     compliance_walk *w = calloc(1, sizeof *w + (size_t)count * sizeof w->of[0]);
     if (w == NULL)
@@ -61,7 +61,8 @@ status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *
 status compliance_walk_take(compliance_walk *w, const newton *n, int station, fault *f)
 {
     analysis_context *c = n->c;
-    if (w == NULL || !arrival_tangent_stands(&n->arrival))
+    /* the states of many elements are not kept for later */
+    if (w == NULL || (n->condensed == NULL && !arrival_tangent_stands(&n->arrival)))
         return STATUS_OK;
     for (int i = 0; i < w->count; i++) {
         follower *of = &w->of[i];

@@ -1,6 +1,6 @@
 /* Compliances along a path, taken while it is walked: where Newton's last correction changes the
  * tangent by less than its rounding, the last tangent is that of the station, and no other one is
- * made. */
+ * made; one is made at once where members are condensed. */
 #ifndef BEAMWORK_COMPLIANCE_WALK_H
 #define BEAMWORK_COMPLIANCE_WALK_H
 

@@ -126,14 +126,20 @@ static int is_taken_at(const scene_quantity *q, int stations, const double path[
     return station == stations - 1;
 }
 
+/* But for curves. */
+static int takes_station(const scene_quantity *q, int stations, const double path[], int station)
+{
+    return q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
+           is_taken_at(q, stations, path, station);
+}
+
 int extract_path_asks(const analysis_context *c, int analysis, int stations, const double path[],
                       int station)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         if (q->analysis == analysis && q->reduction != SCENE_CURVE &&
-            (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
-             is_taken_at(q, stations, path, station)))
+            takes_station(q, stations, path, station))
             return 1;
     }
     return 0;
@@ -177,9 +183,14 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     if (c->options->shapes > 0 || c->options->systems ||
         s->analysis[analysis].kind == SCENE_ROTATION)
         return 1;
-    for (int i = 0; i < s->quantities; i++)
-        if (s->quantity[i].analysis == analysis && reads_elements(&s->quantity[i]))
+    const scene_path *along = scene_path_of(&s->analysis[analysis]);
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        if (q->analysis == analysis && reads_elements(q) &&
+            (q->reduction == SCENE_CURVE ||
+             takes_station(q, along->stations, along->value, station)))
             return 1;
+    }
     for (int i = 0; i < s->analyses; i++)
         if (begins_with(c, i, analysis, station))
             return 1;

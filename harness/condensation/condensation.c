@@ -70,53 +70,82 @@ static status member_of(const model *m, int index, member *out, fault *f)
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-static status build(condensation *s, int count, const int released[], int *few, fault *f)
+/* Members and their loads: its own, or those of `of`. */
+static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
     size_t longest = 0;
     s->members = m->scene->members;
     s->member = calloc((size_t)s->members, sizeof *s->member);
-    s->number = malloc(((size_t)s->all + 1) * sizeof *s->number);
-    s->end = calloc((size_t)s->members * MEMBER_COLUMNS, sizeof *s->end);
-    if (s->member == NULL || s->number == NULL || s->end == NULL)
+    if (s->member == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+    s->lent = of != NULL;
+    if (s->lent) {
+        memcpy(s->member, of->member, (size_t)s->members * sizeof *s->member);
+        s->r = of->r;
+        return STATUS_OK;
+    }
     for (int i = 0; i < s->members; i++) {
         TRY(member_of(m, i, &s->member[i], f));
         const size_t size = (size_t)s->member[i].links * (size_t)s->member[i].y;
         longest = size > longest ? size : longest;
     }
+    s->r = malloc(longest * sizeof *s->r);
+    return s->r != NULL ? STATUS_OK
+                        : fault_set(f, STATUS_FAULT, "out of memory for the loads of members");
+}
+
+static status build(condensation *s, const condensation *of, int count, const int released[],
+                    int *few, fault *f)
+{
+    const model *m = s->m;
+    TRY(find_members(s, of, f));
+    s->number = malloc(((size_t)s->all + 1) * sizeof *s->number);
+    s->end = calloc((size_t)s->members * MEMBER_COLUMNS, sizeof *s->end);
+    if (s->number == NULL || s->end == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     const int ends = condensation_number(s, count, released);
     *few = ends <= MOST_ENDS;
     if (!*few)
         return STATUS_OK;
-    s->r = malloc(longest * sizeof *s->r);
     s->small = malloc(((size_t)s->unknowns + 1) * sizeof *s->small);
     s->driven = malloc(((size_t)m->driven + 1) * sizeof *s->driven);
-    if (s->driven == NULL || s->unknown == NULL || s->r == NULL || s->small == NULL)
+    if (s->driven == NULL || s->unknown == NULL || s->small == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     s->K.symmetric = s->inside.symmetric = assemble_symmetric(m);
     TRY(condensation_patterns(s, ends, f));
     return factor_alloc(&s->inside, &s->factor, f);
 }
 
-status condensation_alloc(model *m, int from, int count, const int released[], condensation **out,
-                          fault *f)
+static status allocate(model *m, const condensation *of, int count, const int released[],
+                       condensation **out, fault *f)
 {
     int few = 0;
-    *out = NULL;
-    if (!applies(m, from))
-        return STATUS_OK;
     condensation *s = calloc(1, sizeof *s);
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     s->m = m;
     s->all = m->free + m->driven;
-    const status outcome = build(s, count, released, &few, f);
+    const status outcome = build(s, of, count, released, &few, f);
     if (outcome == STATUS_OK && few)
         *out = s;
     else
         condensation_free(s);
     return outcome;
+}
+
+status condensation_alloc(model *m, int from, int count, const int released[], condensation **out,
+                          fault *f)
+{
+    *out = NULL;
+    return applies(m, from) ? allocate(m, NULL, count, released, out, f) : STATUS_OK;
+}
+
+status condensation_alloc_like(const condensation *of, int count, const int released[],
+                               condensation **out, fault *f)
+{
+    *out = NULL;
+    return allocate(of->m, of, count, released, out, f);
 }
 
 static void free_sparse(sparse *a)
@@ -130,13 +159,14 @@ void condensation_free(condensation *s)
 {
     if (s == NULL)
         return;
-    for (int i = 0; i < s->members && s->member != NULL; i++)
+    for (int i = 0; i < s->members && s->member != NULL && !s->lent; i++)
         chain_free(s->member[i].chain);
+    if (!s->lent)
+        free(s->r);
     free_sparse(&s->K);
     free_sparse(&s->inside);
     factor_free(s->factor);
-    void *const all[] = {s->member, s->number, s->unknown, s->from,
-                         s->r,      s->small,  s->driven,  s->end};
+    void *const all[] = {s->member, s->number, s->unknown, s->from, s->small, s->driven, s->end};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
     free(s);
@@ -220,6 +250,13 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     }
     loads_subtract_stiffness(s->m, at, path, &s->K);
     return STATUS_OK;
+}
+
+void condensation_take(condensation *s, const condensation *of, const model_state *at)
+{
+    s->at = at;
+    s->negative = of->negative;
+    memcpy(s->K.value, of->K.value, (size_t)s->K.column[s->K.n] * sizeof *s->K.value);
 }
 
 sparse *condensation_ends(condensation *s)

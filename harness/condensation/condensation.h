@@ -19,10 +19,16 @@ enum { CONDENSATION_ELEMENTS = 1000 };
  * a stiffness, or frames turn. released[count]: driven coordinates that are unknown too. */
 status condensation_alloc(model *, int from, int count, const int released[], condensation **out,
                           fault *);
+/* The members of `of`, which must outlive it, with other released coordinates: condensation_take.
+ */
+status condensation_alloc_like(const condensation *of, int count, const int released[],
+                               condensation **out, fault *);
 void condensation_free(condensation *);
 
 /* The tangent of the last linearise_state with these arguments, in parts: members are condensed. */
 status condensation_at(condensation *, const model_state *, double path, fault *);
+/* The tangent that `of`, whose members these are, has in the state. */
+void condensation_take(condensation *, const condensation *of, const model_state *);
 /* On all coordinates, to be altered before it is factored; entries between ends only. */
 sparse *condensation_ends(condensation *);
 /* SINGULAR as factor_numeric, or where a member has a critical state of its own. */

@@ -19,6 +19,7 @@ struct condensation {
     model *m;
     const model_state *at;
     int members, all, unknowns;
+    int lent; /* 1: chains and r are another one's */
     member *member;
     int *number;   /* [all] of a coordinate of an end among those; NONE: of no end */
     int *unknown;  /* [unknowns] coordinates of the system that is left */

@@ -1,12 +1,14 @@
 #include "harness/judge/sound.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* Largest last correction of a step that counts as converged: the next one would be of the size
  * of its square; a larger one, up to the second, is the last where the one after it is predicted
- * and negligible. */
+ * and negligible. With more elements than these it is larger in proportion: rounding of their
+ * places keeps it there. */
 static const double promised_correction = 1e-8, largest_correction = 1e-6,
-                    negligible_correction = 1e-14;
+                    negligible_correction = 1e-14, many_elements = 1e4;
 
 static int iterations_of_steps(const solve_result *r)
 {
@@ -26,10 +28,10 @@ static long rejected_before_steps(const solve_result *r)
 }
 
 /* The first step that ended too soon, or -1. */
-static int unfinished_step(const solve_result *r)
+static int unfinished_step(const solve_result *r, double promised)
 {
     for (int i = 0; i < r->steps; i++)
-        if (!(r->step[i].correction <= promised_correction) &&
+        if (!(r->step[i].correction <= promised) &&
             !(r->step[i].correction <= largest_correction &&
               r->step[i].remaining <= negligible_correction))
             return i;
@@ -79,7 +81,8 @@ int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, cha
     const counters *c = &cell->counters;
     if (r->status != STATUS_OK)
         return 1;
-    const int iterations = iterations_of_steps(r), early = unfinished_step(r);
+    const double promised = promised_correction * fmax(1, cell->size.elements / many_elements);
+    const int iterations = iterations_of_steps(r), early = unfinished_step(r, promised);
     const long rejected = rejected_before_steps(r);
     const char *count = wrong_count(cell, most_reused(cell, s), is_plain(cell, s, newton));
     if (c->steps != r->steps)

@@ -5,8 +5,10 @@
 
 #include <math.h>
 
-/* Largest of two corrections after another ... */
+/* Largest of two corrections after another (those of the geometrically exact element settle at
+ * 3e-11 of 1000 elements, 6e-9 of 40 000) ... */
 static const double small = 1e-8;
+static const double many_elements = 1e4; /* with more of them in proportion */
 /* ... or of one after which nothing is left that rounding would not hide ... */
 static const double near = 1e-6, negligible = 1e-15;
 /* ... or of one whose square is nothing even where stresses are 1e10 times as sensitive. */
@@ -17,9 +19,10 @@ static const double quadratic = 0.1;
  * on the mechanisms of cases/), which is less than the noise of most of them. */
 static const double same_tangent = 3e-11;
 
-void arrival_start(double criterion, int differences, arrival *a)
+void arrival_start(double criterion, int differences, int elements, arrival *a)
 {
     *a = (arrival){.criterion = criterion > 0 || !differences ? criterion : small,
+                   .small = small * fmax(1, elements / many_elements),
                    .correction = INFINITY,
                    .before = INFINITY,
                    .contraction = NAN,
@@ -42,7 +45,7 @@ int arrival_reached(const arrival *a)
 {
     if (a->criterion > 0)
         return a->correction <= a->criterion;
-    return a->correction <= rounding || (a->correction <= small && a->before <= small) ||
+    return a->correction <= rounding || (a->correction <= a->small && a->before <= a->small) ||
            (a->correction <= near && a->remaining <= negligible);
 }
 

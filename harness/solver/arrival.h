@@ -8,6 +8,7 @@
 /* Of one path. All but `stress` are dimensionless. */
 typedef struct arrival {
     double criterion;          /* that was asked for; 0: that of rounding */
+    double small;              /* largest of two corrections after another that ends a step */
     double correction, before; /* the last one; the one before it in the same step, or INFINITY */
     double stress;             /* largest one of the path so far [N] */
     double stress_change;      /* by the last correction, relative to it */
@@ -17,8 +18,9 @@ typedef struct arrival {
 } arrival;
 
 /* differences 1: derivatives are differences, whose noise keeps corrections from contracting: the
- * first small one is the last. */
-void arrival_start(double criterion, int differences, arrival *);
+ * first small one is the last. elements: rounding of the places of very many keeps corrections from
+ * becoming smaller. */
+void arrival_start(double criterion, int differences, int elements, arrival *);
 /* A correction was made, with what it did to the stresses; `first` of its step. */
 void arrival_take(double correction, const advance_stress *, int first, arrival *);
 /* 1: another correction would change nothing. */

@@ -60,7 +60,7 @@ status newton_alloc(analysis_context *c, int condense, newton *n, fault *f)
     n->c = c;
     n->free = size.free;
     n->all = size.free + size.driven;
-    arrival_start(c->options->criterion, model_leaves(c->model) != 0, &n->arrival);
+    arrival_start(c->options->criterion, model_leaves(c->model) != 0, size.elements, &n->arrival);
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     const status outcome = allocate(n, condense, f);

@@ -32,7 +32,8 @@ static void copy_inside(tangent *t)
         sparse_copy_leading(&t->K, &t->inside);
 }
 
-static status allocate(const analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
+static status allocate(const analysis_context *c, const scene_compliance *a,
+                       const condensation *members, tangent *t, fault *f)
 {
     const sparse *inside, *whole;
     const model_size size = model_sizes(c->model);
@@ -43,7 +44,11 @@ static status allocate(const analysis_context *c, const scene_compliance *a, tan
     if (t->residual == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     const int with_driven = t->border.count > 0;
-    TRY(context_condensation(c, t->border.count, t->border.coordinate, &t->condensed, f));
+    const border *b = &t->border;
+    if (members != NULL)
+        TRY(condensation_alloc_like(members, b->count, b->coordinate, &t->condensed, f));
+    else
+        TRY(context_condensation(c, b->count, b->coordinate, &t->condensed, f));
     TRY(assemble_pattern(c->model, with_driven, &whole, f));
     TRY(sparse_alloc_like(whole, &t->geometric, f));
     if (t->condensed != NULL)
@@ -57,11 +62,12 @@ static status allocate(const analysis_context *c, const scene_compliance *a, tan
     return STATUS_OK;
 }
 
-status tangent_alloc(analysis_context *c, const scene_compliance *a, tangent *t, fault *f)
+status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
+                     tangent *t, fault *f)
 {
     const double start = clock_processor_seconds();
     memset(t, 0, sizeof *t);
-    const status outcome = allocate(c, a, t, f);
+    const status outcome = allocate(c, a, members, t, f);
     c->setup += clock_processor_seconds() - start;
     return outcome;
 }
@@ -159,6 +165,16 @@ status tangent_take(analysis_context *c, const scene_compliance *a, const model_
     t->factor = fa;
     if (memcmp(t->inside.value, inside->value, size) != 0)
         TRY(factor_inside(c, t, f));
+    return complete(c, a, s, reaction, t, f);
+}
+
+status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
+                              const double reaction[6], const condensation *members, tangent *t,
+                              fault *f)
+{
+    condensation_take(t->condensed, members, s);
+    loads_release_moment(c->model, s, a->node, reaction + 3, condensation_ends(t->condensed));
+    TRY(factor_inside(c, t, f));
     return complete(c, a, s, reaction, t, f);
 }
 

@@ -25,7 +25,9 @@ typedef struct tangent {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } tangent;
 
-status tangent_alloc(analysis_context *c, const scene_compliance *a, tangent *t, fault *f);
+/* members: whose chains it shares, to be taken from an iteration; NULL: none. */
+status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
+                     tangent *t, fault *f);
 void tangent_free(tangent *t);
 /* reaction[6]: force and moment of the prescription on the node [N, N m]. */
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
@@ -35,6 +37,10 @@ status tangent_at(analysis_context *c, const scene_compliance *a, const model_st
 status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
                     const double reaction[6], const sparse *K, const sparse *inside, factor *,
                     tangent *t, fault *f);
+/* The same from the condensed members of the iteration. */
+status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
+                              const double reaction[6], const condensation *members, tangent *t,
+                              fault *f);
 /* Takes out of the reaction's moment what acts along free turns: there is no prescription that
  * exerts it. */
 void tangent_prescribed(const tangent *t, double moment[3]);
