@@ -76,8 +76,7 @@ def write(site, said):
     order = [a.key for a in said["answers"] if any(r.known for r in a.of)]
     validity = figures.Validity(sweep, found, order)
     data = f"cells_{file_name(sweep.path)}.js"
-    if len(found.parts) > 1:
-        cells.write(site, data, sweep, found, order)
+    cells.write(site, data, sweep, found, order)
     site.write("sweep.html", said["page"], **said, validity=validity, data=data,
                winners=figures.Winners(sweep, found, validity.axes),
                curves=curves_of(site, sweep, found),

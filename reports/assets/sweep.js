@@ -1,33 +1,13 @@
-// The maps of a sweep over the axes that the reader chooses, drawn as reports/sweep/maps.py draws them. What is in the
-// cells is a script of its own, loaded when something is chosen.
+// The maps of a sweep over the axes that the reader chooses, drawn as reports/sweep/maps.py draws them, from the
+// cells that sweep_own.js reads.
 "use strict";
 (() => {
 const find = id => document.getElementById(id);
 const form = find("choice"), place = find("drawn"), count = find("told");
 const safe = text => String(text).replace(/[&<>"]/g, c => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" }[c]));
 const short = value => String(Math.round(10 * value) / 10);
-const EMPTY = -2, UNKNOWN = -1;
+const { ask, spread, joined, EMPTY } = beamwork_cells;
 let data = null;
-
-// Letters of cells, each with how often it follows itself, as numbers: "a" is 0; "_" no point, "?" nothing to measure by.
-const spread = text => {
-  const out = [];
-  for (const [, letter, times] of text.matchAll(/([^\d])(\d*)/g)) {
-    const value = letter == "_" ? EMPTY : letter == "?" ? UNKNOWN : letter.charCodeAt(0) - 97;
-    for (let k = times ? Number(times) : 1; k--;) out.push(value);
-  }
-  return out;
-};
-
-// What two cells are together. Of errors the larger; of elements the most, if all of it is reached.
-const larger = (a, b) => Math.max(a, b);
-const joined = (a, b) => {
-  const { none, some, failed } = data;
-  if (Math.min(a, b) < 0) return Math.max(a, b);
-  if (a == failed || b == failed) return failed;
-  if (a < none && b < none) return Math.max(a, b);
-  return a == none && b == none ? none : some;
-};
 
 // [slices][x][y] of the cells of a formulation; fixed: part of each other axis, or -1 for all together.
 const project = (cells, x, y, of, groups, fixed, join) => {
@@ -102,7 +82,8 @@ const fields = () => {
 const legend = (look, used) => Object.keys(look).map(Number).filter(state => used.has(state)).sort((a, b) => (a < 0) - (b < 0) || a - b).map(state =>
   `<span class="field"><svg width="${16 + 5 * Math.max(0, look[state].sign.length - 1)}" height="18" aria-hidden="true" font-size="10" text-anchor="middle"><rect x=".5" y=".5" width="100%" height="17" fill="${look[state].fill}" stroke="currentColor" stroke-opacity=".4"/><text x="50%" y="12.5" fill="${look[state].ink}">${safe(look[state].sign)}</text></svg> ${safe(look[state].words)}</span>`).join("");
 
-const show = () => {
+const show = cells => {
+  data = cells;
   const x = chosen("x"), y = chosen("y"), of = chosen("of"), q = chosen("quantity"), mesh = chosen("show");
   fields();
   if (x == y || of == x || of == y) { count.textContent = "Choose axes that differ."; return; }
@@ -113,7 +94,7 @@ const show = () => {
   const used = new Set();
   const what = mesh < 0 ? "elements needed" : `error with ${data.meshes[mesh]} elements`;
   const rows = data.order.map(f => {
-    const found = project(spread(table[f]), x, y, of, groups, fixed, mesh < 0 ? joined : larger);
+    const found = project(spread(table[f]), x, y, of, groups, fixed, mesh < 0 ? joined : Math.max);
     found.flat(2).forEach(state => used.add(state));
     const maps = found.map((states, k) => {
       const title = slices[k][0], over = `${data.axes[x].title} and ${data.axes[y].title}`;
@@ -128,17 +109,10 @@ const show = () => {
   count.textContent = mesh < 0 ? "" : "The largest error of the points of a field, not above the number that stands there [%].";
 };
 
-window.beamwork_sweep = found => { data = found; show(); };
-const ask = () => {
-  if (data) return show();
-  if (!document.querySelector(`script[src="${form.dataset.cells}"]`))
-    document.head.append(Object.assign(document.createElement("script"), { src: form.dataset.cells }));
-};
 form.hidden = false;
-form.addEventListener("change", ask);
+form.addEventListener("change", () => ask(show));
 form.addEventListener("submit", event => event.preventDefault());
 // Axes that are not drawn are known before anything is loaded.
-const first = [...form.querySelectorAll("label[data-axis]")];
 const drawn = ["x", "y", "of"].map(name => form.elements[name].value);
-first.forEach(label => { label.hidden = drawn.includes(label.dataset.axis); });
+form.querySelectorAll("label[data-axis]").forEach(label => { label.hidden = drawn.includes(label.dataset.axis); });
 })();

@@ -70,7 +70,7 @@ class Sizes(ProgramTest):
 
     def test_assets(self):
         for name, most in (("script.js", SCRIPT), ("viewer.js", VIEWER), ("explorer.js", SCRIPT),
-                           ("sweep.js", SCRIPT)):
+                           ("sweep.js", SCRIPT), ("sweep_own.js", SCRIPT)):
             self.assertLess((ASSETS / name).stat().st_size, most, name)
         self.assertLess((self.site / "style.css").stat().st_size, SHEET)
 

@@ -18,13 +18,20 @@ CHOOSE = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const shapes = () => [all("path", p => p.getAttribute("d")), all("text", t => t.textContent),
                         all("svg", s => s.getAttribute("aria-label"))];
   const before = shapes();
-  {set}
-  form.dispatchEvent(new Event("change"));
-  setTimeout(() => {{ document.getElementById("out").textContent = JSON.stringify({{
+  const loaded = window.beamwork_sweep;
+  window.beamwork_sweep = cells => {{
+    loaded(cells);
+    document.getElementById("out").textContent = JSON.stringify({{
+    here: [document.getElementById("here").childNodes[0]?.data,
+           ...[...document.querySelectorAll("#here tr")].map(r => [...r.cells].map(c => c.textContent))],
+    wide: document.body.scrollWidth,
     hidden: form.hidden, before, after: shapes(), told: document.getElementById("told").textContent,
     fields: [...form.querySelectorAll("label")].filter(l => !l.hidden)
       .map(l => l.firstChild.data.trim()),
-  }}); }}, 500);
+    }});
+  }};
+  {set}
+  form.dispatchEvent(new Event("change"));
 }});</script>"""
 
 
@@ -80,6 +87,30 @@ class Chosen(ProgramTest):
         self.assertIn("The largest error", found["told"])
         self.assertTrue({"0.1", "0.5"} & set(found["after"][1]))
         self.assertIn("!", found["after"][1])
+
+    def own(self, *values):
+        """What is told at these sizes: the sentence, and {formulation: (needs, error)}."""
+        fields = "".join(f'document.getElementById("own").elements.v{k}.value = "{value}";'
+                         for k, value in enumerate(values))
+        found = self.chosen(fields + 'document.getElementById("own").dispatchEvent('
+                            'new Event("submit", { cancelable: true }));')
+        words, *rows = found["here"]
+        return words, {row[0]: tuple(row[1:]) for row in rows[1:]}
+
+    def test_own_sizes(self):
+        words, found = self.own(3, 0.6, 1)
+        self.assertEqual(words, "Tried there: width 3, angle 0.6, shape box.")
+        self.assertEqual(found["beamw"], ("2 elements", "up to 1 %"))
+        self.assertEqual(set(found), {"beamw", "collocation"})
+        self.assertEqual(self.own("10", "0,3", 2)[1]["collocation"][0], "no solution with 8")
+        words, found = self.own(11, 0.6, 1)
+        self.assertEqual(words, "Give width from 1 to 10: nothing was tried elsewhere.")
+        self.assertEqual(found, {})
+
+    def test_on_a_phone(self):
+        """Nothing makes the page wider than the window."""
+        found = self.chosen("document.body.style.width = '366px';")
+        self.assertLessEqual(found["wide"], 390)
 
     def test_axes_that_are_the_same(self):
         found = self.chosen("form.elements.x.value = form.elements.y.value;")

@@ -35,10 +35,12 @@ class Fields(unittest.TestCase):
 
     def test_errors(self):
         """A class is not below any error in it, and the next smaller one is."""
-        for error in (1e-9, 0.0123, 0.01, 0.5, 0.99):
-            k = int(cells.classes(np.float32(error), np.array(1)))
-            self.assertGreaterEqual(cells.LEVELS[k] * (1 + 1e-6), 100 * error)
-            self.assertTrue(k == 0 or cells.LEVELS[k - 1] < 100 * error)
+        levels = cells.levels_of(0.003)
+        self.assertIn(0.3, levels)
+        for error in (1e-9, 0.0123, 0.01, 0.003, 0.0031, 0.5, 0.99):
+            k = int(cells.classes(np.float32(error), np.array(1), levels))
+            self.assertGreaterEqual(levels[k] * (1 + 1e-6), 100 * error)
+            self.assertTrue(k == 0 or levels[k - 1] < 100 * error)
         self.assertEqual(cells.written(np.array([0, 0, 0, 2, maps.EMPTY, maps.UNKNOWN])), "a3c_?")
 
 
