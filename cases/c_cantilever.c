@@ -70,7 +70,7 @@ static void add_path(const double value[], scene *s, int node)
                                (scene_control){.node = node,
                                                .component = SCENE_UZ,
                                                .step = step > 0 ? step : value[LENGTH] / 900,
-                                               .step_max = step > 0 ? step : value[LENGTH] / 40,
+                                               .step_max = step > 0 ? step : value[LENGTH] / 20,
                                                .constant_steps = step > 0});
     scene_set_rotating_frame(s, loading, (scene_rotating_frame){.omega = {0, 0, value[OMEGA]}});
     scene_add_quantity(s, "load_at_w", "N", loading, scene_factor_at())->least_order = 1.8;
