@@ -68,7 +68,7 @@ const verb_option option_table[OPTION_MOST] = {
      "program (a path with a '/': at equal n)",
      offsetof(command_request, against)},
     {"error", 'e', "R[,R...]",
-     "converge: error that the last sentence asks for (default 1%); bench --against: errors at "
+     "converge, sweep: error that is asked for (default 1%); bench --against: errors at "
      "which "
      "to compare, such as 1%,0.1% (default: those of 10, 1, 0.1 and 0.01 % that both reach)",
      offsetof(command_request, error)},

@@ -76,9 +76,13 @@ reference reference_of(const sweep *s, int series_index, int quantity, const tru
     const scene_quantity *q = &p->scene.quantity[quantity];
     const truth *row =
         stored != NULL ? verdict_truth(stored, p, &one->formulation, quantity) : NULL;
+    reference found = {ROWS_NONE, NAN, NAN};
     if (row != NULL)
-        return of_truth(q, row, ROWS_STORED);
+        found = of_truth(q, row, ROWS_STORED);
+    if (found.doubt <= tolerance / 2) /* NAN is not */
+        return found;
     row = derived != NULL ? verdict_truth(derived, p, &one->formulation, quantity) : NULL;
-    return row != NULL ? of_truth(q, row, ROWS_DERIVED)
-                       : of_limits(s, series_index, quantity, tolerance);
+    if (row != NULL)
+        found = of_truth(q, row, ROWS_DERIVED);
+    return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
 }

@@ -3,7 +3,8 @@
  *
  * Of limits the one with the least uncertainty U counts; its doubt is U and what another one is off
  * beyond its own uncertainty, where that is more.  A doubt of more than half of the tolerance is
- * none to measure by: the limits are disputed, or where U alone is more, not known. */
+ * none to measure by: a truth is passed over, limits are disputed, or where U alone is more, not
+ * known. */
 #ifndef BEAMWORK_REFERENCE_H
 #define BEAMWORK_REFERENCE_H
 

@@ -167,6 +167,12 @@ class References(ProgramTest):
         self.assertIn("limits of formulations disagree", " ".join(screen.split()))
         self.assertTrue(np.isnan(error).all())
 
+    def test_truths_that_are_not_known_well_enough_are_passed_over(self):
+        words = ("tip_body", "--vary", "omega_star=0..3/2", "-f", "beamw", "-n", "1,2", "-k",
+                 "flap_1")
+        self.assertIn(["truth stored"], self.kinds(*words)[0])
+        self.assertEqual(self.kinds(*words, "--error", "1e-13")[0], [["none"]] * 3)
+
     def test_points_without_a_scene_are_results(self):
         done = self.answered("sweep", "c_column", "--vary", "section_data=shear_flow,printed",
                              "--set", "height=0.5", "-f", "beamw", "-n", "1,2", "-k",
