@@ -252,5 +252,5 @@ int cli_sweep(int count, char **arguments)
         "\vbeamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
         "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
         "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
-        "yfnskedzrgojLTYFvqZibw", count, arguments, sweep_request_of);
+        "yfnskedzrgojLTYFvqZiCbw", count, arguments, sweep_request_of);
 }

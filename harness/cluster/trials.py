@@ -29,37 +29,52 @@ def expect(held, what):
         raise Failed(what)
 
 
-class Bench:
-    """One engine, the run that it is given and the answers of that run in one piece."""
+class Run:
+    """What is asked of the program, and how it ends in one piece: hash, exit status, seconds."""
 
-    def __init__(self, engine, program, arguments, other, whole, folder, environment, shards=4):
-        self.engine, self.program, self.arguments = engine, pathlib.Path(program), arguments
-        self.other = other  # arguments of another run
-        self.whole = whole  # hash, status, seconds of the run in one piece
+    def __init__(self, program, arguments, folder, environment):
+        self.arguments, output, began = arguments, folder / "whole.h5", time.monotonic()
+        done = subprocess.run([program, *arguments, "-o", output], env=environment, check=False,
+                              text=True, capture_output=True)
+        if not output.exists():
+            raise SystemExit(f"engines: {' '.join(arguments)}: status {done.returncode}: "
+                             f"{done.stderr}")
+        self.hash, self.status = answers.hash_of(output), done.returncode
+        self.seconds = time.monotonic() - began
+        output.unlink()
+
+
+class Bench:
+    """One engine and what it is given: a verification, and a sweep."""
+
+    def __init__(self, engine, program, runs, folder, environment, shards=4):
+        self.engine, self.program = engine, pathlib.Path(program)
+        self.verification, self.sweep = runs
         self.folder, self.environment, self.shards = folder, environment, shards
         self.complete = folder / "complete"
         self.random = random.Random(engine.name)
         self.kills = 0
 
-    def start(self, into, output, program=None):
+    def start(self, into, output, program=None, run=None):
         """The engine's process."""
         environment = {**self.environment, "BEAMWORK": str(program or self.program)}
         with open(self.folder / "log", "w", encoding="utf-8") as log:
-            return self.engine.start(self.shards, into, output, self.arguments, environment, log)
+            return self.engine.start(self.shards, into, output,
+                                     (run or self.verification).arguments, environment, log)
 
-    def run(self, into, output, program=None):
+    def run(self, into, output, program=None, run=None):
         """Its status as far as the engine hands it on, and what was said."""
-        process = self.start(into, output, program)
+        process = self.start(into, output, program, run)
         code = self.engine.status(process.wait(SECONDS))
         return code, (self.folder / "log").read_text(encoding="utf-8")
 
-    def same(self, output, code, said=""):
+    def same(self, output, code, said="", run=None):
         """The answers of the run in one piece, and its status."""
-        wanted, status, _ = self.whole
-        expect(code in (status, None) and output.exists(),
-               f"status {code}, no answers: {said[-600:]}")
+        run = run or self.verification
+        expect(code in (run.status, None) and output.exists(),
+               f"status {code}, not {run.status}, or no answers: {said[-600:]}")
         found = answers.hash_of(output)
-        expect(found == wanted, f"hash {found[:12]}, in one piece {wanted[:12]}")
+        expect(found == run.hash, f"hash {found[:12]}, in one piece {run.hash[:12]}")
 
     def complete_copy(self, name):
         """Of the folder that the first trial filled."""
@@ -109,7 +124,7 @@ def killed(bench, wanted):
         for restart in range(RESTARTS):
             process = bench.start(into, output)
             while process.poll() is None:
-                time.sleep(bench.random.uniform(0, 0.4 * bench.whole[2]))
+                time.sleep(bench.random.uniform(0, 0.4 * bench.verification.seconds))
                 if bench.kills < wanted:
                     bench.kills += kill_one(bench)
                 else:
@@ -117,8 +132,8 @@ def killed(bench, wanted):
             code = bench.engine.status(process.returncode)
             if output.exists():
                 break
-            expect(code in (INCOMPLETE, None) or code > 0 and not batches(into),
-                   f"start {restart}: status {code}, not {INCOMPLETE}: "
+            ended = code in (INCOMPLETE, None) or code < 0 or code > 2  # the merge is killed, too
+            expect(ended or not batches(into), f"start {restart}: status {code}, not {INCOMPLETE}: "
                    + (bench.folder / "log").read_text()[-600:])
         bench.same(output, code)
         names = [p.name for p in batches(into)]
@@ -164,7 +179,7 @@ def foreign(bench):
     """A batch of another run: refused by name; nothing is taken away; without it all is well."""
     into, output, elsewhere = (bench.complete_copy("mixed"), bench.folder / "mixed.h5",
                                bench.folder / "elsewhere")
-    made = bench.called(*bench.other, "--shard", "1/1", "--into", elsewhere)
+    made = bench.called(*bench.sweep.arguments, "--shard", "1/1", "--into", elsewhere)
     expect(made.returncode == 0, f"the other run: {made.stderr[-300:]}")
     stranger = into / batches(elsewhere)[0].name
     shutil.copy(batches(elsewhere)[0], stranger)
@@ -213,4 +228,11 @@ def another_build(bench):
     bench.same(output, code, said)
 
 
-ALL = [started_once, killed, disk_full, cut_short, foreign, two_folders, another_build]
+def swept(bench):
+    """A sweep over parameters."""
+    output = bench.folder / "swept.h5"
+    code, said = bench.run(bench.folder / "swept", output, run=bench.sweep)
+    bench.same(output, code, said, run=bench.sweep)
+
+
+ALL = [started_once, swept, killed, disk_full, cut_short, foreign, two_folders, another_build]
