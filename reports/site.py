@@ -119,10 +119,17 @@ class Site:
         found = navigation.groups(self.navigation)
         return found, navigation.group_of(name, found, {c.name for c in self.cases})
 
+    def name_of(self, sweep):
+        """Of the files of a sweep: its own file's, with a number where another has the same."""
+        name = file_name(sweep.path)
+        before = self.sweeps[:self.sweeps.index(sweep)]
+        same = sum(file_name(s.path) == name for s in before)
+        return f"{name}_{same + 1}" if same else name
+
     def page_of(self, sweep):
         """The file of a sweep's page; the first one is the first page where there is no other."""
         alone = self.alone and sweep is self.sweeps[0]
-        return "index.html" if alone else f"sweep_{file_name(sweep.path)}.html"
+        return "index.html" if alone else f"sweep_{self.name_of(sweep)}.html"
 
     def case(self, name):
         """The case of this name, or None."""

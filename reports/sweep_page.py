@@ -4,7 +4,6 @@ import math
 import pathlib
 import shlex
 
-from reports.site import file_name
 from reports.sweep import answers, cells, figures, gather, stored, words
 
 NAVIGATION = []  # its files have the names of the sweeps
@@ -75,12 +74,14 @@ def write(site, said):
     sweep, found = said["sweep"], said["found"]
     order = [a.key for a in said["answers"] if any(r.known for r in a.of)]
     validity = figures.Validity(sweep, found, order)
-    data = f"cells_{file_name(sweep.path)}.js"
+    data = f"cells_{site.name_of(sweep)}.js"
     cells.write(site, data, sweep, found, order)
+    references = answers.references(sweep, found)
     site.write("sweep.html", said["page"], **said, validity=validity, data=data,
                winners=figures.Winners(sweep, found, validity.axes),
                curves=curves_of(site, sweep, found),
-               worst=worst_rows(sweep), references=answers.references(sweep, found),
+               worst=worst_rows(sweep), references=references, limits=any(
+                   kind.startswith("limit") for _, kinds, *_ in references for kind in kinds),
                outcomes=answers.outcomes(sweep, found),
                crowded=bool((found.points > 1).any()) and validity.dots is None)
 

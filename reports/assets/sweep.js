@@ -33,7 +33,7 @@ const ticks = (axis, field, room) => {
 
 // One map as SVG.
 const draw = (table, x, y, look, wide, title, what) => {
-  const { left, top, below, right, letter } = data.sizes, clamp = value => Math.min(40, Math.max(11.5, value));
+  const { top, below, right, letter } = data.sizes, left = Math.max(data.sizes.left, 12 + 6 * Math.max(0, ...y.ticks.map(([, words]) => words.length))), clamp = value => Math.min(40, Math.max(11.5, value));
   const field = clamp(wide / x.names.length), high = clamp(wide / y.names.length);
   const width = field * x.names.length, height = high * y.names.length, bottom = top + height;
   const paths = {}, signs = {}, seen = {};

@@ -88,8 +88,7 @@ class Validity:
         found, upward = self.found, order[::-1]
         rows = [self.sweep.keys.index(key) for key in upward]
         state = maps.states(found.reach[:, rows, self.q], found.points[:, None], self.look)
-        left = round(20 + 6.4 * max(map(len, self.sweep.keys)))
-        drawn = maps.Map(found.parts[0], upward, 2 * maps.WIDE, left)
+        drawn = maps.Map(found.parts[0], upward, 2 * maps.WIDE)
         return self.draw(drawn, state, "sweep_map", "",
                          f"elements needed over {found.parts[0].axis.name}")
 
@@ -142,7 +141,7 @@ class Winners:
 
     def strip(self):
         x = self.found.parts[0]
-        return [self.image(maps.Map(x, ["cheapest"], 2 * maps.WIDE, 70),
+        return [self.image(maps.Map(x, ["cheapest"], 2 * maps.WIDE),
                            self.found.wins[:, None], self.found.known[:, -1:], "sweep_winners", "")]
 
     def drawn(self, axes):

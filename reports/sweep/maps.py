@@ -122,8 +122,10 @@ def title_of(part):
 class Map:
     """One map. x, y: lattice.Parts, or names in place of y; table: states [x, y]."""
 
-    def __init__(self, x, y, wide=WIDE, left=LEFT):
-        self.x, self.y, self.left = x, y, left
+    def __init__(self, x, y, wide=WIDE):
+        self.x, self.y = x, y
+        names = y if isinstance(y, list) else [words for _, words in marks(y)]
+        self.left = max(LEFT, 12 + 6 * max(map(len, names), default=0))
         self.field = min(MOST_FIELD, max(LEAST_FIELD, wide / len(x)))
         self.high = min(MOST_FIELD / 2 if isinstance(y, list) else MOST_FIELD,
                         max(LEAST_FIELD, wide / len(y)))

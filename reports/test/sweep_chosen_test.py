@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 
 from harness.test.program import ProgramTest, report
+from reports.sweep import gather, maps, stored
 from reports.test import sweeps
 from reports.test.browser_test import CHROMIUM, chromium, console
 from reports.test.sweep_test import ANGLE, SHAPE, WIDTH
@@ -77,10 +78,15 @@ class Chosen(ProgramTest):
         found = self.chosen("form.elements.x.value = 2; form.elements.y.value = 0; "
                             "form.elements.of.value = -1; form.elements.at1.value = 9;")
         self.assertEqual(found["fields"], ["Show", "across", "up", "side by side", "angle"])
-        first, second = found["after"][2]
-        self.assertIn("over shape and width", first)
-        self.assertIn("beamw", first + second)
         self.assertIn("strip", found["after"][1])
+        sweep = stored.read(self.folder / "made.h5")
+        counted, look = gather.of_sweep(sweep), maps.Look(sweep.meshes)
+        for f, key in enumerate(sweep.keys):
+            reach = counted.reach[:, f, -1].reshape(*counted.shape, -1)[:, 9]
+            state = maps.states(reach, reach.sum(axis=-1), look)
+            drawn, = [label for label in found["after"][2] if f"by {key} over shape" in label]
+            self.assertEqual(set(drawn.partition(": ")[2].split("; ")), {
+                f"{look.words[k]}: {100 * (state == k).mean():.0f} %" for k in np.unique(state)})
 
     def test_errors(self):
         found = self.chosen("form.elements.show.value = 3;")

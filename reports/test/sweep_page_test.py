@@ -100,7 +100,7 @@ class Pages(ProgramTest):
                       "-f beamw -n 8",
                       "not converged", "limit of the meshes of all: 80",
                       "20 points, chiefly where width ≥ 9 m; nothing is judged there",
-                      "80 points to less than 1 %", "angle from 0.7 rad to 0.9 rad",
+                      "80 points worse than 1 %", "A limit is where the meshes", "angle from 0.7 rad to 0.9 rad",
                       "20 of 100 points have nothing to measure by"):
             self.assertIn(words, said)
         worst = said[said.index("Worst points"):said.index("What errors are against")]
@@ -157,6 +157,19 @@ class Pages(ProgramTest):
         self.assertIn('href="formulation_collocation.html"', page)
         self.assertNotIn('href="formulation_beamw.html"', page)  # the results have none of it
         self.assertIn('aria-current="page">Sweeps</a>', page)
+
+    def test_several(self):
+        """Also of files of the same name; the first stands in the place of results."""
+        paths = []
+        for folder in ("a", "b", "c"):
+            (self.folder / folder).mkdir()
+            paths.append(sweeps.store(self.folder / folder / "same.h5", (WIDTH,),
+                                      sweeps.grid(WIDTH), {"beamw": errors("beamw")}))
+        done = report(paths[0], self.folder / "site", "--sweep", paths[1], "--sweep", paths[2])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names = {path.name for path in (self.folder / "site").iterdir()}
+        self.assertLessEqual({"index.html", "sweep_same_2.html", "sweep_same_3.html",
+                              "cells_same.js", "cells_same_2.js", "cells_same_3.js"}, names)
 
     def test_what_is_no_sweep(self):
         path = sweeps.store(self.folder / "s.h5", (WIDTH,), sweeps.grid(WIDTH),
