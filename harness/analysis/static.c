@@ -1,4 +1,8 @@
-/* Nonlinear equilibrium along a path, with steps that adapt. */
+/* Nonlinear equilibrium along a path, with steps that adapt: by whether Newton succeeds, not by
+ * what the tangent misses. Steps by that error are shorter than he needs, and cost more (measured
+ * with errors from 0.2 to 2 rad or lengths on all cases of one station: 14 to 20 % more
+ * iterations).
+ */
 #include "harness/analysis/static.h"
 
 #include <math.h>
