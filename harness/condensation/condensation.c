@@ -59,7 +59,9 @@ static status member_of(const model *m, int index, member *out, fault *f)
     e->plain = p->plain && q->plain;
     e->vertex[1] = q->vertex[nodes - 1];
     e->warp[1] = q->warp[nodes - 1];
-    memcpy(e->triad[1], q->triad[nodes - 1], sizeof e->triad[1]);
+    memcpy(out->triad[0], p->triad[0], sizeof(mesh_triad));
+    memcpy(out->triad[1], q->triad[nodes - 1], sizeof(mesh_triad));
+    e->triad = out->triad;
     memcpy(&e->index[NODE_COORDINATES], &q->index[NODE_COORDINATES * (nodes - 1)],
            NODE_COORDINATES * sizeof e->index[0]);
     append_released(m, p, e->vertex[0], NODE_COORDINATES * nodes, e);

@@ -11,6 +11,7 @@ enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEA
 
 typedef struct member {
     mesh_element ends; /* from the first node of the first element to the last of the last */
+    mesh_triad triad[2];
     int first, links, joint, y;
     chain *chain;
 } member;

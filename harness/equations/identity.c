@@ -49,7 +49,7 @@ static void add_elements(identity *out, const model *m)
     for (int i = 0; i < m->elements; i++) {
         add_number(out, m->element[i].kind);
         identity_add(out, m->element[i].warp, sizeof m->element[i].warp);
-        identity_add(out, m->element[i].triad, sizeof m->element[i].triad);
+        identity_add(out, m->element[i].triad, (size_t)m->nodes * sizeof(mesh_triad));
     }
 }
 

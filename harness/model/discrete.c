@@ -16,11 +16,12 @@ static void begin(const int nodes, const int vertex[], mesh_discrete *d)
     memset(d, 0, sizeof *d);
     d->el.kind = d->el.member = NONE;
     d->el.nodes = nodes;
+    d->el.triad = d->triad;
     for (int k = 0; k < nodes; k++) {
         d->el.vertex[k] = vertex[k];
         d->el.warp[k] = NONE;
         for (int i = 0; i < 3; i++)
-            d->el.triad[k][4 * i] = 1;
+            d->triad[k][4 * i] = 1;
     }
 }
 

@@ -98,6 +98,18 @@ static status arc_of_element(const model *m, int member, int profile, const memb
     return member_arc_of(m->scene, member, m->section[profile].axes_angle, out, f);
 }
 
+/* Where triad[nodes] are kept: with those of the element before where they are the same. */
+static mesh_triad *keep_triads(model *m, mesh_triad triad[])
+{
+    const size_t size = (size_t)m->nodes * sizeof *triad;
+    mesh_triad *next = m->triad + m->triads;
+    if (m->triads > 0 && memcmp(next - m->nodes, triad, size) == 0)
+        return next - m->nodes;
+    m->triads += m->nodes;
+    memcpy(next, triad, size);
+    return next;
+}
+
 /* The vertices of one element of n along an arc: positions, triads, warping comes later. */
 static status add_element(model *m, const member_arc *along, int member, int number, int n,
                           int inner_vertex, fault *f)
@@ -111,6 +123,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
     const int curved = (m->type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
               last = m->nodes - 1;
     const double straight[3] = {0, 0, 0};
+    mesh_triad triad[ELEMENT_MAX_NODES];
     el->member = member;
     el->nodes = m->nodes;
     for (int k = 0; k <= last; k++) {
@@ -122,7 +135,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
             el->vertex[k] = sm->q;
         mesh_vertex *v = &m->vertex[el->vertex[k]];
         double position[3], between[3];
-        member_arc_at(a, a->length * (number * last + k) / (n * last), position, el->triad[k]);
+        member_arc_at(a, a->length * (number * last + k) / (n * last), position, triad[k]);
         if (!at_start && !at_end) {
             v->body = el->vertex[k];
             memcpy(v->position, position, sizeof position);
@@ -136,18 +149,20 @@ static status add_element(model *m, const member_arc *along, int member, int num
         double y[3];
         for (int i = 0; i < 3; i++) {
             between[i] = v->position[i] - p[i];
-            y[i] = el->triad[0][3 * i + 1] + el->triad[last][3 * i + 1];
+            y[i] = triad[0][3 * i + 1] + triad[last][3 * i + 1];
         }
-        if (rotation_triad(between, y, el->triad[0]) != 0)
+        if (rotation_triad(between, y, triad[0]) != 0)
             return fault_set(f, STATUS_REFUSED,
                              "member %d: its elements turn too far; use more of them", member);
-        for (int i = 1; i <= last; i++)
-            memcpy(el->triad[i], el->triad[0], sizeof el->triad[0]);
+        for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
+            memcpy(triad[i], triad[0], sizeof triad[0]);
         m->elements++;
+        el->triad = keep_triads(m, triad);
         return kind_of(m, sm, profile, vec3_norm(between), 4 * DBL_EPSILON * vec3_norm(position),
                        straight, &el->kind, f);
     }
     m->elements++;
+    el->triad = keep_triads(m, triad);
     return kind_of(m, sm, profile, a->length / n, 0, a->k, &el->kind, f);
 }
 
@@ -222,24 +237,14 @@ static status allocate(model *m, int elements, fault *f)
     m->release = calloc((size_t)ends + 1, sizeof *m->release);
     m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
     m->element = calloc((size_t)total, sizeof *m->element);
+    m->triad = malloc((size_t)total * (size_t)m->nodes * sizeof *m->triad);
     m->kind = calloc((size_t)total, sizeof *m->kind);
     m->warp = calloc((size_t)total * ELEMENT_MAX_NODES, sizeof *m->warp);
     m->first_element = calloc((size_t)s->members + 1, sizeof *m->first_element);
-    if (m->release == NULL || m->vertex == NULL || m->element == NULL || m->kind == NULL ||
-        m->warp == NULL || m->first_element == NULL)
+    if (m->release == NULL || m->vertex == NULL || m->element == NULL || m->triad == NULL ||
+        m->kind == NULL || m->warp == NULL || m->first_element == NULL)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
                          total);
-    return STATUS_OK;
-}
-
-/* Elements of each member; their sections, and *sections: how many there are of the model. */
-static status count_profiles(model *m, const int count[], int *sections, fault *f)
-{
-    *sections = m->scene->sections;
-    TRY(profile_members(m, count, f));
-    for (int i = 0; i < m->scene->members; i++)
-        if (*sections <= profile_at(m, i, count[i] - 1))
-            *sections = profile_at(m, i, count[i] - 1) + 1;
     return STATUS_OK;
 }
 
@@ -252,7 +257,7 @@ static status profiles(model *m, int elements, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
     for (int i = 0; i < s->members; i++)
         count[i] = divisions(s, i, elements);
-    const status outcome = count_profiles(m, count, &sections, f);
+    const status outcome = profile_count(m, count, &sections, f);
     free(count);
     TRY(outcome);
     m->kind_of_section = malloc(((size_t)sections + 1) * sizeof *m->kind_of_section);

@@ -139,6 +139,7 @@ void model_free(model *m)
     free(m->vertex);
     free(m->release);
     free(m->element);
+    free(m->triad);
     free(m->kind);
     free(m->warp);
     free(m->discrete);

@@ -35,12 +35,14 @@ typedef struct mesh_warp {
     int coordinate; /* global */
 } mesh_warp;
 
+typedef double mesh_triad[9]; /* columns nX nY nZ */
+
 typedef struct mesh_element {
     int kind, member;
     int nodes;
     int vertex[ELEMENT_MAX_NODES];
-    int warp[ELEMENT_MAX_NODES];        /* index, or NONE: held at zero or absent */
-    double triad[ELEMENT_MAX_NODES][9]; /* initial, columns nX nY nZ */
+    int warp[ELEMENT_MAX_NODES]; /* index, or NONE: held at zero or absent */
+    mesh_triad *triad;           /* [nodes] initial; not its own: equal ones share them */
     int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
     int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
     int plain; /* 1: no offset, sequence or released end: elimination is selection */
@@ -52,6 +54,7 @@ typedef struct mesh_discrete {
     mesh_element el; /* no kind, no member, no warping */
     const scene_body *body;
     const scene_spring *spring; /* of both one, the other NULL */
+    mesh_triad triad[ELEMENT_MAX_NODES];
 } mesh_discrete;
 
 /* What identical elements share. */
@@ -129,6 +132,8 @@ struct model {
     mesh_release *release;
     mesh_vertex *vertex;
     mesh_element *element;
+    mesh_triad *triad; /* [triads], room for those of all nodes of all elements */
+    int triads;
     mesh_kind *kind;
     int *kind_of_section; /* [sections] the first, or NONE */
     mesh_warp *warp;

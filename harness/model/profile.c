@@ -126,3 +126,13 @@ status profile_members(model *m, const int divisions[], fault *f)
     free(member);
     return outcome;
 }
+
+status profile_count(model *m, const int count[], int *sections, fault *f)
+{
+    *sections = m->scene->sections;
+    TRY(profile_members(m, count, f));
+    for (int i = 0; i < m->scene->members; i++)
+        if (*sections <= profile_at(m, i, count[i] - 1))
+            *sections = profile_at(m, i, count[i] - 1) + 1;
+    return STATUS_OK;
+}

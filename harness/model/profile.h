@@ -15,5 +15,7 @@ status profile_scene(model *m, fault *f);
 status profile_members(model *m, const int divisions[], fault *f);
 /* Index in m->section of an element of a member, counted along it. */
 int profile_at(const model *m, int member, int number);
+/* profile_members, and *sections: how many the model has then. */
+status profile_count(model *m, const int count[], int *sections, fault *f);
 
 #endif
