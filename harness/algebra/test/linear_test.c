@@ -100,11 +100,28 @@ static int determinant_sign(int n, const double A[])
     return sign;
 }
 
+/* Of right-hand sides that are solved together how many are not what each is alone, to the bit;
+ * what stands between them stays. */
+static int apart_together(factor *fa, uint64_t *seed)
+{
+    enum { SIDES = 7, STRIDE = MOST + 2 };
+    double together[SIDES * STRIDE], alone[SIDES * STRIDE];
+    for (int i = 0; i < SIDES * STRIDE; i++)
+        together[i] = alone[i] = random_number(seed);
+    factor_solve_many(fa, SIDES, STRIDE, together);
+    for (int c = 0; c < SIDES; c++)
+        factor_solve(fa, alone + (size_t)c * STRIDE);
+    int apart = 0;
+    for (int i = 0; i < SIDES * STRIDE; i++)
+        apart += !(together[i] == alone[i]);
+    return apart;
+}
+
 static void random_matrices(kind what, const char *name, double allowed)
 {
     uint64_t seed = 2385;
     double worst = 0, least_condition = INFINITY, most_condition = 0;
-    int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0;
+    int wrong_inertia = 0, wrong_sign = 0, failures = 0, most_negative = 0, apart = 0;
     for (int sample = 0; sample < 40; sample++) {
         const int n = 2 + sample * (MOST - 2) / 39;
         double A[MOST * MOST], b[MOST], x[MOST];
@@ -133,6 +150,7 @@ static void random_matrices(kind what, const char *name, double allowed)
                 b[i] = x[i] = random_number(&seed);
             factor_solve(fa, x);
             worst = fmax(worst, distance_from_dense(n, A, x, b));
+            apart += apart_together(fa, &seed);
         }
         gsl_test(factor_count(fa).entries < n || factor_count(fa).flops <= 0,
                  "%s matrix of %d: work is counted", name, n);
@@ -143,6 +161,7 @@ static void random_matrices(kind what, const char *name, double allowed)
              "%s: the condition is estimated as %.2f to %.2f of what it is", name, least_condition,
              most_condition);
     gsl_test_int(failures, 0, "%s: all samples are factorised", name);
+    gsl_test_int(apart, 0, "%s: solutions made together are those made alone", name);
     gsl_test_int(wrong_sign, 0, "%s: the sign of the determinant", name);
     if (what != UNSYMMETRIC)
         gsl_test_int(wrong_inertia, 0,
