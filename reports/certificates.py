@@ -92,7 +92,7 @@ def curve(site, panel, certificate, one, line, columns):
 
 def draw(site, certificate):
     """Locking over thickness, and errors over elements."""
-    chart = Chart(2, (330, 200))
+    chart = Chart(2, (330, 200), apart=True)
     thin = chart.panel("locking", "thickness / length", "relative error")
     fine = chart.panel("convergence", "elements", "", whole=True, like=thin)
     thin.y.take([FLOOR / 2, 1])

@@ -91,10 +91,11 @@ class Panel:
 
 
 class Chart:
-    """columns: of panels; size: of a panel's axes, in pixels."""
+    """columns: of panels; size: of a panel's axes, in pixels; apart: panels of one row whose curves
+    are not of the same things, so that each has its entries of the legend below itself."""
 
-    def __init__(self, columns, size, gap=(62, 52)):
-        self.columns, self.size, self.gap = columns, size, gap
+    def __init__(self, columns, size, gap=(62, 52), apart=False):
+        self.columns, self.size, self.gap, self.apart = columns, size, gap, apart
         self.panels, self.names = [], {}
 
     def panel(self, title="", xlabel="", ylabel="", xlog=True, ylog=True, whole=False, like=None):
@@ -229,22 +230,32 @@ class Writer:
             f' font-size="{size}"' if size != 11 else "")
         return f'<text x="{number(x)}" y="{number(y)}"{more}>{escape(words)}</text>'
 
-    def legend(self, top, width):
+    def entry(self, words, wide, x, y):
+        """One of the legend."""
+        look = self.labels[words]
+        of = (look.get("gid") or "").split("|")
+        whose = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""
+        bare = {**look, "gid": None, "marks": None, "where": "-mid"}
+        drawn = self.line([(0, 0), (13, 0), (26, 0)], bare)
+        return (f'<g{whose} transform="translate({number(x)} {number(y)})"><g fill="none">'
+                f'<path d="M0-8h{number(wide - 8)}v16H0z"/>{drawn}</g>'
+                f"{self.text(33, 4, words)}</g>")
+
+    def legend(self, top, left, step, width):
         """Entries in columns below the panels; (SVG, height)."""
-        wide = 44 + LETTER * max((len(words) for words in self.labels), default=0)
-        columns = max(1, min(len(self.labels), int((width - 20) // wide)))
-        rows = math.ceil(len(self.labels) / columns)
-        out = ""
-        for i, (words, look) in enumerate(self.labels.items()):
-            x, y = 20 + wide * (i // rows), top + 17 * (i % rows)
-            of = (look.get("gid") or "").split("|")
-            entry = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""
-            bare = {**look, "gid": None, "marks": None, "where": "-mid"}
-            drawn = self.line([(0, 0), (13, 0), (26, 0)], bare)
-            out += (f'<g{entry} transform="translate({number(x)} {number(y)})"><g fill="none">'
-                    f'<path d="M0-8h{number(wide - 8)}v16H0z"/>{drawn}</g>'
-                    f"{self.text(33, 4, words)}</g>")
-        return out, 17 * rows
+        words = list(self.labels)
+        wide = 44 + LETTER * max((len(one) for one in words), default=0)
+        if self.chart.apart:
+            columns = [[curve[2]["label"] for curve in panel.curves] for panel in self.chart.panels]
+            begin = [left + step * i for i in range(len(columns))]
+        else:
+            count = max(1, min(len(words), int((width - 20) // wide)))
+            rows = math.ceil(len(words) / count)
+            columns = [words[rows * i:rows * (i + 1)] for i in range(count)]
+            begin = [20 + wide * i for i in range(count)]
+        out = "".join(self.entry(one, wide, x, top + 17 * i) for x, column in zip(begin, columns)
+                      for i, one in enumerate(column))
+        return out, 17 * max((len(column) for column in columns), default=0)
 
     def image(self):
         chart = self.chart
@@ -260,7 +271,7 @@ class Writer:
             for i, p in enumerate(chart.panels))
         width = left + step[0] * (columns - 1) + chart.size[0] + 14
         height = top + step[1] * (rows - 1) + chart.size[1] + 40
-        entries, more = self.legend(height + 14, width)
+        entries, more = self.legend(height + 14, left, step[0], width)
         height += more + 16
         off = escape(" ".join(style.extra(self.keys)))
         markup = (f'<svg viewBox="0 0 {number(width)} {number(height)}" width="{width:.0f}" '
