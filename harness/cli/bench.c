@@ -104,6 +104,9 @@ static int bench_request(command_request *r)
     judgement j = {0};
     spread_end end = {.ended = 0};
     fault f = {""};
+    if (r->against != NULL && (r->into != NULL || r->shard != NULL || r->from_count > 0))
+        return message_fail(STATUS_REFUSED, "--against compares two on one processor: leave "
+                                            "--shard, --into and --from away");
     if (r->against != NULL)
         return contest_run(r);
     if (r->scene_count > 0 && case_input_find(r) == NULL)

@@ -171,7 +171,8 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
         return STATUS_OK;
     show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
     TRY(output_flush(f));
-    return verification_files_close(&v->files, &v->overview, r->jobs, f);
+    const environment e = spread_environment(&v->end, r->jobs);
+    return verification_files_close(&v->files, &v->overview, &e, f);
 }
 
 static int verify_scenes(const command_request *r, const scenes *own)

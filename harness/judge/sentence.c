@@ -204,11 +204,15 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
         failures(j, more, sizeof more);
     else
         expected_findings(j, more, sizeof more);
-    const char *word = s->unfinished > 0 ? "INTERRUPTED" : bad ? "FAIL" : "PASS";
+    const char *word = bad ? "FAIL" : "PASS", *of = "";
+    if (s->unfinished > 0) {
+        word = s->partial ? "INCOMPLETE" : "INTERRUPTED";
+        of = s->partial ? "of what is there " : "until then ";
+    }
     if (bad)
         snprintf(text, size, "%s: %s.", word, more);
     else
-        snprintf(text, size, "%s: %s%s%s%s.", word, s->unfinished > 0 ? "until then " : "",
+        snprintf(text, size, "%s: %s%s%s%s.", word, of,
                  j->proposed > 0 ? "nothing that gates differs from what is expected"
                                  : "every verdict is as expected",
                  more[0] != '\0' ? "; " : "", more);

@@ -8,8 +8,9 @@
 void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size);
 enum { SENTENCE_OF_RUN = 1000 };
 
-/* The whole run in one sentence, which begins with PASS or FAIL (INTERRUPTED where it was) and says
- * what of it was expected although it is not a pass; empty where nothing was checked. */
+/* The whole run in one sentence, which begins with PASS or FAIL (INTERRUPTED where it was,
+ * INCOMPLETE where batches are missing) and says what of it was expected although it is not a pass;
+ * empty where nothing was checked. */
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);
 
 #endif

@@ -138,6 +138,8 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
     write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
     write_ledger(to, "cells", j->flaws, "cells contradict themselves");
     if (s->unfinished > 0)
-        write_ledger(to, "run", s->unfinished, "cells were not done: the run was interrupted");
+        write_ledger(to, "run", s->unfinished,
+                     s->partial ? "cells were not done: batches are missing"
+                                : "cells were not done: the run was interrupted");
     fprintf(to, " </testsuite>\n</testsuites>\n");
 }

@@ -147,6 +147,13 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
+static const char *words_before(const sweep *s)
+{
+    if (s->unfinished == 0)
+        return "";
+    return s->partial ? "incomplete; of what is there " : "interrupted; until then ";
+}
+
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
                     const environment *e)
 {
@@ -156,8 +163,7 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     const char *outcome = bad ? "not as expected" : "as expected";
     if (j->judged == 0)
         outcome = "nothing was checked";
-    fprintf(to, "## beamwork: %s%s\n\n", s->unfinished > 0 ? "interrupted; until then " : "",
-            outcome);
+    fprintf(to, "## beamwork: %s%s\n\n", words_before(s), outcome);
     fprintf(to,
             "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
             "stored discrete values agree",

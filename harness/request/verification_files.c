@@ -103,12 +103,12 @@ static status write_store(verification_files *to, const environment *e, fault *f
     return outcome != STATUS_OK ? outcome : written;
 }
 
-status verification_files_close(verification_files *to, const overview *o, int jobs, fault *f)
+status verification_files_close(verification_files *to, const overview *o, const environment *e,
+                                fault *f)
 {
-    const environment e = environment_now(jobs);
-    status outcome = write_store(to, &e, f);
+    status outcome = write_store(to, e, f);
     if (outcome == STATUS_OK)
-        outcome = write_texts(to, o, &e, f);
+        outcome = write_texts(to, o, e, f);
     json_part_free(&to->part);
     to->open = 0;
     return outcome;

@@ -20,8 +20,9 @@ typedef struct verification_files {
 status verification_files_open(verification_files *, const sweep *, const judgement *, fault *f);
 /* A case, all of whose series have been judged: of verification.h, with the files as context. */
 void verification_files_case(void *files, const case_type *);
-/* Writes all; of an interrupted run under names that say so. */
-status verification_files_close(verification_files *, const overview *, int jobs, fault *f);
+/* Writes all, with what it was computed on; of an interrupted run under names that say so. */
+status verification_files_close(verification_files *, const overview *, const environment *e,
+                                fault *f);
 /* Without writing; nothing where they are closed. */
 void verification_files_drop(verification_files *);
 

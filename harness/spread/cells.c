@@ -136,4 +136,5 @@ void cells_keep(sweep *s, const char keep[])
             s->series[kept++] = s->series[i];
     }
     s->seriess = kept;
+    s->partial = s->unfinished > 0;
 }

@@ -50,8 +50,8 @@ static int tell_shard(const command_request *r, const shard_request *q, const sh
         return EXIT_INTERRUPTED;
     }
     if (!r->quiet)
-        printf("shard %d/%d: %d batches in %s, %d computed now (%.3g s)\n", q->index + 1, q->count,
-               o->mine, r->into, o->done, o->seconds);
+        printf("shard %d/%d: %d %s in %s, %d computed now (%.3g s)\n", q->index + 1, q->count,
+               o->mine, o->mine == 1 ? "batch" : "batches", r->into, o->done, o->seconds);
     return EXIT_AS_EXPECTED;
 }
 

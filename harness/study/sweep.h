@@ -51,6 +51,7 @@ typedef struct sweep {
     int doublings;   /* of the request */
     int threads;     /* of the loop over elements in every cell; 0, 1: one */
     int unfinished;  /* cells that an interrupted run left; series that need them are gone */
+    int partial;     /* 1: nobody interrupted it, they are of batches that are missing */
     int points, seriess;
     point *point;
     series *series;

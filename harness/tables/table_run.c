@@ -143,7 +143,8 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
     fprintf(to, "%d cells, %d more for their noise, in %.3g s", sweep_cells(s), noise_cells(s),
             seconds);
     if (s->unfinished > 0)
-        fprintf(to, "; interrupted, %d more were not done", s->unfinished);
+        fprintf(to, s->partial ? "; %d more are missing" : "; interrupted, %d more were not done",
+                s->unfinished);
     fputc('\n', to);
     print_verdicts(to, j);
     if (j->agreements > 0)

@@ -90,6 +90,8 @@ class Verify(SpreadTest):
         ours, theirs = (read_json(path) for path in
                         (self.folder / "merged.json", self.home / "alone.json"))
         self.assertEqual(ours["verdicts"], theirs["verdicts"])
+        with h5py.File(self.folder / "merged.h5") as file:
+            self.assertIn(f"({os.uname().nodename})", file.attrs["processor"].decode())
         tests = [path.read_text().count("<testcase") for path in
                  (self.folder / "merged.xml", self.home / "alone.xml")]
         self.assertGreater(tests[0], 50)
@@ -128,6 +130,7 @@ class Verify(SpreadTest):
         self.assertEqual(done.stdout, "")
         done = self.merged("--partial", code=5)
         self.assertIn("cells were not done", done.stderr)
+        self.assertRegex(" ".join(done.stdout.split()), "INCOMPLETE: of what is there every")
         self.assertFalse((self.folder / "merged.h5").exists())
         self.assertGreater(int(self.hash_of(self.folder / "merged.partial.h5")[1]), 1000)
 
@@ -218,9 +221,8 @@ class Killed(SpreadTest):
         parts = self.folder / "parts"
         with subprocess.Popen([PROGRAM, "verify", "--into", parts], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as child:
-            while not parts.exists():
+            while not any(parts.glob("*.batch")) and child.poll() is None:
                 time.sleep(0.01)
-            time.sleep(0.5)
             child.send_signal(signal.SIGINT)
             out, errors = child.communicate()
         self.assertEqual((child.returncode, out), (5, ""))
@@ -256,7 +258,7 @@ class Others(SpreadTest):
         ask = ("bench", "elastica", "snap_through", "-f", "beamw", "-f", "collocation", "-n", "1,2")
         self.answered(*ask, "-o", self.folder / "alone.h5")
         for which in ("1/2", "2/2"):
-            self.assertIn(" 1 batches", self.shard(which, *ask).stdout)
+            self.assertIn(" 1 batch in", self.shard(which, *ask).stdout)
         done = self.answered("merge", self.folder / "parts", "-o", self.folder / "merged.h5")
         self.assertIn("elastica", done.stdout)
         with h5py.File(self.folder / "merged.h5") as file:
@@ -292,6 +294,8 @@ class Others(SpreadTest):
                 (["give one"], ["--into", parts, "--from", parts]),
                 (["--partial is of"], ["--partial"])):
             self.refused(2, words, "verify", "-k", "elastica", *arguments)
+        self.refused(2, ["on one processor"], "bench", "elastica", "-f", "beamw", "--against",
+                     "collocation", "--into", parts)
         self.refused(2, ["which folders"], "merge")
         self.refused(4, ["nowhere", "cannot be read"], "merge", self.folder / "nowhere")
         self.refused(2, ["no batches in it"], "merge", self.folder)
