@@ -274,32 +274,3 @@ status linearise_state(model *m, const model_state *s, model_linearisation *lin,
     ahead_end(m);
     return outcome;
 }
-
-void linearise_node_force(model *m, const model_state *s, int node, double F[6])
-{
-    memset(F, 0, 6 * sizeof(double));
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
-        for (int k = 0; k < m->nodes; k++) {
-            if (m->vertex[el->vertex[k]].body != node)
-                continue;
-            node_state x[ELEMENT_MAX_NODES];
-            double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
-                force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
-            kinematics_gather(m, s, el, x);
-            m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
-            dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
-                                    &s->sigma[(size_t)i * (size_t)m->strains], force);
-            rotating_frame_add(m, x, i, s->path, force, NULL,
-                               NULL); /* never fails in a state that has been reached */
-            kinematics_offset(m, s, el->vertex[k], rho);
-            vec3_cross(rho, force + NODE_COORDINATES * k, moment);
-            for (int c = 0; c < 3; c++) {
-                F[c] += force[NODE_COORDINATES * k + c];
-                F[3 + c] +=
-                    force[NODE_COORDINATES * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
-            }
-        }
-    }
-    discrete_node_force(m, s, node, F);
-}

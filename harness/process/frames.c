@@ -1,108 +1,31 @@
 /* Strains, stresses and forces of many elements in one request each. */
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "elements/math/dense.h"
-#include "harness/process/process_impl.h"
+#include "harness/process/frame.h"
 
 _Static_assert(sizeof(node_state) == 16 * sizeof(double), "a node is sent as it stands");
 
-enum { FRAME = 1 << 23 }; /* bytes of an answer and its request, about */
-
-/* A request about elements. */
-typedef struct question {
-    enum channel_request what;
-    int mask, count;
-    const element_data *const *data;
-    size_t answer; /* bytes for each element */
-} question;
-
-static channel *channel_of(const question *q)
-{
-    return &q->data[0]->of->to;
-}
-
-/* The process still knows these elements. */
-static status known(const question *q, fault *f)
-{
-    const process *p = q->data[0]->of;
-    channel *c = channel_of(q);
-    int lost = c->process.process == 0 || c->process.owner != getpid(), many = 0;
-    for (int i = 0; i < q->count; i++) {
-        lost |= q->data[i]->started != c->started;
-        many |= q->data[i]->kind < p->kinds - PROCESS_KINDS;
-    }
-    if (lost && c->trouble[0] != '\0')
-        return fault_set(f, STATUS_FAULT, "%s", c->trouble);
-    if (lost)
-        return channel_break(c, "its process was started anew between two requests", f);
-    return many ? channel_break(c, "more than 65536 kinds of elements at once", f) : STATUS_OK;
-}
-
-static void put(char **to, const void *from, size_t bytes)
-{
-    memcpy(*to, from, bytes);
-    *to += bytes;
-}
-
-static void take(const char **from, double to[], size_t count)
-{
-    memcpy(to, *from, count * sizeof(double));
-    *from += count * sizeof(double);
-}
-
-/* Room behind the kinds of the elements for `each` bytes of every one. */
-static status begin(const question *q, size_t each, char **to, fault *f)
-{
-    TRY(known(q, f));
-    channel_begin(channel_of(q));
-    *to = channel_add(channel_of(q), (size_t)q->count * (sizeof(int64_t) + each));
-    if (*to == NULL)
-        return channel_break(channel_of(q), "out of memory for a mesh", f);
-    for (int i = 0; i < q->count; i++) {
-        const int64_t kind = q->data[i]->kind % PROCESS_KINDS;
-        put(to, &kind, sizeof kind);
-    }
-    return STATUS_OK;
-}
-
-static status ask(const question *q, const char **body, fault *f)
-{
-    const size_t bytes = (size_t)q->count * q->answer;
-    size_t count;
-    return channel_ask(channel_of(q), q->what, q->mask, q->count, bytes, bytes, body, &count, f);
-}
-
-/* Parts first, first + most, ...: how many elements fit into a request. */
-static int fitting(size_t each)
-{
-    return (int)(FRAME / each) + 1;
-}
-
-static int nodes_of(const element_data *d)
-{
-    return d->coordinates / NODE_COORDINATES;
-}
-
-static status strain_frame(const question *q, const node_state x[], strain_output out[], fault *f)
+static status strain_frame(const frame_question *q, const node_state x[], strain_output out[],
+                           fault *f)
 {
     const element_data *d = q->data[0];
     const size_t m = (size_t)d->strains, c = (size_t)d->coordinates,
-                 nodes = (size_t)nodes_of(d) * sizeof *x, s = q->mask & 4 ? m : 0;
+                 nodes = (size_t)frame_nodes(d) * sizeof *x, s = q->mask & 4 ? m : 0;
     const char *from;
     char *to;
-    TRY(begin(q, nodes + s * sizeof(double), &to, f));
-    put(&to, x, (size_t)q->count * nodes);
+    TRY(frame_begin(q, nodes + s * sizeof(double), &to, f));
+    frame_put(&to, x, (size_t)q->count * nodes);
     for (int i = 0; i < q->count && s > 0; i++)
-        put(&to, out[i].s, s * sizeof(double));
-    TRY(ask(q, &from, f));
+        frame_put(&to, out[i].s, s * sizeof(double));
+    TRY(frame_ask(q, &from, f));
     for (int i = 0; i < q->count && q->mask & 1; i++)
-        take(&from, out[i].e, m);
+        frame_take(&from, out[i].e, m);
     for (int i = 0; i < q->count && q->mask & 2; i++)
-        take(&from, out[i].J, m * c);
+        frame_take(&from, out[i].J, m * c);
     for (int i = 0; i < q->count && q->mask & 4; i++)
-        take(&from, out[i].H, c * c);
+        frame_take(&from, out[i].H, c * c);
     return STATUS_OK;
 }
 
@@ -113,10 +36,10 @@ static void fill_nan(double to[], size_t count)
 }
 
 /* strain has no outcome: what it gives is no number, and the type says why when it is asked. */
-static void no_strains(const question *q, strain_output out[], const fault *why)
+static void no_strains(const frame_question *q, strain_output out[], const fault *why)
 {
     const size_t m = (size_t)q->data[0]->strains, c = (size_t)q->data[0]->coordinates;
-    channel_note(channel_of(q), STATUS_REFUSED, why);
+    channel_note(frame_channel(q), STATUS_REFUSED, why);
     for (int i = 0; i < q->count; i++) {
         fill_nan(out[i].e, m);
         fill_nan(out[i].J, m * c);
@@ -136,15 +59,15 @@ static void strain_many(int count, const element_data *const data[], const node_
                      (out->s != NULL && out->H != NULL ? 4 : 0);
     const size_t answer =
         sizeof(double) * ((mask & 1 ? m : 0) + (mask & 2 ? m * c : 0) + (mask & 4 ? c * c : 0));
-    const int most = fitting(answer + (size_t)nodes_of(d) * sizeof *x);
+    const int most = frame_fitting(answer + (size_t)frame_nodes(d) * sizeof *x);
     status outcome = STATUS_OK;
     fault f = {""};
     pthread_mutex_lock(&d->of->to.lock);
     for (int i = 0; i < count && mask != 0; i += most) {
-        const question q = {CHANNEL_STRAIN, mask, i + most < count ? most : count - i, data + i,
-                            answer};
+        const frame_question q = {CHANNEL_STRAIN, mask, i + most < count ? most : count - i,
+                                  data + i, answer};
         if (outcome == STATUS_OK)
-            outcome = strain_frame(&q, x + i * nodes_of(d), out + i, &f);
+            outcome = strain_frame(&q, x + i * frame_nodes(d), out + i, &f);
         if (outcome != STATUS_OK)
             no_strains(&q, out + i, &f);
     }
@@ -171,22 +94,22 @@ static void linear_stress(const element_data *d, const double e[], stress_output
         memcpy(out->C, d->C, (size_t)(m * m) * sizeof *d->C);
 }
 
-static status stress_frame(const question *q, const double *const e[], stress_output out[],
+static status stress_frame(const frame_question *q, const double *const e[], stress_output out[],
                            fault *f)
 {
     const size_t m = (size_t)q->data[0]->strains;
     const char *from;
     char *to;
-    TRY(begin(q, m * sizeof(double), &to, f));
+    TRY(frame_begin(q, m * sizeof(double), &to, f));
     for (int i = 0; i < q->count; i++)
-        put(&to, e[i], m * sizeof(double));
-    TRY(ask(q, &from, f));
+        frame_put(&to, e[i], m * sizeof(double));
+    TRY(frame_ask(q, &from, f));
     for (int i = 0; i < q->count && q->mask & 1; i++)
-        take(&from, out[i].energy, 1);
+        frame_take(&from, out[i].energy, 1);
     for (int i = 0; i < q->count && q->mask & 2; i++)
-        take(&from, out[i].sigma, m);
+        frame_take(&from, out[i].sigma, m);
     for (int i = 0; i < q->count && q->mask & 4; i++)
-        take(&from, out[i].C, m * m);
+        frame_take(&from, out[i].C, m * m);
     return STATUS_OK;
 }
 
@@ -198,11 +121,11 @@ static void stress_frames(int count, const element_data *const data[], const dou
         (out->energy != NULL ? 1 : 0) + (out->sigma != NULL ? 2 : 0) + (out->C != NULL ? 4 : 0);
     const size_t answer =
         sizeof(double) * ((mask & 1 ? 1 : 0) + (mask & 2 ? m : 0) + (mask & 4 ? m * m : 0));
-    const int most = fitting(answer + m * sizeof(double));
+    const int most = frame_fitting(answer + m * sizeof(double));
     pthread_mutex_lock(&data[0]->of->to.lock);
     for (int i = 0; i < count; i += most) {
-        const question q = {CHANNEL_STRESS, mask, i + most < count ? most : count - i, data + i,
-                            answer};
+        const frame_question q = {CHANNEL_STRESS, mask, i + most < count ? most : count - i,
+                                  data + i, answer};
         fault f = {""};
         const status found = mask != 0 ? stress_frame(&q, e + i, out + i, &f) : STATUS_OK;
         for (int k = i; k < i + q.count; k++)
@@ -241,21 +164,22 @@ static status stress(const element_data *d, const double e[], const double inner
     return outcome;
 }
 
-static status force_frame(const question *q, const node_state x[], force_output out[], fault *f)
+static status force_frame(const frame_question *q, const node_state x[], force_output out[],
+                          fault *f)
 {
     const element_data *d = q->data[0];
-    const size_t c = (size_t)d->coordinates, nodes = (size_t)nodes_of(d) * sizeof *x;
+    const size_t c = (size_t)d->coordinates, nodes = (size_t)frame_nodes(d) * sizeof *x;
     const char *from;
     char *to;
-    TRY(begin(q, nodes, &to, f));
-    put(&to, x, (size_t)q->count * nodes);
-    TRY(ask(q, &from, f));
+    TRY(frame_begin(q, nodes, &to, f));
+    frame_put(&to, x, (size_t)q->count * nodes);
+    TRY(frame_ask(q, &from, f));
     for (int i = 0; i < q->count && q->mask & 1; i++)
-        take(&from, out[i].energy, 1);
+        frame_take(&from, out[i].energy, 1);
     for (int i = 0; i < q->count && q->mask & 2; i++)
-        take(&from, out[i].F, c);
+        frame_take(&from, out[i].F, c);
     for (int i = 0; i < q->count && q->mask & 4; i++)
-        take(&from, out[i].K, c * c);
+        frame_take(&from, out[i].K, c * c);
     return STATUS_OK;
 }
 
@@ -270,14 +194,14 @@ static void force_many(int count, const element_data *const data[], const node_s
         (out->energy != NULL ? 1 : 0) + (out->F != NULL ? 2 : 0) + (out->K != NULL ? 4 : 0);
     const size_t answer =
         sizeof(double) * ((mask & 1 ? 1 : 0) + (mask & 2 ? c : 0) + (mask & 4 ? c * c : 0));
-    const int most = fitting(answer + (size_t)nodes_of(d) * sizeof *x);
+    const int most = frame_fitting(answer + (size_t)frame_nodes(d) * sizeof *x);
     pthread_mutex_lock(&d->of->to.lock);
     for (int i = 0; i < count; i += most) {
-        const question q = {CHANNEL_FORCE, mask, i + most < count ? most : count - i, data + i,
-                            answer};
+        const frame_question q = {CHANNEL_FORCE, mask, i + most < count ? most : count - i,
+                                  data + i, answer};
         fault f = {""};
         const status found =
-            mask != 0 ? force_frame(&q, x + i * nodes_of(d), out + i, &f) : STATUS_OK;
+            mask != 0 ? force_frame(&q, x + i * frame_nodes(d), out + i, &f) : STATUS_OK;
         for (int k = i; k < i + q.count; k++)
             outcome[k] = found;
         channel_note(&d->of->to, found, &f);

@@ -1,13 +1,8 @@
 /* Faults planted into formulations that have none: each is noticed, with a sentence that names the
  * right thing. A fault changes what one of their functions gives. */
-#include <gsl/gsl_test.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "harness/contract/checks.h"
-
-static const element_type *base; /* what the fault is planted into */
+#include "harness/contract/test/planted.h"
 
 static void strain_changed(const element_data *d, const node_state x[], strain_output *out,
                            void (*change)(strain_output *))
@@ -51,37 +46,6 @@ static void nodes_exchanged(const element_data *d, const node_state x[], strain_
     base->strain(d, x, out);
     if (out->J != NULL)
         nodes_exchanged_call(d, x, out->J);
-}
-
-/* An inertia whose outputs are changed. */
-#define INERTIA(name, statement)                                                                   \
-    static status name(const element_data *d, const node_state x[],                                \
-                       const element_rotating_frame *frame, inertia_output *out)                   \
-    {                                                                                              \
-        const status outcome = base->inertia(d, x, frame, out);                                    \
-        statement;                                                                                 \
-        return outcome;                                                                            \
-    }
-#define EACH(count, statement)                                                                     \
-    for (int i = 0; i < (count); i++)                                                              \
-    statement
-
-INERTIA(heavier, if (out->M != NULL) EACH(196, out->M[i] *= 1.01))
-INERTIA(unsymmetric_mass, if (out->M != NULL) out->M[14 * 1 + 8] += 0.01 * out->M[14 + 1])
-INERTIA(negative_mass, if (out->M != NULL) out->M[14 * 10 + 10] *= -1)
-INERTIA(fixed_mass, if (out->M != NULL) out->M[14 * 3 + 3] += 0.5 * out->M[14 * 3 + 3])
-INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
-INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
-INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
-INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-INERTIA(not_skew, if (out->G != NULL) out->G[14 * 1 + 1] += out->G[14 + 2])
-INERTIA(half_coriolis, if (out->G != NULL) EACH(196, out->G[i] /= 2))
-INERTIA(beyond_M, if (out->M != NULL) out->M[196] = 0)
-
-static status no_frame(const element_data *d, const node_state x[],
-                       const element_rotating_frame *frame, inertia_output *out)
-{
-    return frame != NULL ? STATUS_SINGULAR : base->inertia(d, x, frame, out);
 }
 
 static status half_energy(const element_data *d, const double e[], const double inner[],
@@ -212,47 +176,6 @@ static int one_order_less(const double options[])
     return -1;
 }
 
-/* What is changed of the type, the family that must notice, and words of its sentence. */
-static void planted(const char *family, const element_type *fault_type, const char *first,
-                    const char *second)
-{
-    static claims c;
-    formulation chosen;
-    int noticed = 0;
-    formulation_default(base, &chosen);
-    chosen.type = fault_type;
-    for (int k = 0; k < CHECKS_FAMILIES; k++) {
-        if (strcmp(checks_families[k].name, family) != 0)
-            continue;
-        memset(&c, 0, sizeof c);
-        checks_families[k].run(&chosen, &c);
-        for (int i = 0; i < c.count; i++)
-            noticed += c.claim[i].outcome == CLAIM_BROKEN &&
-                       strstr(c.claim[i].sentence, first) != NULL &&
-                       strstr(c.claim[i].sentence, second) != NULL;
-    }
-    gsl_test(noticed == 0, "%s notices: %s ... %s", family, first, second);
-    for (int i = 0; i < c.count && noticed == 0; i++)
-        gsl_test(c.claim[i].outcome == CLAIM_BROKEN, "it said: %s", c.claim[i].sentence);
-}
-
-static element_type changed(const char *name)
-{
-    formulation chosen;
-    gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
-    base = chosen.type;
-    element_type out = *base;
-    out.options[0] = NULL; /* as by default, once */
-    return out;
-}
-
-#define PLANT(member, value, family, first, second)                                                \
-    do {                                                                                           \
-        element_type t = changed("beamw_consistent");                                              \
-        t.member = value;                                                                          \
-        planted(family, &t, first, second);                                                        \
-    } while (0)
-
 static void derivatives(void)
 {
     PLANT(strain, sign_in_J, "derivatives", "J: the derivative of strain 3 in coordinate 2",
@@ -272,28 +195,10 @@ static void derivatives(void)
     PLANT(geometric, constant_geometric, "energy", "geometric: G entry 2, 2", "sum");
 }
 
-static void inertia(void)
-{
-    PLANT(inertia, heavier, "mass", "inertia: the mass along x", "rho A l");
-    PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "other way round");
-    PLANT(inertia, negative_mass, "mass", "not positive", "rotation about x of node 2");
-    PLANT(inertia, fixed_mass, "mass", "turned as a whole", "turned back");
-    PLANT(inertia, fixed_mass, "mass", "moment of inertia of the sections about x", "rho l I");
-    PLANT(inertia, half_potential, "rotating", "the potential is", "kinetic energy");
-    PLANT(inertia, wrong_force, "rotating", "centrifugal force in coordinate 9",
-          "displacement along y of node 2");
-    PLANT(inertia, wrong_softening, "rotating", "N entry 3, 3", "differences");
-    PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "other way round");
-    PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
-    PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
-    PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
-}
-
 static void the_rest(void)
 {
     PLANT(strain, beyond_J, "bounds", "strain: J: it has 112 entries", "entry 113");
     PLANT(strain, before_e, "bounds", "strain: e", "before its first");
-    PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");
     PLANT(prepare, stiff_in_units, "motion", "in units of", "instead of");
     PLANT(prepare, no_reason, "features", "it is refused: no reason is given",
           "asked for no feature");
@@ -312,7 +217,6 @@ static void the_rest(void)
 int main(void)
 {
     derivatives();
-    inertia();
     the_rest();
     return gsl_test_summary();
 }

@@ -1,0 +1,53 @@
+/* Faults planted into the inertia of formulations: each is noticed, with a sentence that names the
+ * right thing. */
+#include "harness/contract/test/planted.h"
+
+/* An inertia whose outputs are changed. */
+#define INERTIA(name, statement)                                                                   \
+    static status name(const element_data *d, const node_state x[],                                \
+                       const element_rotating_frame *frame, inertia_output *out)                   \
+    {                                                                                              \
+        const status outcome = base->inertia(d, x, frame, out);                                    \
+        statement;                                                                                 \
+        return outcome;                                                                            \
+    }
+#define EACH(count, statement)                                                                     \
+    for (int i = 0; i < (count); i++)                                                              \
+    statement
+
+INERTIA(heavier, if (out->M != NULL) EACH(196, out->M[i] *= 1.01))
+INERTIA(unsymmetric_mass, if (out->M != NULL) out->M[14 * 1 + 8] += 0.01 * out->M[14 + 1])
+INERTIA(negative_mass, if (out->M != NULL) out->M[14 * 10 + 10] *= -1)
+INERTIA(fixed_mass, if (out->M != NULL) out->M[14 * 3 + 3] += 0.5 * out->M[14 * 3 + 3])
+INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
+INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
+INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
+INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
+INERTIA(not_skew, if (out->G != NULL) out->G[14 * 1 + 1] += out->G[14 + 2])
+INERTIA(half_coriolis, if (out->G != NULL) EACH(196, out->G[i] /= 2))
+INERTIA(beyond_M, if (out->M != NULL) out->M[196] = 0)
+
+static status no_frame(const element_data *d, const node_state x[],
+                       const element_rotating_frame *frame, inertia_output *out)
+{
+    return frame != NULL ? STATUS_SINGULAR : base->inertia(d, x, frame, out);
+}
+
+int main(void)
+{
+    PLANT(inertia, heavier, "mass", "inertia: the mass along x", "rho A l");
+    PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "other way round");
+    PLANT(inertia, negative_mass, "mass", "not positive", "rotation about x of node 2");
+    PLANT(inertia, fixed_mass, "mass", "turned as a whole", "turned back");
+    PLANT(inertia, fixed_mass, "mass", "moment of inertia of the sections about x", "rho l I");
+    PLANT(inertia, half_potential, "rotating", "the potential is", "kinetic energy");
+    PLANT(inertia, wrong_force, "rotating", "centrifugal force in coordinate 9",
+          "displacement along y of node 2");
+    PLANT(inertia, wrong_softening, "rotating", "N entry 3, 3", "differences");
+    PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "other way round");
+    PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
+    PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
+    PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
+    PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");
+    return gsl_test_summary();
+}
