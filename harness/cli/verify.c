@@ -177,7 +177,11 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
 
 static int verify_scenes(const command_request *r, const scenes *own)
 {
-    trial v = {.files = {r->output, r->json, r->junit, r->markdown, r->propose}};
+    trial v = {.files = {.output = r->output,
+                         .json = r->json,
+                         .junit = r->junit,
+                         .markdown = r->markdown,
+                         .propose = r->propose}};
     fault f = {""};
     const status outcome = run(r, own, &v, &f);
     const int code = outcome != STATUS_OK ? message_fail(outcome, f.text)
