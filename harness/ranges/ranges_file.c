@@ -4,12 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/environment.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/timing/price.h"
+#include "harness/ranges/ranges_file_impl.h"
 #include "harness/truth/checksum.h"
 
-enum { MOST_RANKS = 4, LEVEL = 3, TEXT = 64, LONG_TEXT = 128 };
+enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
 
 /* A column of the file: its place in rows, its dimensions beside the points. */
@@ -95,7 +93,7 @@ static hid_t make_column(ranges_file *file, const column *c)
 /* Names by number, a line each. */
 static void put_names(record *r, hid_t set, const char *name, const char *(*of)(int), int count)
 {
-    char text[16 * TEXT] = "";
+    char text[LINE] = "";
     size_t used = 0;
     for (int i = 0; i < count && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i > 0 ? "\n" : "", of(i));
@@ -135,112 +133,6 @@ static void put_columns(ranges_file *file)
     put_names(r, file->column[6], "names", rows_status_name, ROWS_STATUSES);
 }
 
-/* A table of texts and numbers. */
-typedef struct axis_row {
-    char name[TEXT], unit[16], kind[8], scale[8];
-    int count;
-} axis_row;
-typedef struct quantity_row {
-    char name[SCENE_NAME], unit[SCENE_UNIT];
-} quantity_row;
-typedef struct worst_row {
-    long point;
-    char formulation[FORMULATION_KEY];
-    int mesh;
-    char quantity[SCENE_NAME];
-    double error;
-    char status[16], scene[LONG_TEXT];
-} worst_row;
-
-static void insert_text(hid_t table, const char *name, size_t offset, size_t length)
-{
-    const hid_t type = record_text_type(length);
-    H5Tinsert(table, name, offset, type);
-    H5Tclose(type);
-}
-
-static void put_axes(record *r, const ranges *of)
-{
-    axis_row row[CASE_MAX_PARAMETERS];
-    memset(row, 0, sizeof row);
-    for (int i = 0; i < of->design.axes; i++) {
-        const axis *a = &of->axis[i];
-        const int range = a->value == NULL, scattered = of->design.kind != DESIGN_GRID;
-        snprintf(row[i].name, sizeof row[i].name, "%s", a->of->name);
-        snprintf(row[i].unit, sizeof row[i].unit, "%s", a->of->unit);
-        snprintf(row[i].kind, sizeof row[i].kind, "%s",
-                 range && scattered ? design_name(of->design.kind) : axis_kind_name(a->kind));
-        snprintf(row[i].scale, sizeof row[i].scale, "%s", range ? axis_kind_name(a->kind) : "");
-        row[i].count = range && scattered ? (int)of->design.points : a->count;
-    }
-    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof row[0]);
-    insert_text(type, "name", offsetof(axis_row, name), sizeof row[0].name);
-    insert_text(type, "unit", offsetof(axis_row, unit), sizeof row[0].unit);
-    insert_text(type, "kind", offsetof(axis_row, kind), sizeof row[0].kind);
-    insert_text(type, "scale", offsetof(axis_row, scale), sizeof row[0].scale);
-    H5Tinsert(type, "count", offsetof(axis_row, count), H5T_NATIVE_INT);
-    H5Dclose(record_table(r, r->file, "axes", type, of->design.axes, row));
-    H5Tclose(type);
-}
-
-static void put_quantities(record *r, const ranges *of)
-{
-    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof of->quantity[0]);
-    insert_text(type, "name", offsetof(ranges_quantity, name), sizeof of->quantity[0].name);
-    insert_text(type, "unit", offsetof(ranges_quantity, unit), sizeof of->quantity[0].unit);
-    H5Dclose(record_table(r, r->file, "quantities", type, of->quantities, of->quantity));
-    H5Tclose(type);
-}
-
-static void put_formulations(record *r, const ranges *of)
-{
-    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof of->formulation[0]);
-    insert_text(type, "key", offsetof(formulation, key), sizeof of->formulation[0].key);
-    const hid_t stored = H5Tcopy(type);
-    H5Tpack(stored);
-    const hsize_t size = (hsize_t)of->formulations;
-    const hid_t space = H5Screate_simple(1, &size, NULL),
-                set = H5Dcreate2(r->file, "formulations", stored, space, H5P_DEFAULT, H5P_DEFAULT,
-                                 H5P_DEFAULT);
-    r->bad |= set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, of->formulation) < 0;
-    H5Dclose(set);
-    H5Sclose(space);
-    H5Tclose(stored);
-    H5Tclose(type);
-}
-
-static void put_request(record *r, const ranges *of, const char *plan)
-{
-    const environment e = environment_now(1);
-    const ranges_request *q = &of->request;
-    char program[2 * LONG_TEXT], fixed[PARAMETERS_TEXT], noise[TEXT];
-    const hsize_t meshes = (hsize_t)of->meshes;
-    snprintf(program, sizeof program, "beamwork %s (%s)", e.version, e.commit);
-    parameters_text(q->type, of->base, fixed, sizeof fixed);
-    record_count(r, r->file, "beamwork_sweep", RANGES_FILE_VERSION);
-    record_text(r, r->file, q->file != NULL ? "scene" : "case",
-                q->file != NULL ? scene_file_path(q->type) : q->type->name);
-    record_text(r, r->file, "program", program);
-    record_text(r, r->file, "plan", plan);
-    record_text(r, r->file, "parameters", fixed);
-    record_text(r, r->file, "design", design_name(of->design.kind));
-    if (of->design.kind == DESIGN_RANDOM)
-        record_count(r, r->file, "seed", (long)of->design.seed);
-    if (q->select != NULL)
-        record_text(r, r->file, "selection", q->select);
-    snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, r->file, "cost_noise", noise); /* ratios of costs below it tie */
-    record_count(r, r->file, "axes", of->design.axes);
-    const hid_t tolerance =
-        H5Acreate2(r->file, "tolerance", H5T_NATIVE_DOUBLE, r->scalar, H5P_DEFAULT, H5P_DEFAULT);
-    r->bad |= tolerance < 0 || H5Awrite(tolerance, H5T_NATIVE_DOUBLE, &q->tolerance) < 0;
-    H5Aclose(tolerance);
-    H5Dclose(record_array(r, r->file, "meshes", H5T_NATIVE_INT, 1, &meshes, of->mesh));
-    put_axes(r, of);
-    put_quantities(r, of);
-    put_formulations(r, of);
-}
-
 static status failed(const ranges_file *file, fault *f)
 {
     return fault_set(f, STATUS_FAULT, "%.200s: the sweep could not be written (disk or memory)",
@@ -261,7 +153,7 @@ status ranges_file_open(const char *path, const ranges *r, const char *plan, ran
         out->column[i] = -1;
     out->record.bad = out->record.file < 0 || out->record.scalar < 0;
     if (!out->record.bad)
-        put_request(&out->record, r, plan);
+        ranges_file_request(&out->record, r, plan);
     if (!out->record.bad)
         put_columns(out);
     if (!out->record.bad)
@@ -315,36 +207,6 @@ status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
     return file->record.bad ? failed(file, f) : STATUS_OK;
 }
 
-static void put_worst(record *r, const ranges *of, const tally *t)
-{
-    worst_row row[RANGES_FORMULATIONS * TALLY_WORST];
-    int count = 0;
-    memset(row, 0, sizeof row);
-    for (int i = 0; i < of->formulations; i++)
-        for (int k = 0; k < t->worsts[i]; k++) {
-            const tally_worst *w = &t->worst[i][k];
-            worst_row *out = &row[count++];
-            out->point = w->point;
-            out->mesh = of->mesh[of->meshes - 1];
-            out->error = w->error;
-            snprintf(out->formulation, sizeof out->formulation, "%s", of->formulation[i].key);
-            snprintf(out->quantity, sizeof out->quantity, "%s",
-                     w->quantity >= 0 ? of->quantity[w->quantity].name : "");
-            snprintf(out->status, sizeof out->status, "%s", rows_status_name(w->status));
-            snprintf(out->scene, sizeof out->scene, "%s", w->scene);
-        }
-    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof row[0]);
-    H5Tinsert(type, "point", offsetof(worst_row, point), H5T_NATIVE_LONG);
-    insert_text(type, "formulation", offsetof(worst_row, formulation), sizeof row[0].formulation);
-    H5Tinsert(type, "mesh", offsetof(worst_row, mesh), H5T_NATIVE_INT);
-    insert_text(type, "quantity", offsetof(worst_row, quantity), sizeof row[0].quantity);
-    H5Tinsert(type, "error", offsetof(worst_row, error), H5T_NATIVE_DOUBLE);
-    insert_text(type, "status", offsetof(worst_row, status), sizeof row[0].status);
-    insert_text(type, "scene", offsetof(worst_row, scene), sizeof row[0].scene);
-    H5Dclose(record_table(r, r->file, "worst", type, count, row));
-    H5Tclose(type);
-}
-
 /* The last line behind what the library has written, and the file in its place. */
 static status seal(ranges_file *file, fault *f)
 {
@@ -363,7 +225,7 @@ status ranges_file_close(ranges_file *file, const tally *t, const char *content,
     record *r = &file->record;
     if (written == STATUS_OK) {
         record_text(r, r->file, "content", content);
-        put_worst(r, file->of, t);
+        ranges_file_worst(r, file->of, t);
     }
     for (int i = 0; i < RANGES_FILE_COLUMNS; i++)
         if (file->column[i] >= 0)

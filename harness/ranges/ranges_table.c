@@ -5,29 +5,23 @@
 #include <string.h>
 
 #include "harness/catalogue/parameters.h"
-#include "harness/ranges/ranges_points.h"
-#include "harness/study/cell.h"
+#include "harness/ranges/ranges_table_impl.h"
 #include "harness/tables/paragraph.h"
 
-enum {
-    NAME = 24,
-    COLUMN = 7,
-    LINE = 1024,
-    SHOWN_MESHES = 7,
-    LAST_KNOWN = 2 /* kind of reference */
-};
+enum { SHOWN_MESHES = 7 };
 
 static void write_axis(FILE *to, const ranges *r, int index)
 {
     const axis *a = &r->axis[index];
     const char *unit = strcmp(a->of->unit, "1") == 0 ? "" : a->of->unit;
-    char text[LINE];
+    char text[RANGES_TABLE_LINE];
     int used = 0;
     if (a->value == NULL)
         used +=
             snprintf(text + used, sizeof text - (size_t)used, "%.6g .. %.6g%s%s%s", a->from, a->to,
                      unit[0] != '\0' ? " " : "", unit, a->kind == AXIS_LOG ? ", logarithmic" : "");
-    for (int i = 0; a->value != NULL && i < a->count && used < LINE - ASSIGNMENT_VALUE - 2; i++) {
+    for (int i = 0;
+         a->value != NULL && i < a->count && used < RANGES_TABLE_LINE - ASSIGNMENT_VALUE - 2; i++) {
         char word[ASSIGNMENT_VALUE];
         axis_text(a, a->value[i], word, sizeof word);
         used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", i > 0 ? ", " : "", word);
@@ -55,98 +49,16 @@ void ranges_table_head(FILE *to, const ranges *r)
         paragraph_say(to, fprintf(to, "  left out: "), 4, "%s", r->left_out);
 }
 
-/* What a quantity is measured by, in words. */
-static void say_reference(const tally *t, int q, char text[LINE])
-{
-    const long *kind = t->kind[q];
-    const int alone = t->of->formulations == 1;
-    const struct {
-        long count;
-        const char *words;
-    } part[] = {
-        {kind[ROWS_STORED], "a stored truth"},
-        {kind[ROWS_DERIVED], "a truth derived there"},
-        {kind[ROWS_LIMIT], alone ? "the limit of its own meshes, which shows convergence only"
-                                 : "the limit of the meshes of all formulations of one theory"},
-        {kind[ROWS_NONE],
-         "nothing: no limit is known to half of the error (finer -n, or --derive)"},
-        {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
-    size_t used = 0;
-    int parts = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
-        if (part[i].count > 0)
-            used += (size_t)snprintf(text + used, LINE - used, "%s%ld points by %s",
-                                     parts++ > 0 ? "; " : "", part[i].count, part[i].words);
-        if (i == LAST_KNOWN && parts > 0)
-            used += (size_t)snprintf(text + used, LINE - used, ", known to %.1g %% or better",
-                                     100 * fmax(t->doubt[q], 1e-16));
-    }
-}
-
-/* Quantities that are measured by the same stand together. */
-static void write_reference(FILE *to, const tally *t, int q, char told[])
-{
-    char text[LINE], other[LINE];
-    paragraph words;
-    const int begun = fprintf(to, "  %s", t->of->quantity[q].name);
-    FILE *out = paragraph_begin(&words, to);
-    say_reference(t, q, text);
-    for (int i = q + 1; i < t->of->quantities; i++) {
-        say_reference(t, i, other);
-        if (told[i] || strcmp(text, other) != 0)
-            continue;
-        told[i] = 1;
-        fprintf(out, ", %s", t->of->quantity[i].name);
-    }
-    fprintf(out, ": %s", text);
-    paragraph_end(&words, begun, 6);
-}
-
-/* Why the first one has none. */
-static void write_without_scene(FILE *to, const tally *t)
-{
-    const ranges *r = t->of;
-    double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
-    char where[PARAMETERS_TEXT];
-    scene s;
-    fault why = {""};
-    if (design_points(&r->design, t->first_without, 1, at, NULL) != STATUS_OK)
-        return;
-    ranges_points_values(r, at, value);
-    ranges_points_text(r, at, where, sizeof where);
-    cell_scene(r->request.type, value, NULL, &s, &why);
-    scene_free(&s);
-    paragraph_say(to, fprintf(to, "  %ld points have no scene", t->without_scene), 6,
-                  ", the first at %s: %s", where, why.text);
-}
-
-static void write_references(FILE *to, const tally *t)
-{
-    char told[RANGES_QUANTITIES] = {0};
-    fprintf(to, "errors are measured by\n");
-    for (int q = 0; q < t->of->quantities; q++)
-        if (!told[q])
-            write_reference(to, t, q, told);
-    if (t->without_scene > 0)
-        write_without_scene(to, t);
-}
-
-static const char *name_of(const ranges *r, int q)
-{
-    return q < r->quantities ? r->quantity[q].name : "all quantities";
-}
-
 /* 99.96 % are not all. */
 static void write_share(FILE *to, long part, long all)
 {
     if (part == all)
-        fprintf(to, "%*s", COLUMN, "all");
+        fprintf(to, "%*s", RANGES_TABLE_COLUMN, "all");
     else if (part == 0)
-        fprintf(to, "%*s", COLUMN, "none");
+        fprintf(to, "%*s", RANGES_TABLE_COLUMN, "none");
     else {
         const double share = 100.0 * (double)part / (double)all;
-        fprintf(to, "%*.*f%%", COLUMN - 1, share < 9.95 || share > 99 ? 1 : 0,
+        fprintf(to, "%*.*f%%", RANGES_TABLE_COLUMN - 1, share < 9.95 || share > 99 ? 1 : 0,
                 fmax(0.1, fmin(share, 99.9)));
     }
 }
@@ -160,10 +72,10 @@ static void write_line(FILE *to, const tally *t, int which, int q)
 {
     const ranges *r = t->of;
     const tally_series *s = tally_of(t, which, q);
-    const int at = fprintf(to, "  %-*s", NAME, r->formulation[which].key);
-    fprintf(to, "%*s", at < NAME + 2 ? 0 : 1, "");
+    const int at = fprintf(to, "  %-*s", RANGES_TABLE_NAME, r->formulation[which].key);
+    fprintf(to, "%*s", at < RANGES_TABLE_NAME + 2 ? 0 : 1, "");
     if (s->asked == 0) {
-        fprintf(to, "%*s\n", COLUMN + 15, "without a reference");
+        fprintf(to, "%*s\n", RANGES_TABLE_COLUMN + 15, "without a reference");
         return;
     }
     for (int k = r->meshes - finest_shown(r); k < r->meshes; k++)
@@ -187,12 +99,12 @@ static void write_line(FILE *to, const tally *t, int which, int q)
 static void write_shares(FILE *to, const tally *t, int q)
 {
     const ranges *r = t->of;
-    const int at = fprintf(to, "%s", name_of(r, q));
-    fprintf(to, "%*s", at < NAME + 2 ? NAME + 2 - at : 1, "");
+    const int at = fprintf(to, "%s", ranges_table_name(r, q));
+    fprintf(to, "%*s", at < RANGES_TABLE_NAME + 2 ? RANGES_TABLE_NAME + 2 - at : 1, "");
     for (int k = r->meshes - finest_shown(r); k < r->meshes; k++) {
         char mesh[24];
         snprintf(mesh, sizeof mesh, "n=%d", r->mesh[k]);
-        fprintf(to, "%*s", COLUMN, mesh);
+        fprintf(to, "%*s", RANGES_TABLE_COLUMN, mesh);
     }
     fprintf(to, "   everywhere with, mean cost\n");
     for (int i = 0; i < r->formulations; i++)
@@ -217,12 +129,12 @@ static void write_leasts(FILE *to, const tally *t)
     const ranges *r = t->of;
     for (int first = 0; first < r->formulations; first += BESIDE) {
         const int end = first + BESIDE < r->formulations ? first + BESIDE : r->formulations;
-        fprintf(to, "%-*s", NAME + 2, "n that is enough for");
+        fprintf(to, "%-*s", RANGES_TABLE_NAME + 2, "n that is enough for");
         for (int i = first; i < end; i++)
             fprintf(to, " %*.*s", WIDTH - 1, WIDTH - 1, r->formulation[i].key);
         fputc('\n', to);
         for (int q = 0; q < r->quantities; q++) {
-            fprintf(to, "  %-*.*s", NAME, NAME, r->quantity[q].name);
+            fprintf(to, "  %-*.*s", RANGES_TABLE_NAME, RANGES_TABLE_NAME, r->quantity[q].name);
             for (int i = first; i < end; i++)
                 write_least(to, tally_of(t, i, q), WIDTH);
             fputc('\n', to);
@@ -257,114 +169,6 @@ static void write_failures(FILE *to, const tally *t)
     }
 }
 
-static void write_place(FILE *to, const tally_place *p)
-{
-    char text[24];
-    if (p->points == 0)
-        snprintf(text, sizeof text, ".");
-    else if (p->asked == 0)
-        snprintf(text, sizeof text, "?");
-    else if (p->never > 0)
-        snprintf(text, sizeof text, "-");
-    else
-        snprintf(text, sizeof text, "%d", p->least);
-    fprintf(to, "%*s", COLUMN, text);
-}
-
-/* Value of an axis, short. */
-static void edge_text(const tally *t, int index, int place, char *text, int size)
-{
-    const axis *a = &t->of->axis[index];
-    if (a->of->choices != NULL)
-        axis_text(a, tally_edge(t, index, place), text, size);
-    else
-        snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
-}
-
-/* The values of the first axis, behind what stands in their lines. */
-static void write_columns(FILE *to, const tally *t)
-{
-    char edge[ASSIGNMENT_VALUE];
-    fprintf(to, "  %-*.*s", NAME, NAME, t->of->axis[0].of->name);
-    for (int i = 0; i < t->columns; i++) {
-        edge_text(t, 0, i, edge, sizeof edge);
-        fprintf(to, "%*.*s", COLUMN, COLUMN - 1, edge);
-    }
-    fputc('\n', to);
-}
-
-static void write_fields(FILE *to, const tally *t, const char *label, int which, int q, int at)
-{
-    fprintf(to, "  %-*.*s", NAME, NAME, label);
-    for (int i = 0; i < t->columns; i++)
-        write_place(to, tally_at(t, which, q, at, i));
-    fputc('\n', to);
-}
-
-/* Over two axes a map for each formulation, over one a line. */
-static void write_maps_of(FILE *to, const tally *t, int q)
-{
-    const ranges *r = t->of;
-    if (r->design.axes == 1) {
-        fprintf(to, "%s\n", name_of(r, q));
-        write_columns(to, t);
-        for (int i = 0; i < r->formulations; i++)
-            write_fields(to, t, r->formulation[i].key, i, q, 0);
-        return;
-    }
-    for (int i = 0; i < r->formulations; i++) {
-        fprintf(to, "%s, %s\n", r->formulation[i].key, name_of(r, q));
-        write_columns(to, t);
-        for (int k = 0; k < t->lines; k++) {
-            char edge[ASSIGNMENT_VALUE], label[2 * ASSIGNMENT_VALUE];
-            edge_text(t, 1, k, edge, sizeof edge);
-            snprintf(label, sizeof label, "%.*s %s", NAME - 10, r->axis[1].of->name, edge);
-            write_fields(to, t, label, i, q, k);
-        }
-    }
-}
-
-/* Is a field without a reference? */
-static int has_unknown(const tally *t)
-{
-    const ranges *r = t->of;
-    int unknown = 0;
-    for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++)
-        unknown |= t->map[i].points > 0 && t->map[i].asked == 0;
-    return unknown;
-}
-
-/* Are there fields of several values? */
-static int is_coarse(const tally *t)
-{
-    const int shown[] = {t->columns, t->lines};
-    int coarse = 0;
-    for (int i = 0; i < t->of->design.axes; i++)
-        coarse |= t->of->axis[i].count != shown[i];
-    return coarse;
-}
-
-static void write_maps(FILE *to, const tally *t, int every)
-{
-    const ranges *r = t->of;
-    if (t->columns == 0) {
-        fprintf(to, "\nno map: there are %d axes; the page of the sweep draws slices\n",
-                r->design.axes);
-        return;
-    }
-    fprintf(to, "\n");
-    paragraph_say(to, fprintf(to, "least n "), 2,
-                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s",
-                  100 * r->request.tolerance, r->mesh[r->meshes - 1],
-                  has_unknown(t) ? "; ?: without a reference" : "",
-                  is_coarse(t) ? "; a field holds what all its points need, and begins where its "
-                                 "column and line say"
-                               : "");
-    for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
-        write_maps_of(to, t, q);
-    write_maps_of(to, t, r->quantities > 1 ? r->quantities : 0);
-}
-
 /* Its axes, in a few digits. */
 static void short_point(const ranges *r, const double at[], char *text, int size)
 {
@@ -392,8 +196,8 @@ static void write_worst(FILE *to, const ranges *r, int which, const tally_worst 
         snprintf(what, sizeof what, "%s %.3g %%", r->quantity[w->quantity].name, 100 * w->error);
     else
         snprintf(what, sizeof what, "%s", rows_status_name(w->status));
-    fprintf(to, "  %-*s %-26s %s%s%s\n", NAME - 1, r->formulation[which].key, what, where,
-            w->scene[0] != '\0' ? "  " : "", w->scene);
+    fprintf(to, "  %-*s %-26s %s%s%s\n", RANGES_TABLE_NAME - 1, r->formulation[which].key, what,
+            where, w->scene[0] != '\0' ? "  " : "", w->scene);
 }
 
 /* How to see one of them: that of the first formulation. */
@@ -427,10 +231,10 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
     int shown = -1;
     if (t->points < r->design.points)
         fprintf(to, "%ld of %ld points are there\n", t->points, r->design.points);
-    write_references(to, t);
+    ranges_table_known(to, t);
     write_all_shares(to, t, every);
     write_failures(to, t);
-    write_maps(to, t, every);
+    ranges_table_map(to, t, every);
     fprintf(to, "\nworst points with n = %d\n", r->mesh[r->meshes - 1]);
     for (int i = 0; i < r->formulations; i++)
         for (int k = 0; k < t->worsts[i] && (k == 0 || every || r->formulations <= 3); k++) {
