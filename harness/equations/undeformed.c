@@ -26,8 +26,13 @@ static status begin(model *m, fault *f)
     u->room = m->elements < LARGE ? m->elements : FIRST_ROOM;
     u->of = malloc(((size_t)m->elements + 1) * sizeof *u->of);
     u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
-    if (u->of == NULL || u->value == NULL)
+    if (u->of == NULL || u->value == NULL) { /* another analysis may ask again */
+        free(u->of);
+        free(u->value);
+        u->of = NULL;
+        u->value = NULL;
         return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
+    }
     for (int i = 0; i < m->elements; i++)
         u->of[i] = NONE;
     return STATUS_OK;
