@@ -104,7 +104,7 @@ stress: all ## drive every formulation to extremes; a table, and build/stress.js
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
 
-prices: all needs-report ## what counted work costs, fitted to measured times: half an hour on a quiet machine; harness/timing/prices.csv
+prices: all needs-report ## what counted work costs, fitted to measured times: five minutes on a quiet machine; harness/timing/prices.csv
 	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/timing/prices.csv
 
 .PHONY: expense
