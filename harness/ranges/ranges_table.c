@@ -118,6 +118,8 @@ static void write_least(FILE *to, const tally_series *s, int width)
         fprintf(to, "%*s", width, "?");
     else if (s->never > 0)
         fprintf(to, "%*s", width, "-");
+    else if (s->open > 0)
+        fprintf(to, "%*d?", width - 1, s->everywhere);
     else
         fprintf(to, "%*d", width, s->everywhere);
 }
@@ -142,6 +144,20 @@ static void write_leasts(FILE *to, const tally *t)
     }
 }
 
+/* How points count whose quantities are not all measured. */
+static void write_open(FILE *to, const tally *t)
+{
+    int open = 0;
+    for (int i = 0; i < t->of->formulations; i++)
+        open |= tally_of(t, i, t->of->quantities)->open > 0;
+    if (open)
+        paragraph_say(
+            to, 0, 2,
+            "a point where a quantity of a formulation has a value and nothing to be "
+            "measured by counts for all its quantities only where another one is off; n?: of "
+            "the points that are measured");
+}
+
 static void write_all_shares(FILE *to, const tally *t, int every)
 {
     const int several = t->of->quantities > 1;
@@ -151,6 +167,7 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     if (several) {
         write_shares(to, t, t->of->quantities);
         write_leasts(to, t);
+        write_open(to, t);
     }
 }
 

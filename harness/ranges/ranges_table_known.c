@@ -9,6 +9,26 @@
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 
+/* Formulations that this reference is not for, at how many points. */
+static void say_unmeasured(const tally *t, int q, char *text, size_t size)
+{
+    enum { NAMED = 3 };
+    const long none = t->kind[q][ROWS_NONE] + t->kind[q][ROWS_DISPUTED];
+    int count = 0;
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < t->of->formulations; i++) {
+        const long open = tally_of(t, i, q)->open - none;
+        if (open <= 0 || count++ >= NAMED)
+            continue;
+        used += (size_t)snprintf(text + used, size - used, "%s%s at %ld points",
+                                 count > 1 ? ", " : "; not for ", t->of->formulation[i].key, open);
+        used = used < size ? used : size - 1;
+    }
+    if (count > NAMED)
+        snprintf(text + used, size - used, " and %d more", count - NAMED);
+}
+
 /* What a quantity is measured by, in words. */
 static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
 {
@@ -37,6 +57,8 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
                 (size_t)snprintf(text + used, RANGES_TABLE_LINE - used,
                                  ", known to %.1g %% or better", 100 * fmax(t->doubt[q], 1e-16));
     }
+    used = used < RANGES_TABLE_LINE ? used : RANGES_TABLE_LINE - 1;
+    say_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
 /* Quantities that are measured by the same stand together. */

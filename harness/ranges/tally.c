@@ -103,6 +103,7 @@ static int place_of(const tally *t, int axis_index, double value)
 /* One formulation and quantity at one point. */
 typedef struct seen {
     int asked; /* 0: nothing to measure by */
+    int open;  /* 1: there is a value all the same */
     int least; /* 0: never */
     char within[SERIES_MAX_MESHES];
 } seen;
@@ -115,12 +116,12 @@ static seen look_at(const tally *t, const rows *w, int here, int which, int quan
               .least = w->least[rows_least(w, here, which, quantity)]};
     for (int k = 0; k < t->of->meshes; k++) {
         const size_t at = rows_value(w, here, which, k, quantity);
-        if (isfinite(w->value[at]) && isnan(w->error[at]))
-            s.asked = 0;
+        s.open |= isfinite(w->value[at]) && isnan(w->error[at]);
         if (w->status[rows_cell(w, here, which, k)] == ROWS_NOT_OFFERED)
             s.asked = 0;
         s.within[k] = fabs(w->error[at]) <= t->of->request.tolerance;
     }
+    s.asked &= !s.open;
     return s;
 }
 
@@ -128,6 +129,7 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
 {
     if (place != NULL)
         place->points++;
+    to->open += s->open;
     if (!s->asked)
         return;
     to->asked++;
@@ -144,14 +146,25 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
 
 static void join(const tally *t, seen *all, const seen *one)
 {
+    const int open = all->open | one->open;
+    if (one->asked && !all->asked)
+        *all = *one;
+    all->open = open;
     if (!one->asked)
         return;
-    if (!all->asked)
-        *all = *one;
     for (int k = 0; k < t->of->meshes; k++)
         all->within[k] = all->within[k] && one->within[k];
     if (all->least != 0 && (one->least == 0 || one->least > all->least))
         all->least = one->least;
+}
+
+/* What is open may be within or not: only that another is not is known. */
+static void close(seen *all)
+{
+    if (!all->open)
+        return;
+    all->asked &= all->least == 0;
+    memset(all->within, 0, sizeof all->within);
 }
 
 /* No value is worse than any error. */
@@ -215,11 +228,14 @@ static void count_formulation(tally *t, const rows *w, int here, int which, int 
     const int mapped = t->columns > 0;
     seen all = {.asked = 0};
     for (int q = 0; q <= quantities; q++) {
+        if (q == quantities)
+            close(&all);
         const seen one = q < quantities ? look_at(t, w, here, which, q) : all;
         tally_place *place =
             mapped ? &t->map[((first + q) * t->lines + line) * t->columns + column] : NULL;
         count(t, &t->series[first + q], place, &one);
-        join(t, &all, &one);
+        if (q < quantities)
+            join(t, &all, &one);
     }
     count_cells(t, w, here, which);
 }

@@ -16,9 +16,11 @@ typedef struct tally_worst {
     char scene[TALLY_SCENE]; /* name of its scene file; empty: not kept */
 } tally_worst;
 
-/* Of a formulation and a quantity, or of all quantities together. */
+/* Of a formulation and a quantity, or of all quantities together: a point where one of them is open
+ * is asked only where another is never within; else nobody knows. */
 typedef struct tally_series {
     long asked;                     /* points with a reference */
+    long open;                      /* points with a value and nothing to measure it by */
     long within[SERIES_MAX_MESHES]; /* of them, with each mesh */
     long never;                     /* of them, not with all meshes from some on */
     int everywhere;                 /* elements from which on all others are within */

@@ -13,12 +13,13 @@ WIDER = 1.01  # of the first one, for which a range of more elements is told, to
 @dataclass
 class Range:
     """Where a formulation with so many elements is within. box: or None; reached: points that are
-    within, anywhere; known: with a reference; exceptions: points of the box that are not."""
+    within, anywhere; known: with a reference; whole: all; exceptions: points of the box that are not."""
 
     mesh: int
     box: object
     reached: int
     known: int
+    whole: int
     exceptions: list = field(default_factory=list)
 
     @property
@@ -76,13 +77,13 @@ class Answer:
 
 def ranges(found, meshes, f, q):
     """[Range] of a formulation and a quantity for every mesh."""
-    reach, out = [table[:, f, q] for table in found.reaches], []
+    whole, reach, out = int(found.points.sum()), [table[:, f, q] for table in found.reaches], []
     for m, n in enumerate(meshes):
         counts = [(r[:, :m + 1].sum(axis=1), r[:, m + 1:].sum(axis=1)) for r in reach]
         reached, known = int(counts[0][0].sum()), int(reach[0].sum())
         same = out and out[-1].reached == reached
-        box = out[-1].box if same else boxes.largest(found.lattices, counts)
-        out.append(Range(n, box, reached, known))
+        box = out[-1].box if same else boxes.largest(found.lattices, counts, whole)
+        out.append(Range(n, box, reached, known, whole))
     return out
 
 

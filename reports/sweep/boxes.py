@@ -22,7 +22,8 @@ WORDS = 6  # up to which all choices of words are tried
 @dataclass(frozen=True)
 class Box:
     """lattice: of whose columns is chosen None, or the indices of their parts; good, bad: points
-    that hold and do not; whole: points that are asked in all; conditions: their number."""
+    that hold and do not; whole: all points; asked: of them those that can be judged; conditions:
+    their number."""
 
     lattice: object = field(repr=False)
     chosen: tuple
@@ -30,6 +31,7 @@ class Box:
     bad: int
     whole: int
     conditions: int
+    asked: int
 
     @property
     def points(self):
@@ -112,13 +114,15 @@ def scored(good, bad, whole):
 
 
 class Search:
-    """good, bad: points of each cell of a lattice [cells]."""
+    """good, bad: points of each cell of a lattice [cells]; whole: all, also those that are neither;
+    None: there are no others."""
 
-    def __init__(self, lattice, good, bad):
+    def __init__(self, lattice, good, bad, whole=None):
         self.lattice = lattice
         self.good, self.bad = (t.reshape(lattice.shape).astype(float) for t in (good, bad))
         self.choices = [choices_of(p) for p in lattice.parts]
-        self.whole = int(good.sum() + bad.sum())
+        self.asked = int(good.sum() + bad.sum())
+        self.whole = self.asked if whole is None else whole
         self.best = {}  # conditions: (score, {axis: row of its choices})
 
     def reduced(self, table, axes, fixed):
@@ -230,22 +234,24 @@ class Search:
         for axis, row in chosen.items():
             if self.choices[axis].cost[row]:
                 parts[axis] = tuple(np.flatnonzero(self.choices[axis].member[row]).tolist())
-        return Box(self.lattice, tuple(parts), round(good), round(bad), self.whole, int(cost))
+        return Box(self.lattice, tuple(parts), round(good), round(bad), self.whole, int(cost),
+                   self.asked)
 
 
-def candidates(lattice, good, bad):
+def candidates(lattice, good, bad, whole):
     """[Box], the best for each number of conditions."""
-    search = Search(lattice, good, bad)
-    if search.whole:
+    search = Search(lattice, good, bad, whole)
+    if search.asked:
         search.run()
     return [search.box(cost, chosen) for cost, (_, chosen) in sorted(search.best.items())]
 
 
-def largest(lattices, counts):
+def largest(lattices, counts, whole=None):
     """The Box, or None where points hold in no box that is worth a sentence.
-    counts: [(good, bad)] of the cells of each lattice; the first one is preferred."""
+    counts: [(good, bad)] of the cells of each lattice; the first one is preferred. whole: as in
+    Search."""
     every = [box for lattice, (good, bad) in zip(lattices, counts)
-             for box in candidates(lattice, good, bad)]
+             for box in candidates(lattice, good, bad, whole)]
     found = None
     for box in sorted(every, key=lambda b: b.conditions):
         if found is None or box.good >= GAIN * found.good:

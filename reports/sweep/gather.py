@@ -81,11 +81,15 @@ def known_in(sweep, piece):
 
 def asked_in(sweep, piece):
     """Is a formulation measured by it? Not where it does not offer what is needed, and not by a
-    reference of another theory, against which it has a value and no error. [points, F, Q+1]"""
+    reference of another theory, against which it has a value and no error. By all quantities: not
+    where one has a value and no error, but where another is never within. [points, F, Q+1]"""
     own = np.repeat(known_in(sweep, piece)[:, None, :-1], len(sweep.keys), axis=1)
     own &= ~np.isin(piece.status, sweep.outcomes(stored.ABSENT)).any(axis=2)[..., None]
-    own &= ~(np.isfinite(piece.value) & np.isnan(piece.error)).any(axis=2)
-    return np.concatenate([own, own.any(axis=2, keepdims=True)], axis=2)
+    open_ = (np.isfinite(piece.value) & np.isnan(piece.error)).any(axis=2)
+    own &= ~open_
+    off = (own & (piece.least == 0)).any(axis=2, keepdims=True)
+    whole = own.any(axis=2, keepdims=True) & (off | ~open_.any(axis=2, keepdims=True))
+    return np.concatenate([own, whole], axis=2)
 
 
 def errors_in(piece, asked):
@@ -118,7 +122,7 @@ def take_winners(into, sweep, piece, cell, asked, reached):
     won = np.isfinite(cost) & (cost <= sweep.noise * least)
     np.add.at(into.wins, cell, won)
     np.add.at(into.winner_cost, cell, np.where(won, cost, 0))
-    into.unwon += int((known_in(sweep, piece)[:, -1] & ~won.any(axis=1)).sum())
+    into.unwon += int((asked[:, :, -1].any(axis=1) & ~won.any(axis=1)).sum())
 
 
 def take_outcomes(into, sweep, piece):

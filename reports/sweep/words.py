@@ -78,12 +78,21 @@ def conditions(box: Box):
 
 
 def where(box):
-    return f"where {conditions(box)}" if box.conditions else "everywhere"
+    if box.conditions:
+        return f"where {conditions(box)}"
+    return "everywhere" if box.asked == box.whole else "wherever that can be judged"
 
 
 def held(box):
     """The counts behind a statement."""
     there = " there" if box.conditions else ""
-    if not box.bad:
-        return ("all " if box.points > 1 else "") + many(box.points, "point") + there
-    return f"{plenty(box.good)} of {many(box.points, 'point')}{there}"
+    if box.bad:
+        said = f"{plenty(box.good)} of {many(box.points, 'point')}{there}"
+    else:
+        said = ("all " if box.points > 1 else "") + many(box.points, "point") + there
+    return said + unjudged(box.whole, box.asked)
+
+
+def unjudged(whole, asked):
+    """Points at which something has nothing to be measured by."""
+    return f"; {plenty(whole - asked)} of all {plenty(whole)} cannot be judged" if asked < whole else ""

@@ -208,6 +208,43 @@ class Counts(ProgramTest):
         self.assertEqual((first.key, first.first.box.good), ("collocation", 100))
         self.assertIsNone(second.first)
 
+    def test_a_quantity_that_nothing_measures(self):
+        """What is within in one quantity may be off in the other: nobody knows, but where the first
+        is off."""
+        def errors(at, n):
+            both = np.stack([np.full(len(at), 1e-3), np.full(len(at), np.nan)], 1)
+            both[at[:, 0] > 0.8, 0] = 0.5
+            return both
+        path = sweeps.store(self.folder / "o.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
+                            {"beamw": errors}, quantities=(("u", "m"), ("k", "N/m")))
+        with sweeps.h5py.File(path, "r+") as file:
+            file["value"][:] = 1
+            at = file["points"][:, 0]
+        off = int((at > at.min() + 0.8 * np.ptp(at)).sum())
+        sweep = stored.read(path)
+        found = gather.of_sweep(sweep)
+        whole, first = found.reach[:, 0, -1].sum(axis=0), found.reach[:, 0, 0].sum()
+        self.assertEqual((whole[:-2].sum(), whole.sum(), first), (0, off, 100))
+        made, = answers.of_sweep(sweep, found)
+        self.assertIsNone(made.first)
+        self.assertEqual(words.unjudged(made.of[-1].whole, made.of[-1].known),
+                         f"; {100 - off} of all 100 cannot be judged")
+        one = made.single["u"][-1].box
+        self.assertEqual((one.whole, one.asked), (100, 100))
+
+    def test_judged_at_few_points(self):
+        """Few points that can be judged are not everywhere."""
+        def errors(at, n):
+            return np.where(at[:, 0] < 0.5, 1e-3, np.nan)
+        path = sweeps.store(self.folder / "f.h5", (WIDTH, ANGLE), sweeps.grid(WIDTH, ANGLE),
+                            {"beamw": errors})
+        with sweeps.h5py.File(path, "r+") as file:
+            file["value"][:] = 1
+        sweep = stored.read(path)
+        made, = answers.of_sweep(sweep, gather.of_sweep(sweep))
+        self.assertEqual(words.where(made.first.box), "wherever that can be judged")
+        self.assertEqual(words.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
+
     def test_a_ratio(self):
         """Of two axes of one unit, where it says more than the axes do; its counts are those of the
         points, and so is the exception."""

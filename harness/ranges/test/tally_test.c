@@ -75,15 +75,18 @@ static void series_are(const tally *t)
     gsl_test_int((int)second->asked, 5, "points with a reference, the other quantity");
     gsl_test_int((int)second->never, 1, "never, the other quantity");
     gsl_test_int(second->everywhere, 4, "enough, but for those");
-    gsl_test_int((int)all->asked, 5, "points with any reference");
-    gsl_test_int((int)all->within[0], 3, "all within with 4: where the other has no reference too");
+    gsl_test_int((int)first->open, 1, "points with a value that nothing measures");
+    gsl_test_int((int)second->open, 0, "none, the other quantity");
+    gsl_test_int((int)all->open, 1, "points where one of all is not measured");
+    gsl_test_int((int)all->asked, 4, "points where all are measured");
+    gsl_test_int((int)all->within[0], 2, "all within with 4: not where one is not measured");
     gsl_test_int((int)all->never, 2, "never all");
     gsl_test_int(all->everywhere, 8, "enough for all, but for those");
 }
 
 static void map_is(const tally *t)
 {
-    static const int right[2][3] = {{4, 0, 4}, {8, 0, 0}};
+    static const int right[2][3] = {{4, 0, 0}, {8, 0, 0}};
     gsl_test(t->columns != 3 || t->lines != 2, "a map of %d x %d", t->columns, t->lines);
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < 3; i++) {
@@ -91,6 +94,7 @@ static void map_is(const tally *t)
             gsl_test_int(p->never > 0 ? 0 : p->least, right[k][i], "field %d, %d", k, i);
         }
     gsl_test_int((int)tally_at(t, 0, 0, 0, 2)->asked, 0, "a field without a reference");
+    gsl_test_int((int)tally_at(t, 0, 2, 0, 2)->asked, 0, "a field where one is not measured");
     gsl_test_int((int)tally_at(t, 0, 2, 1, 2)->points, 0, "a field without a scene");
     gsl_test_rel(tally_edge(t, 0, 1), 1, 0, "second column");
     gsl_test_rel(tally_edge(t, 1, 1), 20, 0, "second line");
