@@ -96,7 +96,7 @@ def errors_in(piece, asked):
     """[points, F, Q+1, M]: -1 where nothing is measured, infinite without a solution."""
     own = np.where(np.isnan(piece.error), np.inf, np.abs(piece.error)).transpose(0, 1, 3, 2)
     own = np.where(asked[:, :, :-1, None], own, -1)
-    whole = own.max(axis=2, initial=-1, keepdims=True)
+    whole = np.where(asked[:, :, -1:, None], own.max(axis=2, initial=-1, keepdims=True), -1)
     return np.concatenate([own, whole], axis=2)
 
 

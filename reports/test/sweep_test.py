@@ -225,6 +225,9 @@ class Counts(ProgramTest):
         found = gather.of_sweep(sweep)
         whole, first = found.reach[:, 0, -1].sum(axis=0), found.reach[:, 0, 0].sum()
         self.assertEqual((whole[:-2].sum(), whole.sum(), first), (0, off, 100))
+        known = found.reach[:, 0, -1].sum(axis=1) > 0
+        self.assertTrue((found.worst[known, 0, -1] > 0.4).all())
+        self.assertTrue((found.worst[~known, 0, -1] == -1).all())
         made, = answers.of_sweep(sweep, found)
         self.assertIsNone(made.first)
         self.assertEqual(words.unjudged(made.of[-1].whole, made.of[-1].known),
