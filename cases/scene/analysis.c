@@ -76,6 +76,20 @@ int scene_add_continuation(scene *s, int stations, const double path[], scene_co
     return i;
 }
 
+int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how)
+{
+    how.path = path_of(s, stations, path);
+    const int i = add(s, (scene_analysis){SCENE_MOTION, follows, {.motion = how}});
+    if (i < 0)
+        free(how.path.value);
+    return i;
+}
+
+scene_alpha scene_alpha_of_radius(double rho)
+{
+    return (scene_alpha){(2 * rho - 1) / (rho + 1), rho / (rho + 1)};
+}
+
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame)
 {
     if (analysis < 0) /* memory ran out */
@@ -88,7 +102,7 @@ void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame
 const char *scene_analysis_name(scene_analysis_kind kind)
 {
     static const char *const name[] = {"linear",     "static",       "buckling", "modal",
-                                       "compliance", "continuation", "rotation"};
+                                       "compliance", "continuation", "rotation", "motion"};
     return name[kind];
 }
 
@@ -110,6 +124,12 @@ const scene_continuation *scene_continuation_of(const scene_analysis *a)
     return &a->of.continuation;
 }
 
+const scene_motion *scene_motion_of(const scene_analysis *a)
+{
+    assert(a->kind == SCENE_MOTION);
+    return &a->of.motion;
+}
+
 const scene_path *scene_path_of(const scene_analysis *a)
 {
     switch (a->kind) {
@@ -118,6 +138,8 @@ const scene_path *scene_path_of(const scene_analysis *a)
         return &a->of.walk.path;
     case SCENE_CONTINUATION:
         return &a->of.continuation.path;
+    case SCENE_MOTION:
+        return &a->of.motion.path;
     case SCENE_LINEAR:
     case SCENE_BUCKLING:
     case SCENE_MODAL:
@@ -131,7 +153,7 @@ const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a)
 {
     if (a->kind == SCENE_CONTINUATION)
         return &a->of.continuation.frame;
-    return scene_path_of(a) != NULL ? &a->of.walk.frame : NULL;
+    return a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION ? &a->of.walk.frame : NULL;
 }
 
 int scene_rotates(const scene_analysis *a)

@@ -17,7 +17,8 @@ typedef enum scene_analysis_kind {
     SCENE_MODAL,      /* natural frequencies about the present state */
     SCENE_COMPLIANCE, /* at every station of the static path before it */
     SCENE_CONTINUATION, /* path of a load factor, by arc length or by one coordinate */
-    SCENE_ROTATION      /* stationary: equilibrium and frequencies in the rotating frame */
+    SCENE_ROTATION,     /* stationary: equilibrium and frequencies in the rotating frame */
+    SCENE_MOTION        /* in time: the path parameter is the time [s] */
 } scene_analysis_kind;
 
 /* What a reaction's moment does while its node turns (harness/solver/convention.h). */
@@ -76,6 +77,38 @@ typedef struct scene_continuation {
     scene_control control;
 } scene_continuation;
 
+/* How a motion is integrated. */
+typedef enum scene_scheme {
+    SCENE_ALPHA,      /* generalized-alpha: order 2, damps what is not resolved */
+    SCENE_CONSERVING, /* order 2, keeps energy and momenta */
+    SCENE_RADAU,      /* Radau IIA of three stages: order 5 */
+    SCENE_EXPLICIT,   /* Runge-Kutta of order 8: for truths */
+    SCENE_SCHEMES
+} scene_scheme;
+
+#define SCENE_SCHEME_CHOICES "alpha|conserving|radau|explicit"
+
+/* Of generalized-alpha: alpha_m, alpha_f by rho, the spectral radius of what is not resolved; or as
+ * given. */
+typedef struct scene_alpha {
+    double mass, force; /* alpha_m, alpha_f */
+} scene_alpha;
+
+/* Velocities at the begin: that of a rigid body that turns about a point. */
+typedef struct scene_start {
+    double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
+} scene_start;
+
+/* In time, from rest or with `start`; about the last state of the path it follows. */
+typedef struct scene_motion {
+    scene_path path; /* instants at which quantities are read [s] */
+    scene_scheme scheme;
+    scene_alpha alpha;
+    double step;      /* [s] first one; without a tolerance all */
+    double tolerance; /* of the error of a step, relative to the size; 0: steps stay */
+    scene_start start;
+} scene_motion;
+
 typedef struct scene_analysis {
     scene_analysis_kind kind;
     int follows; /* analysis whose state(s) this one is about, or SCENE_NONE: undeformed */
@@ -83,6 +116,7 @@ typedef struct scene_analysis {
         scene_walk walk;
         scene_compliance compliance;
         scene_continuation continuation;
+        scene_motion motion;
     } of;
 } scene_analysis;
 
@@ -95,6 +129,9 @@ int scene_add_compliance(scene *s, int follows, scene_compliance what);
 int scene_add_continuation(scene *s, int stations, const double path[], scene_control control);
 int scene_add_rotation(scene *s, int stations, const double path[], int steps_between, int modes,
                        scene_rotating_frame frame);
+int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how);
+/* alpha_m = (2 rho - 1)/(rho + 1), alpha_f = rho/(rho + 1) (Chung & Hulbert 1993). */
+scene_alpha scene_alpha_of_radius(double rho);
 /* Turns the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
@@ -104,6 +141,7 @@ const char *scene_analysis_name(scene_analysis_kind);
 const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
+const scene_motion *scene_motion_of(const scene_analysis *a);
 /* NULL: the kind has none. */
 const scene_path *scene_path_of(const scene_analysis *a);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);

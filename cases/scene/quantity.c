@@ -62,6 +62,26 @@ scene_extract scene_driver_value(int driver)
     return (scene_extract){SCENE_DRIVER_VALUE, {.driver = driver}};
 }
 
+scene_extract scene_rate(int node, int component)
+{
+    return (scene_extract){SCENE_RATE, {.component = {node, component}}};
+}
+
+scene_extract scene_orientation_entry(int node, int row, int column)
+{
+    return (scene_extract){SCENE_ORIENTATION, {.orientation = {node, row, column}}};
+}
+
+scene_extract scene_balance_of(scene_balance what)
+{
+    return (scene_extract){SCENE_BALANCE, {.balance = what}};
+}
+
+scene_extract scene_relative_to(int node, int component, int from)
+{
+    return (scene_extract){SCENE_RELATIVE, {.relative = {node, component, from}}};
+}
+
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
                                    scene_extract what)
 {
@@ -127,7 +147,8 @@ const scene_internal *scene_internal_of(const scene_quantity *q)
 
 const scene_component *scene_component_of(const scene_quantity *q)
 {
-    assert(q->what.kind == SCENE_COORDINATE || q->what.kind == SCENE_REACTION);
+    assert(q->what.kind == SCENE_COORDINATE || q->what.kind == SCENE_REACTION ||
+           q->what.kind == SCENE_RATE);
     return &q->what.of.component;
 }
 
@@ -161,6 +182,24 @@ int scene_driver_of(const scene_quantity *q)
     return q->what.of.driver;
 }
 
+const scene_orientation *scene_orientation_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_ORIENTATION);
+    return &q->what.of.orientation;
+}
+
+const scene_relative *scene_relative_of(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_RELATIVE);
+    return &q->what.of.relative;
+}
+
+scene_balance scene_balance_in(const scene_quantity *q)
+{
+    assert(q->what.kind == SCENE_BALANCE);
+    return q->what.of.balance;
+}
+
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
 {
     return q->analysis == analysis && q->what.kind == kind;
@@ -176,11 +215,12 @@ int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
 {
     enum {
         STATE = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_DRIVER_VALUE |
-                1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
+                1 << SCENE_RELATIVE | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
     };
     static const int gives[] = {
         [SCENE_LINEAR] = 1 << SCENE_COORDINATE | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
         [SCENE_STATIC] = STATE,
+        [SCENE_MOTION] = STATE | 1 << SCENE_RATE | 1 << SCENE_ORIENTATION | 1 << SCENE_BALANCE,
         [SCENE_BUCKLING] = 1 << SCENE_CRITICAL_FACTOR,
         [SCENE_MODAL] = 1 << SCENE_FREQUENCY,
         [SCENE_COMPLIANCE] = 1 << SCENE_COMPLIANCE_ENTRY | 1 << SCENE_STIFFNESS_ENTRY,

@@ -20,7 +20,11 @@ typedef enum scene_quantity_kind {
     SCENE_CRITICAL_POINT,   /* of a continuation */
     SCENE_DRIVER_VALUE,     /* of an unknown driver */
     SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
-    SCENE_STRESS            /* largest of a section or a member */
+    SCENE_STRESS,           /* largest of a section or a member */
+    SCENE_RATE,             /* velocity of a node, or its angular velocity in its own axes */
+    SCENE_ORIENTATION,      /* entry of a node's rotation matrix */
+    SCENE_BALANCE,          /* energy or momentum of a motion */
+    SCENE_RELATIVE          /* displacement or rotation of a node in the axes of another */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -95,6 +99,33 @@ typedef struct scene_stress {
     double place; /* 0 at p .. 1 at q, of the initial length */
 } scene_stress;
 
+/* Of a whole motion. */
+typedef enum scene_balance {
+    SCENE_KINETIC, /* [J] */
+    SCENE_STRAIN,  /* stored in members and springs [J] */
+    SCENE_ENERGY,  /* both */
+    SCENE_WORK,    /* of loads and of what is driven, since the begin */
+    SCENE_DRIFT,   /* energy less that of the begin and the work */
+    SCENE_PX,      /* momentum [kg m/s] */
+    SCENE_PY,
+    SCENE_PZ,
+    SCENE_LX, /* angular momentum about the origin [kg m^2/s] */
+    SCENE_LY,
+    SCENE_LZ,
+    SCENE_BALANCES
+} scene_balance;
+#define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|drift|px|py|pz|lx|ly|lz"
+
+/* Of a node as seen from another that carries it along: how its place has moved in the axes of
+ * that, and its turn against it. */
+typedef struct scene_relative {
+    int node, component, from;
+} scene_relative;
+
+typedef struct scene_orientation {
+    int node, row, column; /* 0 .. 2 */
+} scene_orientation;
+
 typedef struct scene_entry {
     int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
 } scene_entry;
@@ -122,7 +153,7 @@ typedef struct scene_point {
 typedef struct scene_extract {
     scene_quantity_kind kind;
     union {
-        scene_component component; /* coordinate, reaction */
+        scene_component component; /* coordinate, reaction, rate */
         scene_entry entry;         /* of compliance and stiffness */
         scene_critical_load load;
         scene_mode mode;
@@ -130,6 +161,9 @@ typedef struct scene_extract {
         int driver;
         scene_internal internal;
         scene_stress stress;
+        scene_orientation orientation;
+        scene_balance balance;
+        scene_relative relative;
     } of;
 } scene_extract;
 
@@ -145,6 +179,10 @@ scene_extract scene_frequency_of(int order, scene_family family, int half_waves)
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
+scene_extract scene_rate(int node, int component);
+scene_extract scene_orientation_entry(int node, int row, int column);
+scene_extract scene_balance_of(scene_balance what);
+scene_extract scene_relative_to(int node, int component, int from);
 /* place: 0 at p .. 1 at q */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
@@ -199,6 +237,9 @@ const scene_critical_load *scene_critical_load_of(const scene_quantity *q);
 const scene_mode *scene_mode_of(const scene_quantity *q);
 const scene_point *scene_point_of(const scene_quantity *q);
 int scene_driver_of(const scene_quantity *q);
+const scene_orientation *scene_orientation_of(const scene_quantity *q);
+const scene_relative *scene_relative_of(const scene_quantity *q);
+scene_balance scene_balance_in(const scene_quantity *q);
 const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Is it of this kind and this analysis? */

@@ -16,10 +16,12 @@ void scene_free(scene *s)
     for (int i = 0; i < s->drivers; i++) {
         free(s->driver[i].path);
         free(s->driver[i].value);
+        function_free(&s->driver[i].function);
     }
     for (int i = 0; i < s->loads; i++) {
         free(s->load[i].path);
         free(s->load[i].factor);
+        function_free(&s->load[i].function);
     }
     for (int i = 0; i < s->analyses; i++)
         if (scene_path_of(&s->analysis[i]) != NULL)
@@ -162,6 +164,24 @@ int scene_add_driver(scene *s, const char *name, int stations, const double path
         s->driver[i].value = scene_copy(s, stations, value);
     }
     return i;
+}
+
+int scene_add_moving_driver(scene *s, const char *name)
+{
+    const double none = 0;
+    return scene_add_driver(s, name, 1, &none, &none);
+}
+
+void scene_drive_piece(scene *s, int driver, double until, const char *text)
+{
+    if (driver >= 0 && function_add(&s->driver[driver].function, until, text) < 0)
+        s->out_of_memory = 1;
+}
+
+void scene_load_piece(scene *s, int load, double until, const char *text)
+{
+    if (load >= 0 && function_add(&s->load[load].function, until, text) < 0)
+        s->out_of_memory = 1;
 }
 
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,

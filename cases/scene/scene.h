@@ -8,6 +8,7 @@
 #define BEAMWORK_SCENE_H
 
 #include "cases/scene/analysis.h"
+#include "cases/scene/function.h"
 #include "cases/scene/quantity.h"
 #include "elements/feature.h"
 #include "elements/section/section.h"
@@ -104,6 +105,7 @@ typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
     double *path, *value; /* [stations]; value in m or rad; NULL: unknown, fixed by the condition */
+    scene_function function; /* of time in place of them; no pieces: none */
     int condition_node,
         condition_component; /* unknown driver: this coordinate is prescribed instead, by ... */
     int condition_driver;    /* ... the value of this driver; SCENE_NONE for a known driver */
@@ -130,6 +132,7 @@ typedef struct scene_load {
     int follower; /* 0: its direction stays (dead); 1: it turns with the node or the sections */
     int stations; /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
+    scene_function function; /* the factor over time in place of them; no pieces: none */
 } scene_load;
 
 /* What a section came to, and of which description. */
@@ -183,6 +186,12 @@ void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
 int scene_add_driver(scene *s, const char *name, int stations, const double path[],
                      const double value[]);
+/* A driver by a function of time, to be given in pieces. */
+int scene_add_moving_driver(scene *s, const char *name);
+/* A piece of the function of a driver or of the factor of a load, behind those that it has; until
+ * [s]: of the last one for ever. */
+void scene_drive_piece(scene *s, int driver, double until, const char *text);
+void scene_load_piece(scene *s, int load, double until, const char *text);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);

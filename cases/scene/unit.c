@@ -159,8 +159,15 @@ static int power_of(const scene *s, const scene_quantity *q)
     case SCENE_INTERNAL:
         return (scene_internal_of(q)->resultant >= SCENE_MX) +
                (scene_internal_of(q)->resultant == SCENE_BIMOMENT);
+    case SCENE_RELATIVE:
+        return translates(scene_relative_of(q)->component);
+    case SCENE_RATE:
+        return translates(scene_component_of(q)->component);
     case SCENE_STRESS:
         return -2;
+    case SCENE_BALANCE:
+        return scene_balance_in(q) >= SCENE_PX && scene_balance_in(q) <= SCENE_PZ ? 1 : 2;
+    case SCENE_ORIENTATION:
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

@@ -127,6 +127,7 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
 {
     switch (q->what.kind) {
     case SCENE_COORDINATE:
+    case SCENE_RATE:
     case SCENE_REACTION: {
         const scene_component *c = scene_component_of(q);
         if (c->node < 0 || c->node >= s->nodes || !is_component(c->component))
@@ -158,6 +159,9 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
     }
     case SCENE_STRESS:
         return check_stress(s, q, f);
+    case SCENE_RELATIVE:
+    case SCENE_ORIENTATION:
+    case SCENE_BALANCE:
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

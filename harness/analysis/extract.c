@@ -66,6 +66,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         break;
     case SCENE_STATIC:
     case SCENE_COMPLIANCE:
+    case SCENE_MOTION:
         extract_path(c, q, o, r);
         break;
     case SCENE_ROTATION:

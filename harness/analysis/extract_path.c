@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "elements/math/pi.h"
+#include "elements/math/rotation.h"
 #include "harness/analysis/extract_section.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
@@ -73,6 +74,20 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_INTERNAL:
     case SCENE_STRESS:
         return extract_section_state(c, q, path->state[i], r);
+    case SCENE_RELATIVE:
+        return kinematics_relative(c->model, path->state[i], scene_relative_of(q)->from,
+                                   scene_relative_of(q)->node, scene_relative_of(q)->component);
+    case SCENE_RATE:
+        return outcome_motion_of(o)->instant[i].rate[kinematics_coordinate(
+            c->model, scene_component_of(q)->node, scene_component_of(q)->component)];
+    case SCENE_ORIENTATION: {
+        double place[3], turn[4], all[9];
+        kinematics_frame(c->model, path->state[i], scene_orientation_of(q)->node, place, turn);
+        rotation_matrix(turn, all);
+        return all[3 * scene_orientation_of(q)->row + scene_orientation_of(q)->column];
+    }
+    case SCENE_BALANCE:
+        return outcome_motion_of(o)->instant[i].balance[scene_balance_in(q)];
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
         break;

@@ -16,6 +16,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
+#include "harness/motion/motion.h"
 #include "harness/solver/context.h"
 #include "harness/solver/singular.h"
 
@@ -40,6 +41,8 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
         return continuation_analysis;
     case SCENE_ROTATION:
         return rotation_analysis;
+    case SCENE_MOTION:
+        return motion_analysis;
     }
     return NULL;
 }

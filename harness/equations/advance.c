@@ -77,7 +77,7 @@ double advance_state(model *m, model_state *s, const double dx[], double path,
         if (m->driver_coordinate[d] != NONE)
             s->driver[d] += dx[m->driver_coordinate[d]];
         else if (m->scene->driver[d].value != NULL)
-            s->driver[d] = loads_driver_value(&m->scene->driver[d], path);
+            s->driver[d] = loads_driver_value(m, &m->scene->driver[d], path);
     kinematics_follow(m, s);
     s->path = path;
     return largest;

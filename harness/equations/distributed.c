@@ -43,7 +43,7 @@ static void add_load(const distributed *of, const scene_load *load, const double
 {
     const section *c = &of->m->section[of->m->kind[of->m->element[of->element].kind].section];
     const double scale =
-        loads_factor(load, of->path) * (load->kind == SCENE_GRAVITY ? c->density * c->A : 1);
+        loads_factor(of->m, load, of->path) * (load->kind == SCENE_GRAVITY ? c->density * c->A : 1);
     double v[3], at[3], moved[3], turning[3], axes[9];
     memcpy(v, load->vector, sizeof v);
     memcpy(at, load->at, sizeof at);

@@ -57,12 +57,12 @@ static void keep_smooth(const model *m, const model_state *const at[], double pa
         if (driver->value == NULL)
             continue;
         for (int i = 0; i <= g->most; i++)
-            value[i] = loads_driver_value(driver, i < g->most ? at[i]->path : path);
+            value[i] = loads_driver_value(m, driver, i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
     for (int l = 0; l < m->scene->loads; l++) {
         for (int i = 0; i <= g->most; i++)
-            value[i] = loads_factor(&m->scene->load[l], i < g->most ? at[i]->path : path);
+            value[i] = loads_factor(m, &m->scene->load[l], i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
 }

@@ -50,7 +50,7 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
         for (int l = 0; l < m->scene->loads; l++) {
             const scene_load *load = &m->scene->load[l];
             if (scene_load_along(load) && load->where == el->member)
-                applied_element(m, s->s, load, loads_factor(load, s->path), i, take_off,
+                applied_element(m, s->s, load, loads_factor(m, load, s->path), i, take_off,
                                 (void *)&of);
         }
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));

@@ -25,9 +25,25 @@ static double interpolate(int stations, const double at[], const double value[],
     return value[stations - 1];
 }
 
-double loads_factor(const scene_load *load, double path)
+double loads_path_factor(const scene_load *load, double path)
 {
     return load->stations > 0 ? interpolate(load->stations, load->path, load->factor, path) : path;
+}
+
+double loads_path_value(const scene_driver *d, double path)
+{
+    return interpolate(d->stations, d->path, d->value, path);
+}
+
+double loads_factor(const model *m, const scene_load *load, double path)
+{
+    double at[3] = {1, 0, 0};
+    if (m->in_time) {
+        if (load->function.pieces > 0)
+            function_at(&load->function, path, at);
+        return at[0];
+    }
+    return loads_path_factor(load, path);
 }
 
 /* Derivative of the factor by the path parameter; at a station: of what follows. */
@@ -41,9 +57,22 @@ static double rate_along_path(const scene_load *load, double path)
     return 0;
 }
 
-double loads_driver_value(const scene_driver *d, double path)
+double loads_driver_value(const model *m, const scene_driver *d, double path)
 {
-    return interpolate(d->stations, d->path, d->value, path);
+    double at[3];
+    loads_driver_rates(m, d, path, at);
+    return at[0];
+}
+
+void loads_driver_rates(const model *m, const scene_driver *d, double path, double out[3])
+{
+    out[1] = out[2] = 0;
+    if (!m->in_time)
+        out[0] = loads_path_value(d, path);
+    else if (d->function.pieces > 0)
+        function_at(&d->function, path, out);
+    else
+        out[0] = d->value[d->stations - 1];
 }
 
 /* What one load puts on vertices is added up. */
@@ -80,7 +109,7 @@ void loads_add_one(const model *m, const model_state *s, const scene_load *load,
 void loads_add(const model *m, const model_state *s, double path, double out[])
 {
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), out);
+        loads_add_one(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], path), out);
 }
 
 void loads_rate(const model *m, const model_state *s, double path, double out[])
@@ -94,7 +123,7 @@ void loads_stiffness(const model *m, const model_state *s, double path, loads_en
                      void *context)
 {
     for (int i = 0; i < m->scene->loads; i++)
-        applied_stiffness(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], path), take,
+        applied_stiffness(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], path), take,
                           context);
 }
 
@@ -148,7 +177,7 @@ status loads_have_potential(const model *m, const model_state *s, double path, f
         entries_of_load e = {.free = m->free};
         if (load->kind != SCENE_MOMENT)
             continue;
-        applied_stiffness(m, s, load, loads_factor(load, path), into_list, &e);
+        applied_stiffness(m, s, load, loads_factor(m, load, path), into_list, &e);
         if (skew_of(&e) > potential * vec3_norm(load->vector))
             return fault_set(f, STATUS_REFUSED,
                              "load %d, a moment about fixed axes, has no potential at node %d, "
@@ -207,7 +236,7 @@ void loads_at_node(const model *m, const model_state *s, int node, double F[6])
     sum_at_node sum = {m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->scene->loads; i++)
-        applied_each(m, s, &m->scene->load[i], loads_factor(&m->scene->load[i], s->path),
+        applied_each(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], s->path),
                      add_at_node, &sum);
 }
 
@@ -216,14 +245,14 @@ void loads_drive(const model *m, const model_state *s, double path, double dx[])
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] =
-                loads_driver_value(&m->scene->driver[d], path) - s->driver[d];
+                loads_driver_value(m, &m->scene->driver[d], path) - s->driver[d];
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
         if (v->vector_driver[0] == NONE || v->body != i)
             continue;
         double target[3], q[4], turn[3];
         for (int k = 0; k < 3; k++)
-            target[k] = loads_driver_value(&m->scene->driver[v->vector_driver[k]], path);
+            target[k] = loads_driver_value(m, &m->scene->driver[v->vector_driver[k]], path);
         rotation_exp(target, q);
         rotation_between(&s->q[4 * i], q, turn);
         for (int k = 0; k < 3; k++)
@@ -241,8 +270,9 @@ int loads_conditions(const model *m, const model_state *s, double path,
             continue;
         out[count].unknown = m->driver_coordinate[d];
         out[count].coordinate = m->driver_coordinate[u->condition_driver];
-        out[count++].increment = loads_driver_value(&m->scene->driver[u->condition_driver], path) -
-                                 s->driver[u->condition_driver];
+        out[count++].increment =
+            loads_driver_value(m, &m->scene->driver[u->condition_driver], path) -
+            s->driver[u->condition_driver];
     }
     return count;
 }
@@ -257,10 +287,10 @@ int loads_begin(const model *m)
 {
     int begin = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        begin |= loads_factor(&m->scene->load[i], 0) != 0;
+        begin |= loads_factor(m, &m->scene->load[i], 0) != 0;
     for (int d = 0; d < m->scene->drivers; d++)
-        begin |=
-            m->scene->driver[d].value != NULL && loads_driver_value(&m->scene->driver[d], 0) != 0;
+        begin |= m->scene->driver[d].value != NULL &&
+                 loads_driver_value(m, &m->scene->driver[d], 0) != 0;
     return begin;
 }
 

@@ -4,10 +4,16 @@
 
 #include "harness/model/model.h"
 
-/* What the load is times at `path`. */
-double loads_factor(const scene_load *load, double path);
+/* Of a static path: what the load is times; of a known driver its value [m or rad]. */
+double loads_path_factor(const scene_load *load, double path);
+double loads_path_value(const scene_driver *d, double path);
+/* What the load is times at `path`, or in time. */
+double loads_factor(const model *, const scene_load *load, double path);
 /* Of a known driver [m or rad]. */
-double loads_driver_value(const scene_driver *d, double path);
+double loads_driver_value(const model *, const scene_driver *d, double path);
+/* In time, also its first two derivatives; at the end of a piece: of the next one. What has no
+ * function of time stays at its last value; of a load it is whole. */
+void loads_driver_rates(const model *, const scene_driver *d, double path, double out[3]);
 /* out[free + driven] += the load times `scale` in a state. */
 void loads_add_one(const model *, const model_state *, const scene_load *, double scale,
                    double out[]);

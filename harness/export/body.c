@@ -75,7 +75,7 @@ static void write_boundary(const body_numbers *b, const scene *s, const double *
                     continue;
                 const int stays = by == SCENE_HELD || path == NULL;
                 fprintf(to, "%d,%d,%d,%.12e\n", body_node(b, i, k), direction, direction,
-                        stays ? 0 : loads_driver_value(&s->driver[by], *path));
+                        stays ? 0 : loads_path_value(&s->driver[by], *path));
             }
 }
 

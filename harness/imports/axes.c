@@ -72,6 +72,10 @@ static scene_extract extract_of(const axes *a, const scene_quantity *q, int *sig
     case SCENE_DRIVER_VALUE:
     case SCENE_INTERNAL: /* in the section's own axes */
     case SCENE_STRESS:
+    case SCENE_RELATIVE:
+    case SCENE_RATE:
+    case SCENE_ORIENTATION:
+    case SCENE_BALANCE:
         break;
     }
     return q->what;

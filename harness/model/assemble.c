@@ -11,14 +11,16 @@
  * loads that follow and of some formulations are not. */
 int assemble_symmetric(const model *m)
 {
-    int moments = 0, nonlinear = 0;
+    int moments = 0, nonlinear = 0, moves = 0;
     for (int i = 0; i < m->scene->loads; i++)
         moments |= scene_load_unsymmetric(&m->scene->load[i]);
     for (int i = 0; i < m->scene->analyses; i++)
         nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC ||
                      m->scene->analysis[i].kind == SCENE_CONTINUATION ||
                      m->scene->analysis[i].kind == SCENE_ROTATION;
-    return !(nonlinear && moments);
+    for (int i = 0; i < m->scene->analyses; i++)
+        moves |= m->scene->analysis[i].kind == SCENE_MOTION;
+    return !moves && !(nonlinear && moments);
 }
 
 /* Is the pair stored, and at which row and column? */

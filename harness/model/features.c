@@ -31,6 +31,7 @@ static unsigned needs_of_analyses(const scene *s)
             needs |= FEATURE_MASS | (s->analysis[i].follows != SCENE_NONE ? FEATURE_GEOMETRIC : 0);
             break;
         case SCENE_ROTATION:
+        case SCENE_MOTION:
             needs |= FEATURE_LARGE | FEATURE_MASS;
             break;
         }

@@ -223,6 +223,24 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     return phi[component - SCENE_RX];
 }
 
+/* R^T (r - r_from) - (r - r_from)_0 = R^T (u - u_from) - (1 - R^T)(..)_0 */
+double kinematics_relative(const model *m, const model_state *s, int from, int node, int component)
+{
+    double back[4], q[4], t[3], apart[3], first[3], turned[3];
+    rotation_conjugate(&s->q[4 * from], back);
+    if (component >= SCENE_RX) {
+        rotation_compose(back, &s->q[4 * node], q);
+        rotation_log(q, t);
+        return t[component - SCENE_RX];
+    }
+    for (int i = 0; i < 3; i++) {
+        first[i] = m->vertex[node].position[i] - m->vertex[from].position[i];
+        apart[i] = first[i] + (s->u[3 * node + i] - s->u[3 * from + i]);
+    }
+    rotation_apply(back, apart, turned);
+    return turned[component] - first[component];
+}
+
 double kinematics_driver_value(const model *m, const model_state *s, int driver)
 {
     (void)m;

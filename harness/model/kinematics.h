@@ -19,6 +19,9 @@ void kinematics_frame(const model *, const model_state *, int node, double r[3],
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed
  * state. */
 double kinematics_component(const model *, const model_state *, int node, int component);
+/* The same of a node in the axes of another, `from`: how its place has moved there [m], or the
+ * rotation vector of its turn against that [rad]. */
+double kinematics_relative(const model *, const model_state *, int from, int node, int component);
 double kinematics_driver_value(const model *, const model_state *, int driver);
 /* Largest angle [rad] that an element's nodes have turned against each other, or against its chord,
  * and that element. */

@@ -150,6 +150,7 @@ struct model {
     model_state *rest; /* undeformed */
     mesh_undeformed undeformed;
     element_rotating_frame frame; /* its velocity times the path if that is followed */
+    int in_time; /* the path parameter is the time: loads and drivers are functions of that */
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;

@@ -79,6 +79,10 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
+/* Adds a piece to the function of time of an entry of the scene. */
+typedef void builder_piece(scene *, int index, double until, const char *text);
+/* The function that `time` or `pieces` give; 0: there is none. */
+int builder_function(const fields *f, int index, builder_piece *add);
 /* Tells that an analysis does not have the quantity `key` at `what`, and which kinds of analysis
  * do. */
 void builder_no_quantity(const fields *what, const char *analysis, const char *key,

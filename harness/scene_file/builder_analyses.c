@@ -70,12 +70,29 @@ static void add_continuation(const fields *f)
         scene_set_rotating_frame(f->b->scene, added, frame_of(&spin));
 }
 
+static void add_motion(const fields *f, int index)
+{
+    double *instants, alpha[2];
+    scene_motion how = {
+        .scheme = (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA),
+        .alpha = scene_alpha_of_radius(fields_number(f, "rho", 0.9)),
+        .step = fields_number(f, "step", 1),
+        .tolerance = fields_number(f, "tolerance", 0)};
+    if (fields_vector(f, "parameters", 2, alpha))
+        how.alpha = (scene_alpha){alpha[0], alpha[1]};
+    fields_direction(f, "velocity", how.start.velocity);
+    fields_direction(f, "spin", how.start.spin);
+    fields_vector(f, "centre", 3, how.start.centre);
+    const int count = fields_values(f, "instants", &instants);
+    scene_add_motion(f->b->scene, about(f, index), count, instants, how);
+}
+
 void builder_analyses(builder *b)
 {
     for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
         const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
         scene_analysis_kind kind = SCENE_LINEAR;
-        while (kind < SCENE_ROTATION && !fields_have(&entry, scene_analysis_name(kind)))
+        while (kind < SCENE_MOTION && !fields_have(&entry, scene_analysis_name(kind)))
             kind++;
         const fields f = fields_below(&entry, scene_analysis_name(kind));
         switch (kind) {
@@ -96,6 +113,9 @@ void builder_analyses(builder *b)
             break;
         case SCENE_CONTINUATION:
             add_continuation(&f);
+            break;
+        case SCENE_MOTION:
+            add_motion(&f, i);
             break;
         case SCENE_ROTATION:
             add_rotation(&f);

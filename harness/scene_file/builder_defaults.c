@@ -83,6 +83,8 @@ static void add_quantities(builder *b)
             scene_add_quantity(s, b->list[LIST_ANALYSES].entry[i].name, "1", i,
                                scene_critical_factor(1, 0));
             break;
+        case SCENE_MOTION:
+            break;
         case SCENE_MODAL:
         case SCENE_ROTATION:
             scene_add_quantity(s, b->list[LIST_ANALYSES].entry[i].name, "Hz", i,

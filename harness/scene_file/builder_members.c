@@ -167,6 +167,10 @@ void builder_motions(builder *b)
         double *path, *value;
         if (fields_have(&f, "unit"))
             check_unit(&f, i);
+        if (fields_have(&f, "time") || fields_have(&f, "pieces")) {
+            builder_function(&f, scene_add_moving_driver(b->scene, entry->name), scene_drive_piece);
+            continue;
+        }
         if (condition.map == NULL) {
             const int stations = read_stations(&f, "value", &path, &value);
             scene_add_driver(b->scene, entry->name, stations, path, value);
@@ -240,5 +244,6 @@ void builder_loads(builder *b)
         l->follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
         if (fields_have(&f, "path") || fields_have(&f, "factor"))
             set_factor(&f, load);
+        builder_function(&f, load, scene_load_piece);
     }
 }

@@ -141,6 +141,42 @@ static scene_extract stress(const fields *f)
                                    : scene_stress_along(member, what);
 }
 
+static int axis_word(const fields *f, const char *key)
+{
+    return fields_word(f, key, "x|y|z", 0);
+}
+
+static scene_extract rate(const fields *f)
+{
+    return scene_rate(fields_entry(f, "node", LIST_NODES),
+                      fields_word(f, "component", fields_components, 0));
+}
+
+static scene_extract orientation(const fields *f)
+{
+    return scene_orientation_entry(fields_entry(f, "node", LIST_NODES), axis_word(f, "row"),
+                                   axis_word(f, "column"));
+}
+
+static scene_extract relative(const fields *f)
+{
+    return scene_relative_to(fields_entry(f, "node", LIST_NODES),
+                             fields_word(f, "component", fields_components, 0),
+                             fields_entry(f, "from", LIST_NODES));
+}
+
+static scene_extract energy(const fields *f)
+{
+    return scene_balance_of(
+        (scene_balance)fields_word(f, "of", "kinetic|strain|energy|work|drift", 0));
+}
+
+static scene_extract momentum(const fields *f)
+{
+    return scene_balance_of(
+        (scene_balance)(SCENE_PX + fields_word(f, "component", "px|py|pz|lx|ly|lz", 0)));
+}
+
 static const struct {
     const char *key;
     scene_extract (*read)(const fields *);
@@ -155,7 +191,12 @@ static const struct {
              {"critical_point", critical_point},
              {"motion", motion},
              {"internal", internal},
-             {"stress", stress}};
+             {"stress", stress},
+             {"rate", rate},
+             {"orientation", orientation},
+             {"relative", relative},
+             {"energy", energy},
+             {"momentum", momentum}};
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
 /* Unit of a value where the file gives none. */
@@ -186,8 +227,17 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
         if (scene_internal_of(q)->resultant == SCENE_BIMOMENT)
             return "N m^2";
         return scene_internal_of(q)->resultant < SCENE_MX ? "N" : "N m";
+    case SCENE_RELATIVE:
+        return scene_relative_of(q)->component <= SCENE_UZ ? "m" : "rad";
+    case SCENE_RATE:
+        return scene_component_of(q)->component <= SCENE_UZ ? "m/s" : "rad/s";
+    case SCENE_BALANCE:
+        if (scene_balance_in(q) < SCENE_PX)
+            return "J";
+        return scene_balance_in(q) < SCENE_LX ? "kg m/s" : "kg m^2/s";
     case SCENE_STRESS:
         return "Pa";
+    case SCENE_ORIENTATION:
     case SCENE_CRITICAL_FACTOR:
     case SCENE_FACTOR_AT:
         break;

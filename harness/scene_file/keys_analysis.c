@@ -63,6 +63,24 @@ static const scene_key rotation[] = {
     {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families"},
     {.name = NULL}};
 
+static const scene_key in_time[] = {
+    {"instants", KEY_NUMBERS, .needed = 1, .unit = "s",
+     .summary = "at which quantities are read, ascending"},
+    {"step", KEY_NUMBER, .needed = 1, .unit = "s",
+     .summary = "first step; all without a tolerance"},
+    {"tolerance", KEY_NUMBER, .summary = "of the error of a step, relative to the size; 0: none"},
+    {"integrator", KEY_WORD, .words = SCENE_SCHEME_CHOICES,
+     .summary = "alpha where it is left out"},
+    {"rho", KEY_NUMBER, .group = 1,
+     .summary = "of alpha: spectral radius of what is not resolved; 0.9"},
+    {"parameters", KEY_VECTOR, .group = 1, .count = 2,
+     .summary = "of alpha: alpha_m, alpha_f; [0, 0.05] is HHT, [0, 0] the trapezoidal rule"},
+    {"about", KEY_NAME, .summary = "static analysis from whose last state; left out: undeformed"},
+    {"velocity", KEY_VECTOR, .count = 3, .unit = "m/s", .summary = "of the whole at the begin"},
+    {"spin", KEY_VECTOR, .count = 3, .unit = "rad/s", .summary = "likewise angular velocity"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+    {.name = NULL}};
+
 const scene_key keys_analysis[] = {
     {"linear", KEY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1"},
     {"static", KEY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path"},
@@ -73,7 +91,7 @@ const scene_key keys_analysis[] = {
     {"continuation", KEY_MAP, .needed = 1, .group = 1, .below = continuation,
      .summary = "path of a load factor"},
     {"rotation", KEY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary"},
-    {.name = "motion", .kind = KEY_LATER, .group = 1},
+    {"motion", KEY_MAP, .needed = 1, .group = 1, .below = in_time, .summary = "in time"},
     {.name = NULL}};
 
 #define TAKEN                                                                                      \
@@ -146,6 +164,32 @@ static const scene_key whole[] = {TAKEN, {.name = NULL}};
 static const scene_key motion[] = {
     TAKEN, {"motion", KEY_NAME, .needed = 1, .summary = "unknown motion"}, {.name = NULL}};
 
+static const scene_key orientation[] = {
+    TAKEN,
+    {"node", KEY_NAME, .needed = 1, .summary = "node"},
+    {"row", KEY_WORD, .needed = 1, .words = "x|y|z", .summary = "of its rotation matrix"},
+    {"column", KEY_WORD, .needed = 1, .words = "x|y|z", .summary = "of it"},
+    {.name = NULL}};
+
+static const scene_key energy[] = {TAKEN,
+                                   {"of", KEY_WORD, .needed = 1,
+                                    .words = "kinetic|strain|energy|work|drift",
+                                    .summary = "drift: energy less that of the begin and the work"},
+                                   {.name = NULL}};
+
+static const scene_key momentum[] = {TAKEN,
+                                     {"component", KEY_WORD, .needed = 1,
+                                      .words = "px|py|pz|lx|ly|lz",
+                                      .summary = "l: angular, about the origin"},
+                                     {.name = NULL}};
+
+static const scene_key relative[] = {
+    TAKEN,
+    {"node", KEY_NAME, .needed = 1, .summary = "node"},
+    {"from", KEY_NAME, .needed = 1, .summary = "node in whose axes"},
+    {"component", KEY_WORD, .needed = 1, .words = COMPONENTS, .summary = "of its motion"},
+    {.name = NULL}};
+
 static const scene_key critical_point[] = {
     {"analysis", KEY_NAME, .needed = 1, .summary = "continuation"},
     {"kind", KEY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point"},
@@ -189,8 +233,14 @@ const scene_key keys_quantity[] = {
      .summary = "resultant of stresses on a section of a member"},
     {"stress", KEY_MAP, .needed = 1, .group = 1, .below = stress,
      .summary = "largest stress of a member or of a section of it"},
-    {.name = "energy", .kind = KEY_LATER, .group = 1},
-    {.name = "momentum", .kind = KEY_LATER, .group = 1},
+    {"rate", KEY_MAP, .needed = 1, .group = 1, .below = component,
+     .summary = "velocity of a node, or angular velocity in its own axes"},
+    {"orientation", KEY_MAP, .needed = 1, .group = 1, .below = orientation,
+     .summary = "entry of a node's rotation matrix"},
+    {"relative", KEY_MAP, .needed = 1, .group = 1, .below = relative,
+     .summary = "displacement or rotation as seen from another node"},
+    {"energy", KEY_MAP, .needed = 1, .group = 1, .below = energy, .summary = "of a motion"},
+    {"momentum", KEY_MAP, .needed = 1, .group = 1, .below = momentum, .summary = "of a motion"},
     {"unit", KEY_TEXT, .summary = "SI unit; left out: that of the kind"},
     {"tolerance", KEY_NUMBER, .summary = "relative, of the limit; 1e-3"},
     {"order", KEY_NUMBER, .summary = "least order of convergence"},

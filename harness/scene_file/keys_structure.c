@@ -183,13 +183,20 @@ static const scene_key condition[] = {
     {"motion", KEY_NAME, .needed = 1, .summary = "by this motion"},
     {.name = NULL}};
 
+static const scene_key piece[] = {
+    {"until", KEY_NUMBER, .unit = "s", .summary = "where it ends; the last one does not"},
+    {"is", KEY_TEXT, .needed = 1, .summary = "expression of the time t"},
+    {.name = NULL}};
+
 const scene_key keys_motion[] = {
     {"unit", KEY_WORD, .words = "m|rad", .summary = "of its values"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
     {"value", KEY_NUMBERS, .group = 1, .needed = 1, .summary = "at these; linear between"},
     {"such_that", KEY_MAP, .group = 1, .needed = 1, .below = condition, .summary = "unknown"},
     {"unknown", KEY_WORD, .words = "true|yes", .summary = "for the reader of the file"},
-    {.name = "time", .kind = KEY_LATER},
+    {"time", KEY_TEXT, .group = 1, .needed = 1, .summary = "in a motion: expression of the time t"},
+    {"pieces", KEY_LIST, .group = 1, .needed = 1, .below = piece,
+     .summary = "likewise, one expression after the other"},
     {.name = NULL}};
 
 const scene_key keys_load[] = {
@@ -204,6 +211,9 @@ const scene_key keys_load[] = {
     {"on", KEY_NAME, .needed = 1, .summary = "node or member"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
     {"factor", KEY_NUMBERS, .summary = "at these; left out: the path parameter itself"},
+    {"time", KEY_TEXT, .group = 2, .summary = "factor in a motion: expression of the time t; 1"},
+    {"pieces", KEY_LIST, .group = 2, .below = piece,
+     .summary = "likewise, one expression after the other"},
     {"at", KEY_VECTOR, .count = 3, .unit = "m",
      .summary = "of forces: offset from the node or the centroids"},
     {"axes", KEY_WORD, .words = "fixed|member",

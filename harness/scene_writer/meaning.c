@@ -187,6 +187,18 @@ static void extracted(FILE *to, const scene *s, const scene_quantity *q)
     case SCENE_INTERNAL:
         internal(to, s, scene_internal_of(q));
         break;
+    case SCENE_RELATIVE:
+        fputs("relative", to);
+        break;
+    case SCENE_RATE:
+        fputs("rate", to);
+        break;
+    case SCENE_ORIENTATION:
+        fputs("orientation", to);
+        break;
+    case SCENE_BALANCE:
+        fputs("balance", to);
+        break;
     case SCENE_STRESS:
         stress(to, s, scene_stress_of(q));
         break;

@@ -70,6 +70,32 @@ static void write_continuation(writer *w, const scene_analysis *a)
     write_frame(w, &c->frame);
 }
 
+static void write_motion(writer *w, const scene_analysis *a)
+{
+    static const char *const scheme[] = {"alpha", "conserving", "radau", "explicit"};
+    const scene_motion *m = scene_motion_of(a);
+    const double alpha[2] = {m->alpha.mass, m->alpha.force};
+    fputs("motion: {instants: ", w->to);
+    write_values_numbers(w, m->path.stations, m->path.value);
+    fputs(", step: ", w->to);
+    write_values_number(w, m->step);
+    write_values_if(w, "tolerance", m->tolerance, 0);
+    fprintf(w->to, ", integrator: %s, parameters: ", scheme[m->scheme]);
+    write_values_numbers(w, 2, alpha);
+    if (a->follows != SCENE_NONE)
+        fprintf(w->to, ", about: analysis_%d", a->follows);
+    const struct {
+        const char *key;
+        const double *value;
+    } start[] = {
+        {"velocity", m->start.velocity}, {"spin", m->start.spin}, {"centre", m->start.centre}};
+    for (int i = 0; i < 3; i++)
+        if (write_values_any(3, start[i].value)) {
+            fprintf(w->to, ", %s: ", start[i].key);
+            write_values_numbers(w, 3, start[i].value);
+        }
+}
+
 void write_analyses(writer *w)
 {
     fputs("analyses:\n", w->to);
@@ -89,6 +115,9 @@ void write_analyses(writer *w)
         case SCENE_STATIC:
         case SCENE_ROTATION:
             write_walk(w, a);
+            break;
+        case SCENE_MOTION:
+            write_motion(w, a);
             break;
         case SCENE_COMPLIANCE:
             write_compliance(w, a);
@@ -150,12 +179,20 @@ static void write_extract(writer *w, const scene_quantity *q)
                                       [SCENE_CRITICAL_POINT] = "critical_point",
                                       [SCENE_DRIVER_VALUE] = "motion",
                                       [SCENE_INTERNAL] = "internal",
-                                      [SCENE_STRESS] = "stress"};
+                                      [SCENE_STRESS] = "stress",
+                                      [SCENE_RATE] = "rate",
+                                      [SCENE_ORIENTATION] = "orientation",
+                                      [SCENE_BALANCE] = "balance",
+                                      [SCENE_RELATIVE] = "relative"};
     static const char *const family[] = {"any",       "not_axial", "axial",
                                          "bending_y", "bending_z", "torsion"};
-    fprintf(w->to, "%s: {analysis: analysis_%d", key[q->what.kind], q->analysis);
+    const char *word = key[q->what.kind];
+    if (q->what.kind == SCENE_BALANCE)
+        word = scene_balance_in(q) < SCENE_PX ? "energy" : "momentum";
+    fprintf(w->to, "%s: {analysis: analysis_%d", word, q->analysis);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
+    case SCENE_RATE:
     case SCENE_REACTION:
         fprintf(w->to, ", node: node_%d, component: %s", scene_component_of(q)->node,
                 write_values_component[scene_component_of(q)->component]);
@@ -192,6 +229,22 @@ static void write_extract(writer *w, const scene_quantity *q)
         fputs(", motion: ", w->to);
         write_values_motion(w, scene_driver_of(q));
         break;
+    case SCENE_RELATIVE:
+        fprintf(w->to, ", node: node_%d, from: node_%d, component: %s", scene_relative_of(q)->node,
+                scene_relative_of(q)->from,
+                write_values_component[scene_relative_of(q)->component]);
+        break;
+    case SCENE_ORIENTATION:
+        fprintf(w->to, ", node: node_%d, row: %c, column: %c", scene_orientation_of(q)->node,
+                "xyz"[scene_orientation_of(q)->row], "xyz"[scene_orientation_of(q)->column]);
+        break;
+    case SCENE_BALANCE: {
+        static const char *const part[] = {"kinetic", "strain", "energy", "work", "drift", "px",
+                                           "py",      "pz",     "lx",     "ly",   "lz"};
+        fprintf(w->to, ", %s: %s", scene_balance_in(q) < SCENE_PX ? "of" : "component",
+                part[scene_balance_in(q)]);
+        break;
+    }
     case SCENE_GROWTH:
     case SCENE_FACTOR_AT:
         break;

@@ -154,6 +154,24 @@ void write_structure_springs(writer *w)
     }
 }
 
+/* A function of time. */
+static void write_pieces(writer *w, const scene_function *f)
+{
+    fputs("pieces: [", w->to);
+    for (int i = 0; i < f->pieces; i++) {
+        fputs(i > 0 ? ", {" : "{", w->to);
+        if (i < f->pieces - 1) {
+            fputs("until: ", w->to);
+            write_values_number(w, f->piece[i].until);
+            fputs(", ", w->to);
+        }
+        fputs("is: ", w->to);
+        write_values_quoted(w, f->piece[i].text);
+        fputc('}', w->to);
+    }
+    fputc(']', w->to);
+}
+
 void write_structure_motions(writer *w)
 {
     fputs(w->scene->drivers > 0 ? "motions:\n" : "", w->to);
@@ -161,7 +179,10 @@ void write_structure_motions(writer *w)
         const scene_driver *d = &w->scene->driver[i];
         fputs("  ", w->to);
         write_values_motion(w, i);
-        if (d->value != NULL) {
+        if (d->function.pieces > 0) {
+            fputs(": {", w->to);
+            write_pieces(w, &d->function);
+        } else if (d->value != NULL) {
             fputs(": {path: ", w->to);
             write_values_numbers(w, d->stations, d->path);
             fputs(", value: ", w->to);
@@ -198,6 +219,10 @@ void write_structure_loads(writer *w)
             write_values_numbers(w, load->stations, load->path);
             fputs(", factor: ", w->to);
             write_values_numbers(w, load->stations, load->factor);
+        }
+        if (load->function.pieces > 0) {
+            fputs(", ", w->to);
+            write_pieces(w, &load->function);
         }
         fputs("}\n", w->to);
     }

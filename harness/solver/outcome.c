@@ -84,6 +84,8 @@ const outcome_path *outcome_path_of(const analysis_outcome *o)
         return &o->left.continuation.path;
     case SCENE_ROTATION:
         return &o->left.rotation.path;
+    case SCENE_MOTION:
+        return &o->left.motion.path;
     default:
         assert(o->kind == SCENE_STATIC);
         return &o->left.path;
@@ -100,6 +102,18 @@ const outcome_rotation *outcome_rotation_of(const analysis_outcome *o)
 {
     assert(o->kind == SCENE_ROTATION);
     return &o->left.rotation;
+}
+
+const outcome_motion *outcome_motion_of(const analysis_outcome *o)
+{
+    assert(o->kind == SCENE_MOTION);
+    return &o->left.motion;
+}
+
+outcome_motion *outcome_motion_in(analysis_outcome *o)
+{
+    assert(o->kind == SCENE_MOTION);
+    return &o->left.motion;
 }
 
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *o)
@@ -119,6 +133,12 @@ void outcome_free(analysis_outcome *o)
     switch (o->kind) {
     case SCENE_LINEAR:
         free(o->left.x);
+        break;
+    case SCENE_MOTION:
+        for (int i = 0; o->left.motion.instant != NULL && i < o->left.motion.path.stations; i++)
+            free(o->left.motion.instant[i].rate);
+        free(o->left.motion.instant);
+        free_path(&o->left.motion.path);
         break;
     case SCENE_STATIC:
         free_path(&o->left.path);

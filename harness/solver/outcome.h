@@ -55,6 +55,17 @@ typedef struct outcome_rotation {
     rotation_modes *modes; /* [stations]; NULL where no quantity asks for them */
 } outcome_rotation;
 
+/* Of a motion at one instant, by scene_balance. */
+typedef struct outcome_instant {
+    double *rate; /* [free + driven] */
+    double balance[SCENE_BALANCES];
+} outcome_instant;
+
+typedef struct outcome_motion {
+    outcome_path path;
+    outcome_instant *instant; /* [stations] */
+} outcome_motion;
+
 typedef struct outcome_continuation {
     outcome_path path;
     int points;               /* of the path, the first without load */
@@ -73,6 +84,7 @@ typedef struct analysis_outcome {
         outcome_compliance compliance;
         outcome_rotation rotation;
         outcome_continuation continuation;
+        outcome_motion motion;
     } left;
 } analysis_outcome;
 
@@ -83,6 +95,9 @@ const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
 const outcome_path *outcome_path_of(const analysis_outcome *);
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
+const outcome_motion *outcome_motion_of(const analysis_outcome *);
+/* Of a motion, to be filled. */
+outcome_motion *outcome_motion_in(analysis_outcome *);
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *);
 /* A static path, or that of a stationary rotation, to be filled. */
 outcome_path *outcome_walk(analysis_outcome *);

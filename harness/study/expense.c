@@ -30,6 +30,9 @@ static void count_analysis(const scene *s, const scene_analysis *a, int steps, d
     case SCENE_MODAL:
         times[EXPENSE_modal]++;
         break;
+    case SCENE_MOTION:
+        times[EXPENSE_continuation]++;
+        break;
     case SCENE_STATIC:
         times[EXPENSE_load_step] += steps_of(a, steps);
         break;

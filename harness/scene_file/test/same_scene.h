@@ -77,13 +77,24 @@ static inline int same_spring(const scene_spring *a, const scene_spring *b)
     return a->p == b->p && a->q == b->q && same_numbers(36, a->stiffness, b->stiffness);
 }
 
+static inline int same_function(const scene_function *a, const scene_function *b)
+{
+    if (a->pieces != b->pieces)
+        return 0;
+    for (int i = 0; i < a->pieces; i++)
+        if (strcmp(a->piece[i].text, b->piece[i].text) != 0 ||
+            (i + 1 < a->pieces && !same_numbers(1, &a->piece[i].until, &b->piece[i].until)))
+            return 0;
+    return 1;
+}
+
 static inline int same_driver(const scene_driver *a, const scene_driver *b)
 {
     return a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
            same_numbers(a->stations, a->value, b->value) &&
            a->condition_node == b->condition_node &&
            a->condition_component == b->condition_component &&
-           a->condition_driver == b->condition_driver;
+           a->condition_driver == b->condition_driver && same_function(&a->function, &b->function);
 }
 
 static inline int same_load(const scene_load *a, const scene_load *b)
@@ -91,7 +102,18 @@ static inline int same_load(const scene_load *a, const scene_load *b)
     return a->kind == b->kind && a->where == b->where && same_numbers(3, a->vector, b->vector) &&
            same_numbers(3, a->at, b->at) && a->axes == b->axes && a->follower == b->follower &&
            a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
-           same_numbers(a->stations, a->factor, b->factor);
+           same_numbers(a->stations, a->factor, b->factor) &&
+           same_function(&a->function, &b->function);
+}
+
+static inline int same_motion(const scene_motion *a, const scene_motion *b)
+{
+    return a->scheme == b->scheme && same_numbers(1, &a->alpha.mass, &b->alpha.mass) &&
+           same_numbers(1, &a->alpha.force, &b->alpha.force) &&
+           same_numbers(1, &a->step, &b->step) && same_numbers(1, &a->tolerance, &b->tolerance) &&
+           same_numbers(3, a->start.velocity, b->start.velocity) &&
+           same_numbers(3, a->start.spin, b->start.spin) &&
+           same_numbers(3, a->start.centre, b->start.centre);
 }
 
 static inline int same_analysis(const scene_analysis *a, const scene_analysis *b)
@@ -100,8 +122,11 @@ static inline int same_analysis(const scene_analysis *a, const scene_analysis *b
     const scene_rotating_frame *s = scene_rotating_frame_of(a), *t = scene_rotating_frame_of(b);
     int same = a->kind == b->kind && a->follows == b->follows && (p == NULL) == (q == NULL);
     if (same && p != NULL)
-        same = p->stations == q->stations && same_numbers(p->stations, p->value, q->value) &&
-               same_numbers(3, s->omega, t->omega) && same_numbers(3, s->centre, t->centre);
+        same = p->stations == q->stations && same_numbers(p->stations, p->value, q->value);
+    if (same && a->kind == SCENE_MOTION)
+        same = same_motion(scene_motion_of(a), scene_motion_of(b));
+    if (same && s != NULL)
+        same = same_numbers(3, s->omega, t->omega) && same_numbers(3, s->centre, t->centre);
     if (same && (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION))
         same = scene_walk_of(a)->steps_between == scene_walk_of(b)->steps_between &&
                scene_walk_of(a)->modes == scene_walk_of(b)->modes;
@@ -125,6 +150,7 @@ static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
     switch (a->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_REACTION:
+    case SCENE_RATE:
         return scene_component_of(a)->node == scene_component_of(b)->node &&
                scene_component_of(a)->component == scene_component_of(b)->component;
     case SCENE_COMPLIANCE_ENTRY:
@@ -150,6 +176,13 @@ static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
                scene_stress_of(a)->measure == scene_stress_of(b)->measure &&
                scene_stress_of(a)->whole == scene_stress_of(b)->whole &&
                scene_stress_of(a)->place == scene_stress_of(b)->place;
+    case SCENE_ORIENTATION:
+        return memcmp(scene_orientation_of(a), scene_orientation_of(b),
+                      sizeof(scene_orientation)) == 0;
+    case SCENE_BALANCE:
+        return scene_balance_in(a) == scene_balance_in(b);
+    case SCENE_RELATIVE:
+        return memcmp(scene_relative_of(a), scene_relative_of(b), sizeof(scene_relative)) == 0;
     case SCENE_GROWTH:
     case SCENE_FACTOR_AT:
         break;

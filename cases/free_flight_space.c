@@ -1,0 +1,49 @@
+/* A flexible rod that a force and a moment throw and that then flies freely in space. */
+#include <stddef.h>
+#include <stdio.h>
+
+#include "cases/shared/timed.h"
+
+enum { STIFFENING = TIMED_PARAMETERS };
+
+static const parameter_type parameters[] = {
+    [TIMED_TIME] = {"time", "s", 7.5, 0, 100, NULL, "when it is looked at"},
+    TIMED_HOW(0.05, "a sixth of the quickest motion"),
+    [STIFFENING] = {"stiffening", "1", 1, 1, 1e6, NULL, "of elongation and shear"},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    static const double y_axis[] = {0, 1, 0};
+    (void)f;
+    static const char *const name[] = {"A_x", "A_y", "A_z", "B_x", "B_y", "B_z"};
+    const double k = value[STIFFENING];
+    const section_spec spec = timed_profile(&(timed_section){
+        .EA = 1e4 * k, .GA = 1e4 * k, .GJ = 500, .EI = 500, .mass = 1, .polar = 20, .rotary = 10});
+    const int profile = scene_add_section(s, &spec), A = scene_add_node(s, 0, 0, 8),
+              B = scene_add_node(s, 6, 0, 0);
+    scene_add_member(s, A, B, profile, y_axis);
+    const int loads[] = {scene_add_load(s, SCENE_FORCE, B, 0.1, 0, 0),
+                         scene_add_load(s, SCENE_MOMENT, B, 0, 1, 0.5)};
+    for (int i = 0; i < 2; i++) {
+        scene_load_piece(s, loads[i], 2.5, "80*t");
+        scene_load_piece(s, loads[i], 5, "400 - 80*t");
+        scene_load_piece(s, loads[i], 0, "0");
+    }
+    const int motion = timed_add(s, value, SCENE_NONE);
+    for (int i = 0; i < 6; i++)
+        timed_wanted(s, name[i], motion, i < 3 ? A : B, i % 3);
+    scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
+    scene_add_quantity(s, "Ly", "kg m^2/s", motion, scene_balance_of(SCENE_LY));
+    scene_add_quantity(s, "Lz", "kg m^2/s", motion, scene_balance_of(SCENE_LZ));
+    return STATUS_OK;
+}
+
+const case_type case_free_flight_space = {
+    .name = "free_flight_space",
+    .summary = "a flexible rod thrown by a force and a moment flies freely in space",
+    .source = "after J.C. Simo, L. Vu-Quoc (1988)",
+    .parameters = {parameters},
+    .build = build,
+};

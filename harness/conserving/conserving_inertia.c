@@ -1,0 +1,168 @@
+/* Centres of mass move with dr_c = h (v_c + v_c1)/2, R_n^T c = h (W + W1)/2; forces act at the
+ * centres' mean places. */
+#include <string.h>
+
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+#include "harness/conserving/conserving_impl.h"
+
+/* One frame with its mass over a step. */
+typedef struct carried_step {
+    double Rn[9], R1[9], before[3], after[3], mean[3]; /* centre from the frame */
+    double J[9];                                       /* about the centre, in the frame's axes */
+    double v0[3], v1[3], W0[3], W1[3];                 /* of the centre; in the frame's axes */
+    double c[3];
+} carried_step;
+
+static void about_centre(const carried_mass *one, double centre[3], double J[9])
+{
+    const double mass = one->mass > 0 ? one->mass : 1;
+    for (int i = 0; i < 3; i++)
+        centre[i] = one->moment[i] / mass;
+    const double square = vec3_dot(one->moment, centre);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            J[3 * i + j] =
+                one->inertia[3 * i + j] - ((i == j ? square : 0) - one->moment[i] * centre[j]);
+}
+
+static void step_of(const conserving *s, const instant *from, const model_state *now, double h,
+                    const carried_mass *one, carried_step *out)
+{
+    const model *m = s->of.c->model;
+    double centre[3], dr[3], swept[3], body[3], turned[3];
+    frame_rates r;
+    about_centre(one, centre, out->J);
+    forms_rates(m, from->state, one->frame, from->v, NULL, &r);
+    memcpy(out->Rn, r.R, sizeof r.R);
+    rotation_matrix(&now->q[4 * one->frame], out->R1);
+    mat3_mul_vec(out->Rn, centre, out->before);
+    mat3_mul_vec(out->R1, centre, out->after);
+    conserving_vertex(s, from->state, now, one->frame, dr, out->c);
+    for (int i = 0; i < 3; i++)
+        out->mean[i] = (out->before[i] + out->after[i]) / 2;
+    vec3_cross(r.w, out->before, turned);
+    vec3_cross(out->c, out->mean, swept);
+    mat3_transpose_mul_vec(out->Rn, r.w, out->W0);
+    mat3_transpose_mul_vec(out->Rn, out->c, body);
+    for (int i = 0; i < 3; i++) {
+        out->v0[i] = r.v[i] + turned[i];
+        out->v1[i] = 2 * (dr[i] + swept[i]) / h - out->v0[i];
+        out->W1[i] = 2 * body[i] / h - out->W0[i];
+    }
+}
+
+/* Force and moment on the frame. */
+static void forces_of(const carried_mass *one, const carried_step *p, double h, double F[6])
+{
+    double H0[3], H1[3], spun0[3], spun1[3], lever[3];
+    mat3_mul_vec(p->J, p->W0, H0);
+    mat3_mul_vec(p->J, p->W1, H1);
+    mat3_mul_vec(p->Rn, H0, spun0);
+    mat3_mul_vec(p->R1, H1, spun1);
+    for (int i = 0; i < 3; i++)
+        F[i] = one->mass * (p->v1[i] - p->v0[i]) / h;
+    vec3_cross(p->mean, F, lever);
+    for (int i = 0; i < 3; i++)
+        F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i];
+}
+
+static void skew(const double v[3], double A[9])
+{
+    const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
+    memcpy(A, all, sizeof all);
+}
+
+/* K[6 x 6] by dr and c. */
+static void tangent_of(const carried_mass *one, const carried_step *p, double h, const double F[6],
+                       double K[36])
+{
+    const double b = 2 / (h * h);
+    double T[9], A[9], swept[9], half[9], RJ[9], RJR[9], H1[3], spun[3], turn[9], mean[9], lever[9],
+        force[9], more[9];
+    cayley_tangent(p->c, T);
+    skew(p->after, A);
+    mat3_mul(A, T, swept); /* minus d(centre)/dc */
+    mat3_mul(p->R1, p->J, RJ);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            RJR[3 * i + j] = vec3_dot(&RJ[3 * i], &p->Rn[3 * j]);
+    mat3_mul_vec(p->J, p->W1, H1);
+    mat3_mul_vec(p->R1, H1, spun);
+    skew(spun, A);
+    mat3_mul(A, T, turn);
+    skew(p->mean, mean);
+    mat3_mul(mean, swept, lever);
+    skew(F, force);
+    mat3_mul(force, swept, more);
+    memset(half, 0, sizeof half);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int k = 3 * i + j;
+            K[6 * i + j] = i == j ? one->mass * b : 0;
+            K[6 * i + 3 + j] = -one->mass * b * swept[k];
+            K[6 * (3 + i) + j] = one->mass * b * mean[k];
+            K[6 * (3 + i) + 3 + j] =
+                b * RJR[k] - turn[k] / h - one->mass * b * lever[k] + more[k] / 2;
+        }
+}
+
+void conserving_inertia(conserving *s, const instant *from, const model_state *now, double h)
+{
+    const model *m = s->of.c->model;
+    const carried *all = s->of.masses;
+    for (int k = 0; k < all->masses; k++) {
+        const carried_mass *one = &all->mass[k];
+        const int *at = m->vertex[one->frame].coordinate;
+        carried_step p;
+        double F[6], K[36];
+        step_of(s, from, now, h, one, &p);
+        forces_of(one, &p, h, F);
+        tangent_of(one, &p, h, F, K);
+        for (int i = 0; i < 6; i++) {
+            if (at[i] != NONE)
+                s->residual[at[i]] -= F[i];
+            for (int j = 0; j < 6; j++)
+                assemble_subtract(&s->S, at[i], at[j], -K[6 * i + j]);
+        }
+    }
+    for (int i = 0; i < m->warps; i++) {
+        const int c = m->warp[i].coordinate;
+        const double mass = all->warping[c];
+        s->residual[c] -= mass * (2 * s->step[c] / h - 2 * from->v[c]) / h;
+        assemble_subtract(&s->S, c, c, -2 * mass / (h * h));
+    }
+}
+
+/* Of frames with a mass by their centres, of the others by themselves. */
+void conserving_rates(conserving *s, const instant *from, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    const carried *all = s->of.masses;
+    for (int i = 0; i < m->first_release; i++) {
+        const carried_mass plain = {.frame = i};
+        const carried_mass *one = &plain;
+        const int *at = m->vertex[i].coordinate;
+        if (m->vertex[i].body != i)
+            continue;
+        for (int k = 0; k < all->masses; k++)
+            one = all->mass[k].frame == i ? &all->mass[k] : one;
+        carried_step p;
+        double w[3], turned[3];
+        step_of(s, from, to->state, h, one, &p);
+        mat3_mul_vec(p.R1, p.W1, w);
+        vec3_cross(w, p.after, turned);
+        for (int c = 0; c < 3; c++) {
+            if (at[c] != NONE && at[c] < m->free)
+                to->v[at[c]] = p.v1[c] - turned[c];
+            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free)
+                to->v[at[SCENE_RX + c]] = p.W1[c];
+        }
+    }
+    for (int i = 0; i < m->warps; i++) {
+        const int c = m->warp[i].coordinate;
+        to->v[c] = 2 * s->step[c] / h - from->v[c];
+    }
+    for (int c = 0; c < s->free; c++)
+        to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
+}

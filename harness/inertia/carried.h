@@ -1,0 +1,28 @@
+/* Masses that the frames of a model carry: those of the elements, lumped at their nodes, and rigid
+ * bodies. What is joined rigidly to a frame belongs to it: one mass, one centre, one tensor. */
+#ifndef BEAMWORK_CARRIED_H
+#define BEAMWORK_CARRIED_H
+
+#include "harness/model/model.h"
+
+/* At one frame, in axes that turn with it and were the fixed ones at rest. */
+typedef struct carried_mass {
+    int frame;         /* vertex with coordinates of its own */
+    double mass;       /* [kg] */
+    double moment[3];  /* mass times its centre, from the frame [kg m] */
+    double inertia[9]; /* about the frame [kg m^2] */
+} carried_mass;
+
+typedef struct carried {
+    int masses;
+    carried_mass *mass; /* [masses] one for each frame that carries any */
+    double *warping;    /* [coordinates] of warping amplitudes [kg m^4], else 0 */
+    double total;       /* [kg] */
+} carried;
+
+/* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). The rotary
+ * inertia of an end that is released from its node counts at the node: half an element's. */
+status carried_alloc(const model *, carried *, fault *);
+void carried_free(carried *);
+
+#endif

@@ -1,0 +1,33 @@
+/* How the coordinates of a frame's rotation change in time, and what the rates of a model's
+ * coordinates mean: translations, warping amplitudes and angles have their derivatives, a rotation
+ * that is free or given by a vector has the angular velocity in axes that turn with the frame. */
+#ifndef BEAMWORK_FORMS_H
+#define BEAMWORK_FORMS_H
+
+#include "harness/model/model.h"
+
+typedef enum rotation_form {
+    FORM_BODY,    /* three coordinates: components of the angular velocity in the frame's axes */
+    FORM_AXIS,    /* about one fixed axis at most: an angle */
+    FORM_SEQUENCE /* angles one after the other */
+} rotation_form;
+
+/* REFUSED: two free turns about fixed axes, which no rates belong to. */
+status forms_check(const model *, fault *);
+rotation_form forms_of(const model *, int vertex);
+
+/* Velocity and acceleration of a frame, spatial [m/s, rad/s, m/s^2, rad/s^2], from rates v[free +
+ * driven] and their derivatives a (NULL: zero). */
+typedef struct frame_rates {
+    double R[9];
+    double v[3], w[3], a[3], wd[3];
+} frame_rates;
+void forms_rates(const model *, const model_state *, int vertex, const double v[], const double a[],
+                 frame_rates *out);
+
+/* A frame whose every coordinate is independent: F (force, moment) into its rows; K[6 x 6] in
+ * spatial increments of it. */
+void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
+                     double out[]);
+
+#endif

@@ -1,0 +1,11 @@
+/* Energies and momenta of a motion at an instant. */
+#ifndef BEAMWORK_BALANCE_H
+#define BEAMWORK_BALANCE_H
+
+#include "harness/inertia/carried.h"
+#include "harness/scheme/instant.h"
+
+/* out[SCENE_BALANCES]; work and drift: NAN. */
+status balance_of(model *, const carried *, const instant *, double out[SCENE_BALANCES], fault *);
+
+#endif

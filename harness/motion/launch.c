@@ -1,0 +1,84 @@
+/* What has no inertia must be in balance with the forces at the begin, and what has some is
+ * accelerated by them: one equation for both, a stage in which positions give way to accelerations
+ * by next to nothing. */
+#include "harness/motion/launch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/vec3.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/scheme/drive.h"
+#include "harness/solver/history.h"
+
+/* Of the square of a step: how far positions give way. */
+static const double softness = 1e-8;
+
+static void start_vertex(const model *m, const model_state *s, int index, const scene_start *start,
+                         double v[])
+{
+    const mesh_vertex *frame = &m->vertex[index];
+    double r[3], R[9], turned[3], body[3];
+    frame_rates none;
+    kinematics_position(m, s, index, r);
+    for (int i = 0; i < 3; i++)
+        r[i] -= start->centre[i];
+    vec3_cross(start->spin, r, turned);
+    forms_rates(m, s, index, v, NULL, &none);
+    memcpy(R, none.R, sizeof R);
+    mat3_transpose_mul_vec(R, start->spin, body);
+    for (int i = 0; i < 3; i++) {
+        const int c = frame->coordinate[i], t = frame->coordinate[SCENE_RX + i];
+        if (c != NONE && c < m->free)
+            v[c] = start->velocity[i] + turned[i];
+        if (t != NONE && t < m->free && frame->angles == 0)
+            v[t] = body[i];
+    }
+}
+
+static status settle(stage *s, double h, instant *now, instant *room, double *inc, double *zero,
+                     fault *f)
+{
+    model *m = s->c->model;
+    stage_rates r = {.b = 1 / (softness * h * h),
+                     .g = 0,
+                     .a0 = zero,
+                     .v0 = now->v,
+                     .inc = inc,
+                     .v = room->v,
+                     .a = room->a};
+    step_record record = {.path = now->time};
+    instant_copy(m, now, room);
+    drive_at(m, now->state, now->time, inc, room->v, room->a);
+    TRY(stage_solve(s, now->state, now->time, &r, room->state, &record, f));
+    history_drop_step(s->c->result, &record);
+    memcpy(room->algorithm, room->a, (size_t)s->all * sizeof *room->a);
+    instant_copy(m, room, now);
+    return STATUS_OK;
+}
+
+status launch_again(analysis_context *c, const carried *masses, const scene_motion *how,
+                    instant *now, instant *room, fault *f)
+{
+    stage s;
+    TRY(stage_alloc(c, masses, &s, f));
+    double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
+    drive_at(c->model, now->state, now->time, NULL, now->v, now->a);
+    const status outcome = inc != NULL
+                               ? settle(&s, how->step, now, room, inc, inc + s.all + 1, f)
+                               : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    free(inc);
+    stage_free(&s);
+    return outcome;
+}
+
+status launch(analysis_context *c, const carried *masses, const scene_motion *how, instant *now,
+              instant *room, fault *f)
+{
+    const model *m = c->model;
+    for (int i = 0; i < m->first_release; i++)
+        if (m->vertex[i].body == i)
+            start_vertex(m, now->state, i, &how->start, now->v);
+    return launch_again(c, masses, how, now, room, f);
+}

@@ -1,0 +1,165 @@
+#include "harness/motion/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/motion/balance.h"
+#include "harness/motion/integrator.h"
+#include "harness/motion/launch.h"
+#include "harness/scheme/drive.h"
+#include "harness/scheme/kinks.h"
+#include "harness/solver/history.h"
+
+enum { MAX_HALVINGS = 12 };
+
+/* Of a step by that of the last one. */
+static const double shorter = 0.3, longer = 2, safety = 0.9;
+
+/* All that a motion is integrated with. */
+typedef struct motion {
+    analysis_context *c;
+    const scene_motion *how;
+    int follows;
+    carried masses;
+    scheme *scheme;
+    instant now, next;
+    double h, least; /* [s] next step; the shortest */
+} motion;
+
+static status keep_step(motion *w, const step_record *record, fault *f)
+{
+    TRY(history_add_step(w->c->result, record, f));
+    model_counters(w->c->model)->steps++;
+    instant_copy(w->c->model, &w->next, &w->now);
+    return STATUS_OK;
+}
+
+/* 1: its error allows the step; the next one has the length that this one should have had. */
+static int allowed(motion *w, double step, double error)
+{
+    if (w->how->tolerance <= 0)
+        return 1;
+    const double ratio =
+        safety * pow(w->how->tolerance / fmax(error, 1e-300), 1.0 / w->scheme->order);
+    w->h = step * fmin(longer, fmax(shorter, ratio));
+    return error <= w->how->tolerance;
+}
+
+/* One step, shorter until it succeeds. */
+static status take_step(motion *w, double target, fault *f)
+{
+    for (int rejected = 0;; rejected++) {
+        const double left = target - w->now.time, whole = w->h;
+        const int last = whole >= left * (1 - 1e-9);
+        const double step = last ? left : whole;
+        step_record record = {
+            .path = last ? target : w->now.time + step, .increment = step, .rejected = rejected};
+        double error = 0;
+        const status outcome =
+            w->scheme->step(w->scheme, &w->now, step, &w->next, &error, &record, f);
+        if (outcome == STATUS_OK && allowed(w, step, error)) {
+            if (step < whole && w->how->tolerance > 0)
+                w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
+            w->next.time = record.path;
+            return keep_step(w, &record, f);
+        }
+        history_drop_step(w->c->result, &record);
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED)
+            return outcome;
+        if (outcome != STATUS_OK)
+            w->h = step / 2;
+        if (w->h < w->least)
+            return outcome != STATUS_OK
+                       ? outcome
+                       : fault_set(f, STATUS_NOT_CONVERGED,
+                                   "at %g s no step is short enough for the tolerance",
+                                   w->now.time);
+        model_counters(w->c->model)->rejected_steps++;
+    }
+}
+
+/* The present instant becomes a station. */
+static status keep(motion *w, outcome_motion *o, double time, fault *f)
+{
+    const model *m = w->c->model;
+    const size_t bytes = (size_t)(model_sizes(m).free + model_sizes(m).driven + 1) * sizeof(double);
+    outcome_instant *to = &o->instant[o->path.reached];
+    to->rate = malloc(bytes);
+    if (to->rate == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
+    memcpy(to->rate, w->now.v, bytes);
+    TRY(balance_of(w->c->model, &w->masses, &w->now, to->balance, f));
+    return outcome_keep(&o->path, m, w->now.state, 1, time, f);
+}
+
+static status integrate(motion *w, outcome_motion *o, fault *f)
+{
+    w->h = w->how->step;
+    w->least = w->how->step / (1 << MAX_HALVINGS);
+    for (int i = 0; i < w->how->path.stations; i++) {
+        const double target = w->how->path.value[i];
+        while (w->now.time < target) {
+            const double kink = kinks_next(w->c->model, w->now.time);
+            TRY(take_step(w, fmin(target, kink), f));
+            if (w->now.time == kink)
+                TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
+        }
+        TRY(keep(w, o, target, f));
+    }
+    return STATUS_OK;
+}
+
+/* The state that the motion starts from, at time 0. */
+static status begin(motion *w, fault *f)
+{
+    const int follows = w->follows;
+    if (follows == SCENE_NONE)
+        return STATUS_OK;
+    const analysis_outcome *before = &w->c->outcomes[follows];
+    const outcome_path *path = outcome_path_of(before);
+    if (before->status != STATUS_OK || path->reached < path->stations)
+        return fault_set(f, STATUS_NOT_CONVERGED, "the state that the motion starts from: %s",
+                         before->reason);
+    kinematics_state_copy(w->c->model, path->state[path->reached - 1], w->now.state);
+    return STATUS_OK;
+}
+
+static status solve(motion *w, outcome_motion *o, fault *f)
+{
+    const model *m = w->c->model;
+    TRY(forms_check(m, f));
+    TRY(drive_check(m, f));
+    TRY(kinks_check(m, w->how->path.value[w->how->path.stations - 1], f));
+    TRY(carried_alloc(m, &w->masses, f));
+    const scheme_request request = {w->c, &w->masses, w->how, w->how->tolerance > 0};
+    TRY(integrator_alloc(&request, &w->scheme, f));
+    TRY(instant_alloc(m, &w->now, f));
+    TRY(instant_alloc(m, &w->next, f));
+    TRY(outcome_stations(&o->path, w->how->path.stations, f));
+    o->instant = calloc((size_t)w->how->path.stations + 1, sizeof *o->instant);
+    if (o->instant == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    TRY(begin(w, f));
+    TRY(launch(w->c, &w->masses, w->how, &w->now, &w->next, f));
+    return integrate(w, o, f);
+}
+
+status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    motion w;
+    memset(&w, 0, sizeof w);
+    w.c = c;
+    w.how = scene_motion_of(&c->scene->analysis[analysis]);
+    w.follows = c->scene->analysis[analysis].follows;
+    c->model->in_time = 1;
+    const status result = solve(&w, outcome_motion_in(o), f);
+    c->model->in_time = 0;
+    instant_free(&w.now);
+    instant_free(&w.next);
+    integrator_free(w.scheme);
+    carried_free(&w.masses);
+    return result;
+}

@@ -1,0 +1,9 @@
+/* Motion in time: states at the instants that were asked for. */
+#ifndef BEAMWORK_MOTION_H
+#define BEAMWORK_MOTION_H
+
+#include "harness/solver/context.h"
+
+status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+
+#endif

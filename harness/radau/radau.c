@@ -1,0 +1,186 @@
+#include "harness/radau/radau.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/equations/advance.h"
+#include "harness/inertia/increment.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/radau/radau_impl.h"
+#include "harness/scheme/drive.h"
+#include "harness/solver/history.h"
+
+enum { MAX_ITERATIONS = 15 };
+
+static void count_work(radau *r)
+{
+    counters *count = model_counters(r->of.c->model);
+    const factor_counts counts = factor_count(r->factor);
+    count->factorisations += counts.factorisations - r->counted;
+    r->counted = counts.factorisations;
+    count->solutions++;
+    count->factor_entries = counts.entries;
+    count->factor_flops += counts.flops;
+}
+
+static double advance(radau *r, const instant *from, double h, const step_record *record,
+                      advance_stress *stress)
+{
+    model *m = r->of.c->model;
+    double largest = 0;
+    *stress = (advance_stress){0, 0};
+    for (int i = 0; i < STAGES; i++) {
+        radau_stage *one = &r->stage[i];
+        advance_stress of;
+        memset(r->dx, 0, (size_t)r->all * sizeof *r->dx);
+        memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
+        m->work = one->work;
+        increment_add(m, one->state, r->dx, one->inc);
+        largest = fmax(largest,
+                       advance_state(m, one->state, r->dx, radau_time(r, from, h, i, record), &of));
+        stress->largest = fmax(stress->largest, of.largest);
+        stress->change = fmax(stress->change, of.change);
+    }
+    return largest;
+}
+
+static status iterate(radau *r, const instant *from, double h, step_record *record, fault *f)
+{
+    const double wild = 4;
+    for (int iteration = 1;; iteration++) {
+        advance_stress stress;
+        TRY(radau_equations(r, from, h, record, f));
+        TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
+        factor_solve(r->factor, r->residual);
+        count_work(r);
+        const double correction = advance(r, from, h, record, &stress);
+        radau_rates(r, from, h);
+        model_counters(r->of.c->model)->iterations++;
+        arrival_take(correction, &stress, iteration == 1, &r->arrival);
+        const iteration_record one = {.correction = correction,
+                                      .incompatibility = record->incompatibility};
+        record->remaining = r->arrival.remaining;
+        TRY(history_add_iteration(r->of.c->result, record, &one, NAN, f));
+        if (arrival_reached(&r->arrival))
+            return STATUS_OK;
+        if (!isfinite(correction) || correction > 4 * wild || (iteration > 3 && correction > wild))
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "Newton diverged at %g s: correction %.1e in iteration %d",
+                             from->time + h, correction, iteration);
+        if (iteration == MAX_ITERATIONS)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "Newton did not converge in %d iterations at %g s: correction %.1e",
+                             iteration, from->time + h, correction);
+    }
+}
+
+static status solve(radau *r, const instant *from, double h, instant *to, double *error,
+                    step_record *record, fault *f)
+{
+    const model *m = r->of.c->model;
+    const size_t bytes = (size_t)r->all * sizeof(double);
+    for (int i = 0; i < STAGES; i++) {
+        radau_stage *one = &r->stage[i];
+        const double t = r->node[i] * h, time = radau_time(r, from, h, i, record);
+        for (int c = 0; c < r->free; c++)
+            one->inc[c] = t * from->v[c] + t * t / 2 * from->a[c];
+        drive_at(m, from->state, time, one->inc, one->v, one->a);
+        kinematics_state_copy(m, from->state, one->state);
+        increment_apply(m, from->state, one->inc, time, one->state);
+    }
+    radau_rates(r, from, h);
+    TRY(iterate(r, from, h, record, f));
+    const radau_stage *last = &r->stage[STAGES - 1];
+    if (r->of.estimate)
+        TRY(radau_error(r, from, h, to, error, f));
+    kinematics_state_copy(m, last->state, to->state);
+    memcpy(to->v, last->v, bytes);
+    memcpy(to->a, last->a, bytes);
+    memcpy(to->algorithm, last->a, bytes);
+    to->time = record->path;
+    return STATUS_OK;
+}
+
+static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+                   step_record *record, fault *f)
+{
+    radau *r = (radau *)base;
+    model *m = r->of.c->model;
+    *error = 0;
+    r->own_work = m->work;
+    const status outcome = solve(r, from, h, to, error, record, f);
+    m->work = r->own_work;
+    return outcome;
+}
+
+static void release(scheme *base)
+{
+    radau *r = (radau *)base;
+    for (int i = 0; i < STAGES; i++) {
+        kinematics_state_free(r->stage[i].state);
+        free(r->stage[i].inc);
+        free(r->stage[i].work);
+    }
+    sparse_free_values(&r->K);
+    factor_free(r->factor);
+    factor_free(r->single);
+    stages_free(&r->S);
+    free(r->residual);
+    free(r->dx);
+    free(r->weight);
+    free(r);
+}
+
+static status allocate_stage(radau *r, radau_stage *one, fault *f)
+{
+    const model *m = r->of.c->model;
+    const size_t all = (size_t)r->all + 1;
+    one->inc = calloc(4 * all, sizeof *one->inc);
+    one->work = calloc((size_t)m->elements * (size_t)m->work_size + 1, sizeof *one->work);
+    if (one->inc == NULL || one->work == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
+    one->rate = one->inc + all;
+    one->v = one->rate + all;
+    one->a = one->v + all;
+    return kinematics_state_alloc(m, &one->state, f);
+}
+
+static status allocate(radau *r, fault *f)
+{
+    const sparse *pattern;
+    const size_t all = (size_t)r->all + 1;
+    r->residual = calloc(STAGES * all, sizeof *r->residual);
+    r->dx = calloc(all, sizeof *r->dx);
+    r->weight = calloc(all, sizeof *r->weight);
+    if (r->residual == NULL || r->dx == NULL || r->weight == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    metric_of(r->of.c->model, r->weight);
+    for (int i = 0; i < STAGES; i++)
+        TRY(allocate_stage(r, &r->stage[i], f));
+    TRY(assemble_pattern(r->of.c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &r->K, f));
+    TRY(stages_alloc(r->of.c->model, r->of.masses, pattern, &r->S, f));
+    TRY(factor_alloc(&r->S.whole, &r->factor, f));
+    return factor_alloc(pattern, &r->single, f);
+}
+
+status radau_alloc(const scheme_request *request, scheme **out, fault *f)
+{
+    const radau begin = {.base = {.order = 4, .step = step, .free = release}, .of = *request};
+    radau *r = malloc(sizeof *r);
+    *out = NULL;
+    if (r == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    memcpy(r, &begin, sizeof *r);
+    *out = &r->base;
+    const model_size size = model_sizes(request->c->model);
+    r->free = size.free;
+    r->all = size.free + size.driven;
+    arrival_start(request->c->options->criterion, model_leaves(request->c->model) != 0,
+                  size.elements, &r->arrival);
+    radau_coefficients(r);
+    return allocate(r, f);
+}

@@ -1,0 +1,49 @@
+/* Inside of the three stages. */
+#ifndef BEAMWORK_RADAU_IMPL_H
+#define BEAMWORK_RADAU_IMPL_H
+
+#include "harness/model/model_impl.h"
+#include "harness/radau/stages.h"
+#include "harness/scheme/scheme.h"
+#include "harness/solver/arrival.h"
+
+/* One stage. */
+typedef struct radau_stage {
+    model_state *state;
+    double *inc, *rate, *v, *a; /* [free + driven]; rate: of inc */
+    double *work;               /* of its linearisation: model.work */
+} radau_stage;
+
+typedef struct radau {
+    scheme base;
+    const scheme_request of;
+    double node[STAGES], B[STAGES * STAGES];
+    radau_stage stage[STAGES];
+    sparse K;
+    stages_matrix S;
+    factor *factor, *single; /* of S; of the matrix of the estimate */
+    double *residual;        /* [STAGES x free] */
+    double *dx;              /* [free + driven] */
+    double *weight;          /* [free + driven] */
+    double *own_work;        /* model.work as it is given back */
+    arrival arrival;
+    int free, all;
+    long counted, counted_single;
+} radau;
+
+/* radau_equations.c */
+/* Nodes and B of the scheme. */
+void radau_coefficients(radau *);
+/* Of the instant of a stage [s]: the last one is at the end of the step as it was asked for. */
+double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
+/* v and a of all stages, from their increments. */
+void radau_rates(radau *, const instant *from, double h);
+/* S and the residual of all stages in their present states. */
+status radau_equations(radau *, const instant *from, double h, step_record *, fault *);
+
+/* radau_error.c: what a step that was solved adds to the error of positions, in the measure of
+ * metric.h. [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with
+ * g = 1/(l h), l the real eigenvalue of A, about the instant before. room: work space. */
+status radau_error(radau *, const instant *from, double h, instant *room, double *error, fault *);
+
+#endif

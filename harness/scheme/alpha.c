@@ -1,0 +1,103 @@
+#include "harness/scheme/alpha.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/scheme/drive.h"
+#include "harness/scheme/stage.h"
+
+typedef struct alpha {
+    scheme base;
+    stage stage;
+    double mass, force, gamma, beta; /* alpha_m, alpha_f */
+    double *a0, *v0, *inc, *weight;  /* [free + driven] */
+} alpha;
+
+/* The acceleration that the scheme averages, from the true one at the end. */
+static double averaged(const alpha *s, double a, double before, double now)
+{
+    return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
+}
+
+/* Rates by the increment, and its guess: the acceleration stays. */
+static void relate(alpha *s, const instant *from, double h, stage_rates *r)
+{
+    for (int i = 0; i < s->stage.free; i++) {
+        const double v = from->v[i], a = from->algorithm[i], vd = from->a[i];
+        const double known = h * v + h * h * (0.5 - s->beta) * a; /* of inc, without a1 */
+        s->inc[i] = known + h * h * s->beta * averaged(s, a, vd, vd);
+        s->a0[i] = -r->b * known - (s->force * vd - s->mass * a) / (1 - s->force);
+        s->v0[i] = v + h * (1 - s->gamma) * a - r->g * known;
+    }
+}
+
+static double error_of(const alpha *s, const instant *from, const instant *to, double h)
+{
+    const double part = h * h * fabs(s->beta + (s->mass - s->force) / 2 - 1 / 6.0);
+    double square = 0;
+    for (int i = 0; i < s->stage.free; i++) {
+        const double one = part * (to->algorithm[i] - from->algorithm[i]);
+        square += s->weight[i] * one * one;
+    }
+    return sqrt(square);
+}
+
+static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+                   step_record *record, fault *f)
+{
+    alpha *s = (alpha *)base;
+    model *m = s->stage.c->model;
+    const double time = record->path;
+    stage_rates r = {.b = (1 - s->mass) / ((1 - s->force) * s->beta * h * h),
+                     .g = s->gamma / (s->beta * h),
+                     .a0 = s->a0,
+                     .v0 = s->v0,
+                     .inc = s->inc,
+                     .v = to->v,
+                     .a = to->a};
+    relate(s, from, h, &r);
+    drive_at(m, from->state, time, s->inc, to->v, to->a);
+    kinematics_state_copy(m, from->state, to->state);
+    TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
+    for (int i = 0; i < s->stage.all; i++)
+        to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);
+    to->time = time;
+    *error = error_of(s, from, to, h);
+    return STATUS_OK;
+}
+
+static void release(scheme *base)
+{
+    alpha *s = (alpha *)base;
+    stage_free(&s->stage);
+    free(s->a0);
+    free(s);
+}
+
+status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
+{
+    const model_size size = model_sizes(request->c->model);
+    const size_t n = (size_t)(size.free + size.driven) + 1;
+    const scene_alpha *how = &request->how->alpha;
+    const double gamma = 0.5 + how->force - how->mass, half = (gamma + 0.5) / 2;
+    alpha *s = calloc(1, sizeof *s);
+    *out = NULL;
+    if (s == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    *out = &s->base;
+    *s = (alpha){.base = {.order = 3, .step = step, .free = release},
+                 .mass = how->mass,
+                 .force = how->force,
+                 .gamma = gamma,
+                 .beta = half * half,
+                 .a0 = calloc(4 * n, sizeof(double))};
+    if (s->a0 == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    s->v0 = s->a0 + n;
+    s->inc = s->v0 + n;
+    s->weight = s->inc + n;
+    metric_of(request->c->model, s->weight);
+    return stage_alloc(request->c, request->masses, &s->stage, f);
+}

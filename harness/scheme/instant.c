@@ -1,0 +1,42 @@
+#include "harness/scheme/instant.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/kinematics.h"
+
+static size_t coordinates_of(const model *m)
+{
+    const model_size size = model_sizes(m);
+    return (size_t)size.free + (size_t)size.driven;
+}
+
+status instant_alloc(const model *m, instant *out, fault *f)
+{
+    const size_t n = coordinates_of(m) + 1;
+    memset(out, 0, sizeof *out);
+    out->v = calloc(n, sizeof *out->v);
+    out->a = calloc(n, sizeof *out->a);
+    out->algorithm = calloc(n, sizeof *out->algorithm);
+    if (out->v == NULL || out->a == NULL || out->algorithm == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
+    return kinematics_state_alloc(m, &out->state, f);
+}
+
+void instant_free(instant *i)
+{
+    free(i->v);
+    free(i->a);
+    free(i->algorithm);
+    kinematics_state_free(i->state);
+}
+
+void instant_copy(const model *m, const instant *from, instant *to)
+{
+    const size_t bytes = coordinates_of(m) * sizeof *from->v;
+    to->time = from->time;
+    memcpy(to->v, from->v, bytes);
+    memcpy(to->a, from->a, bytes);
+    memcpy(to->algorithm, from->algorithm, bytes);
+    kinematics_state_copy(m, from->state, to->state);
+}

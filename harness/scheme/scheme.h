@@ -1,0 +1,26 @@
+/* What all integrators of motions are: one step from an instant to another. */
+#ifndef BEAMWORK_SCHEME_H
+#define BEAMWORK_SCHEME_H
+
+#include "harness/inertia/carried.h"
+#include "harness/scheme/instant.h"
+#include "harness/solver/context.h"
+
+typedef struct scheme_request {
+    analysis_context *c;
+    const carried *masses;
+    const scene_motion *how;
+    int estimate; /* 1: the error of each step is wanted */
+} scheme_request;
+
+typedef struct scheme scheme;
+struct scheme {
+    int order; /* of the error of one step that is estimated, in its size */
+    /* One step of h [s]; *error: estimate of what it adds to positions, in the measure of
+     * metric.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
+    status (*step)(scheme *, const instant *from, double h, instant *to, double *error,
+                   step_record *, fault *);
+    void (*free)(scheme *);
+};
+
+#endif

@@ -1,0 +1,124 @@
+#include "harness/scheme/stage.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/equations/advance.h"
+#include "harness/equations/linearise.h"
+#include "harness/inertia/increment.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/scheme/kinks.h"
+#include "harness/solver/history.h"
+
+enum { MAX_ITERATIONS = 20 };
+
+status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const sparse *pattern;
+    const size_t all = (size_t)(size.free + size.driven) + 1;
+    memset(s, 0, sizeof *s);
+    s->c = c;
+    s->masses = masses;
+    s->free = size.free;
+    s->all = size.free + size.driven;
+    s->max_iterations =
+        c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
+    arrival_start(c->options->criterion, model_leaves(c->model) != 0, size.elements, &s->arrival);
+    s->residual = calloc(all, sizeof *s->residual);
+    s->dx = calloc(all, sizeof *s->dx);
+    if (s->residual == NULL || s->dx == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &s->S, f));
+    return factor_alloc(pattern, &s->factor, f);
+}
+
+void stage_free(stage *s)
+{
+    free(s->residual);
+    free(s->dx);
+    sparse_free_values(&s->S);
+    factor_free(s->factor);
+}
+
+static void rates_of(const stage *s, stage_rates *r)
+{
+    for (int i = 0; i < s->free; i++) {
+        r->v[i] = r->v0[i] + r->g * r->inc[i];
+        r->a[i] = r->a0[i] + r->b * r->inc[i];
+    }
+}
+
+/* dx, from the equations of the present state. */
+static status direction(stage *s, double time, const stage_rates *r, const model_state *now,
+                        step_record *record, fault *f)
+{
+    model *m = s->c->model;
+    counters *count = model_counters(m);
+    model_linearisation lin = {.path = kinks_before(m, time), .K = &s->S, .residual = s->residual};
+    const inertia_relation with = {r->b, r->g, r->inc};
+    if (s->c->options->newton == SOLVE_DISPLACEMENT)
+        TRY(linearise_make_compatible(m, (model_state *)now, f));
+    TRY(linearise_state(m, now, &lin, f));
+    inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
+    inertia_add_tangent(m, s->masses, now, r->v, r->a, &with, &s->S);
+    TRY(context_factor(s->c, s->factor, &s->S, f));
+    memcpy(s->dx, s->residual, (size_t)s->free * sizeof *s->dx);
+    memset(s->dx + s->free, 0, (size_t)(s->all - s->free) * sizeof *s->dx);
+    factor_solve(s->factor, s->dx);
+    const factor_counts counts = factor_count(s->factor);
+    count->factorisations += counts.factorisations - s->counted;
+    s->counted = counts.factorisations;
+    count->solutions++;
+    count->factor_entries = counts.entries;
+    count->factor_flops += counts.flops;
+    record->incompatibility = lin.incompatibility;
+    return STATUS_OK;
+}
+
+static status judge(const stage *s, double time, double correction, double before, int iteration,
+                    int *done, fault *f)
+{
+    const double wild = 4;
+    *done = arrival_reached(&s->arrival);
+    if (*done)
+        return STATUS_OK;
+    if (!isfinite(correction) || correction > 4 * wild || (iteration > 3 && correction > wild) ||
+        (iteration > 4 && correction > before && correction > 1e-6))
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "Newton diverged at %g s: correction %.1e in iteration %d", time,
+                         correction, iteration);
+    if (iteration == s->max_iterations)
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "Newton did not converge in %d iterations at %g s: correction %.1e",
+                         iteration, time, correction);
+    return STATUS_OK;
+}
+
+status stage_solve(stage *s, const model_state *from, double time, stage_rates *r, model_state *now,
+                   step_record *record, fault *f)
+{
+    model *m = s->c->model;
+    double before = INFINITY;
+    increment_apply(m, from, r->inc, time, now);
+    rates_of(s, r);
+    for (int iteration = 1, done = 0; !done; iteration++) {
+        advance_stress stress;
+        TRY(direction(s, time, r, now, record, f));
+        increment_add(m, now, s->dx, r->inc);
+        const double correction = advance_state(m, now, s->dx, time, &stress);
+        rates_of(s, r);
+        model_counters(m)->iterations++;
+        arrival_take(correction, &stress, iteration == 1, &s->arrival);
+        const iteration_record one = {.correction = correction,
+                                      .incompatibility = record->incompatibility};
+        record->remaining = s->arrival.remaining;
+        TRY(history_add_iteration(s->c->result, record, &one, NAN, f));
+        TRY(judge(s, time, correction, before, iteration, &done, f));
+        before = correction;
+    }
+    return STATUS_OK;
+}

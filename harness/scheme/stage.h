@@ -1,0 +1,38 @@
+/* One instant of a motion, found by mixed Newton (N section 4) from the instant before: equilibrium
+ * with the forces of inertia of rates that follow the increment,
+ *   v = v0 + g inc,   a = a0 + b inc.
+ * Elements keep strains and stresses as unknowns, so that stiff ones cost no iterations. */
+#ifndef BEAMWORK_STAGE_H
+#define BEAMWORK_STAGE_H
+
+#include "harness/inertia/carried.h"
+#include "harness/inertia/inertia.h"
+#include "harness/solver/arrival.h"
+#include "harness/solver/context.h"
+
+typedef struct stage {
+    analysis_context *c;
+    const carried *masses;
+    sparse S;
+    factor *factor;
+    double *residual, *dx; /* [free + driven] */
+    arrival arrival;
+    int max_iterations, all, free;
+    long counted;
+} stage;
+
+status stage_alloc(analysis_context *, const carried *, stage *, fault *);
+void stage_free(stage *);
+
+/* All arrays [free + driven]. */
+typedef struct stage_rates {
+    double b, g;
+    const double *a0, *v0;
+    double *inc, *v, *a; /* in: inc is the guess, all of the driven coordinates are right */
+} stage_rates;
+/* `now` has the strains and stresses of `from`, or better ones, and comes to the state at `time`.
+ * NOT_CONVERGED: why; then `now` is of no use. */
+status stage_solve(stage *, const model_state *from, double time, stage_rates *, model_state *now,
+                   step_record *, fault *);
+
+#endif
