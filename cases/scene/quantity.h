@@ -101,12 +101,13 @@ typedef struct scene_stress {
 
 /* Of a whole motion. */
 typedef enum scene_balance {
-    SCENE_KINETIC, /* [J] */
-    SCENE_STRAIN,  /* stored in members and springs [J] */
-    SCENE_ENERGY,  /* both */
-    SCENE_WORK,    /* of loads and of what is driven, since the begin */
-    SCENE_DRIFT,   /* energy less that of the begin and the work */
-    SCENE_PX,      /* momentum [kg m/s] */
+    SCENE_KINETIC,    /* [J] */
+    SCENE_STRAIN,     /* stored in members and springs [J] */
+    SCENE_ENERGY,     /* both */
+    SCENE_WORK,       /* of loads and of what is driven, since the begin */
+    SCENE_DISSIPATED, /* by damping, since the begin */
+    SCENE_DRIFT,      /* energy and what was dissipated, less energy of the begin and work */
+    SCENE_PX,         /* momentum [kg m/s] */
     SCENE_PY,
     SCENE_PZ,
     SCENE_LX, /* angular momentum about the origin [kg m^2/s] */
@@ -114,7 +115,7 @@ typedef enum scene_balance {
     SCENE_LZ,
     SCENE_BALANCES
 } scene_balance;
-#define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|drift|px|py|pz|lx|ly|lz"
+#define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
 
 /* Of a node as seen from another that carries it along: how its place has moved in the axes of
  * that, and its turn against it. */

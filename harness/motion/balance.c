@@ -31,7 +31,7 @@ status balance_of(model *m, const carried *masses, const instant *at, double out
     TRY(stored(m, at->state, &out[SCENE_STRAIN], f));
     out[SCENE_KINETIC] = moving.kinetic;
     out[SCENE_ENERGY] = out[SCENE_KINETIC] + out[SCENE_STRAIN];
-    out[SCENE_WORK] = out[SCENE_DRIFT] = NAN;
+    out[SCENE_WORK] = out[SCENE_DISSIPATED] = out[SCENE_DRIFT] = NAN;
     for (int i = 0; i < 3; i++) {
         out[SCENE_PX + i] = moving.momentum[i];
         out[SCENE_LX + i] = moving.angular[i];

@@ -5,7 +5,7 @@
 #include "harness/inertia/carried.h"
 #include "harness/scheme/instant.h"
 
-/* out[SCENE_BALANCES]; work and drift: NAN. */
+/* out[SCENE_BALANCES]; work, dissipated and drift: NAN. */
 status balance_of(model *, const carried *, const instant *, double out[SCENE_BALANCES], fault *);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/memory.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/balance.h"
@@ -27,14 +28,29 @@ typedef struct motion {
     scheme *scheme;
     instant now, next;
     double h, least; /* [s] next step; the shortest */
+    outcome_motion *out;
+    double balance[SCENE_BALANCES]; /* at `now` */
 } motion;
 
-static status keep_step(motion *w, const step_record *record, fault *f)
+/* The present instant, where a step has ended, becomes one of the records. */
+static status record_step(motion *w, const step_record *record, double error, fault *f)
+{
+    outcome_step one = {.time = w->now.time,
+                        .step = record->increment,
+                        .error = error,
+                        .iterations = record->iterations,
+                        .rejected = record->rejected};
+    TRY(balance_of(w->c->model, &w->masses, &w->now, w->balance, f));
+    memcpy(one.balance, w->balance, sizeof one.balance);
+    return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
+}
+
+static status keep_step(motion *w, const step_record *record, double error, fault *f)
 {
     TRY(history_add_step(w->c->result, record, f));
     model_counters(w->c->model)->steps++;
     instant_copy(w->c->model, &w->next, &w->now);
-    return STATUS_OK;
+    return record_step(w, record, error, f);
 }
 
 /* 1: its error allows the step; the next one has the length that this one should have had. */
@@ -64,7 +80,7 @@ static status take_step(motion *w, double target, fault *f)
             if (step < whole && w->how->tolerance > 0)
                 w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
             w->next.time = record.path;
-            return keep_step(w, &record, f);
+            return keep_step(w, &record, error, f);
         }
         history_drop_step(w->c->result, &record);
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED)
@@ -82,8 +98,9 @@ static status take_step(motion *w, double target, fault *f)
 }
 
 /* The present instant becomes a station. */
-static status keep(motion *w, outcome_motion *o, double time, fault *f)
+static status keep(motion *w, double time, fault *f)
 {
+    outcome_motion *o = w->out;
     const model *m = w->c->model;
     const size_t bytes = (size_t)(model_sizes(m).free + model_sizes(m).driven + 1) * sizeof(double);
     outcome_instant *to = &o->instant[o->path.reached];
@@ -91,11 +108,11 @@ static status keep(motion *w, outcome_motion *o, double time, fault *f)
     if (to->rate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
     memcpy(to->rate, w->now.v, bytes);
-    TRY(balance_of(w->c->model, &w->masses, &w->now, to->balance, f));
+    memcpy(to->balance, w->balance, sizeof to->balance);
     return outcome_keep(&o->path, m, w->now.state, 1, time, f);
 }
 
-static status integrate(motion *w, outcome_motion *o, fault *f)
+static status integrate(motion *w, fault *f)
 {
     w->h = w->how->step;
     w->least = w->how->step / (1 << MAX_HALVINGS);
@@ -107,7 +124,7 @@ static status integrate(motion *w, outcome_motion *o, fault *f)
             if (w->now.time == kink)
                 TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
         }
-        TRY(keep(w, o, target, f));
+        TRY(keep(w, target, f));
     }
     return STATUS_OK;
 }
@@ -127,8 +144,10 @@ static status begin(motion *w, fault *f)
     return STATUS_OK;
 }
 
-static status solve(motion *w, outcome_motion *o, fault *f)
+static status solve(motion *w, fault *f)
 {
+    outcome_motion *o = w->out;
+    const step_record start = {.increment = 0};
     const model *m = w->c->model;
     TRY(forms_check(m, f));
     TRY(drive_check(m, f));
@@ -144,7 +163,8 @@ static status solve(motion *w, outcome_motion *o, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     TRY(begin(w, f));
     TRY(launch(w->c, &w->masses, w->how, &w->now, &w->next, f));
-    return integrate(w, o, f);
+    TRY(record_step(w, &start, 0, f));
+    return integrate(w, f);
 }
 
 status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -154,8 +174,9 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     w.c = c;
     w.how = scene_motion_of(&c->scene->analysis[analysis]);
     w.follows = c->scene->analysis[analysis].follows;
+    w.out = outcome_motion_in(o);
     c->model->in_time = 1;
-    const status result = solve(&w, outcome_motion_in(o), f);
+    const status result = solve(&w, f);
     c->model->in_time = 0;
     instant_free(&w.now);
     instant_free(&w.next);

@@ -168,7 +168,7 @@ static scene_extract relative(const fields *f)
 static scene_extract energy(const fields *f)
 {
     return scene_balance_of(
-        (scene_balance)fields_word(f, "of", "kinetic|strain|energy|work|drift", 0));
+        (scene_balance)fields_word(f, "of", "kinetic|strain|energy|work|dissipated|drift", 0));
 }
 
 static scene_extract momentum(const fields *f)

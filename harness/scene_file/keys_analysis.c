@@ -171,11 +171,11 @@ static const scene_key orientation[] = {
     {"column", KEY_WORD, .needed = 1, .words = "x|y|z", .summary = "of it"},
     {.name = NULL}};
 
-static const scene_key energy[] = {TAKEN,
-                                   {"of", KEY_WORD, .needed = 1,
-                                    .words = "kinetic|strain|energy|work|drift",
-                                    .summary = "drift: energy less that of the begin and the work"},
-                                   {.name = NULL}};
+static const scene_key energy[] = {
+    TAKEN,
+    {"of", KEY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
+     .summary = "drift: energy and what was dissipated, less energy of the begin and work"},
+    {.name = NULL}};
 
 static const scene_key momentum[] = {TAKEN,
                                      {"component", KEY_WORD, .needed = 1,

@@ -239,8 +239,9 @@ static void write_extract(writer *w, const scene_quantity *q)
                 "xyz"[scene_orientation_of(q)->row], "xyz"[scene_orientation_of(q)->column]);
         break;
     case SCENE_BALANCE: {
-        static const char *const part[] = {"kinetic", "strain", "energy", "work", "drift", "px",
-                                           "py",      "pz",     "lx",     "ly",   "lz"};
+        static const char *const part[] = {"kinetic",    "strain", "energy", "work",
+                                           "dissipated", "drift",  "px",     "py",
+                                           "pz",         "lx",     "ly",     "lz"};
         fprintf(w->to, ", %s: %s", scene_balance_in(q) < SCENE_PX ? "of" : "component",
                 part[scene_balance_in(q)]);
         break;

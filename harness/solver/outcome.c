@@ -138,6 +138,7 @@ void outcome_free(analysis_outcome *o)
         for (int i = 0; o->left.motion.instant != NULL && i < o->left.motion.path.stations; i++)
             free(o->left.motion.instant[i].rate);
         free(o->left.motion.instant);
+        free(o->left.motion.step);
         free_path(&o->left.motion.path);
         break;
     case SCENE_STATIC:

@@ -61,9 +61,20 @@ typedef struct outcome_instant {
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
+/* Of a motion where a step ended that was accepted; the first one: of the begin. */
+typedef struct outcome_step {
+    double time, step;        /* [s] its end and length; of the begin 0 */
+    double error;             /* estimate of what it adds to positions, in the measure of metric.h;
+                                 0: it was not asked for */
+    int iterations, rejected; /* rejected: longer ones that were tried before it */
+    double balance[SCENE_BALANCES];
+} outcome_step;
+
 typedef struct outcome_motion {
     outcome_path path;
     outcome_instant *instant; /* [stations] */
+    int steps;                /* with the begin */
+    outcome_step *step;       /* [steps] */
 } outcome_motion;
 
 typedef struct outcome_continuation {
