@@ -80,7 +80,8 @@ def write(site, said):
     site.write("sweep.html", said["page"], **said, validity=validity, data=data,
                winners=figures.Winners(sweep, found, validity.axes),
                curves=curves_of(site, sweep, found),
-               worst=worst_rows(sweep), references=references, limits=any(
+               worst=worst_rows(sweep), references=references,
+               proven=answers.proven(references), limits=any(
                    kind.startswith("limit") for _, kinds, *_ in references for kind in kinds),
                outcomes=answers.outcomes(sweep, found),
                crowded=bool((found.points > 1).any()) and validity.dots is None)

@@ -2,7 +2,15 @@
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/tables/paragraph.h"
 
-static void write_place(FILE *to, const tally_place *p)
+/* Errors against truths beside such against limits: only the first show what a theory leaves out.
+ */
+static int is_mixed(const tally *t, int which, int q)
+{
+    const tally_series *s = tally_of(t, which, q);
+    return s->proven > 0 && s->proven < s->asked;
+}
+
+static void write_place(FILE *to, const tally_place *p, int mixed)
 {
     char text[24];
     if (p->points == 0)
@@ -10,9 +18,10 @@ static void write_place(FILE *to, const tally_place *p)
     else if (p->asked == 0)
         snprintf(text, sizeof text, "?");
     else if (p->never > 0)
-        snprintf(text, sizeof text, "-");
+        snprintf(text, sizeof text, "-%s", mixed && p->proven > 0 ? "*" : "");
     else
-        snprintf(text, sizeof text, "%d", p->least);
+        snprintf(text, sizeof text, "%d%s%s", p->least, mixed && p->proven > 0 ? "*" : "",
+                 p->asked < p->points ? "?" : "");
     fprintf(to, "%*s", RANGES_TABLE_COLUMN, text);
 }
 
@@ -42,7 +51,7 @@ static void write_fields(FILE *to, const tally *t, const char *label, int which,
 {
     fprintf(to, "  %-*.*s", RANGES_TABLE_NAME, RANGES_TABLE_NAME, label);
     for (int i = 0; i < t->columns; i++)
-        write_place(to, tally_at(t, which, q, at, i));
+        write_place(to, tally_at(t, which, q, at, i), is_mixed(t, which, q));
     fputc('\n', to);
 }
 
@@ -70,13 +79,24 @@ static void write_maps_of(FILE *to, const tally *t, int q)
     }
 }
 
-/* Is a field without a reference? */
-static int has_unknown(const tally *t)
+static int has_mixed(const tally *t)
+{
+    int mixed = 0;
+    for (int i = 0; i < t->of->formulations; i++)
+        for (int q = 0; q <= t->of->quantities; q++)
+            mixed |= is_mixed(t, i, q);
+    return mixed;
+}
+
+/* Is a field without a reference? parts: has it points with and points without? */
+static int has_unknown(const tally *t, int parts)
 {
     const ranges *r = t->of;
     int unknown = 0;
-    for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++)
-        unknown |= t->map[i].points > 0 && t->map[i].asked == 0;
+    for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++) {
+        const tally_place *p = &t->map[i];
+        unknown |= p->asked < p->points && (parts ? p->asked > 0 : p->asked == 0);
+    }
     return unknown;
 }
 
@@ -100,9 +120,13 @@ void ranges_table_map(FILE *to, const tally *t, int every)
     }
     fprintf(to, "\n");
     paragraph_say(to, fprintf(to, "least n "), 2,
-                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s",
+                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s%s%s",
                   100 * r->request.tolerance, r->mesh[r->meshes - 1],
-                  has_unknown(t) ? "; ?: without a reference" : "",
+                  has_unknown(t, 0) ? "; ?: without a reference" : "",
+                  has_unknown(t, 1) ? "; a number with ?: some of its points are without" : "",
+                  has_mixed(t) ? "; *: against a truth, elsewhere against limits of meshes, which "
+                                 "do not show what a theory leaves out"
+                               : "",
                   is_coarse(t) ? "; a field holds what all its points need, and begins where its "
                                  "column and line say"
                                : "");

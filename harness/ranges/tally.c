@@ -102,9 +102,10 @@ static int place_of(const tally *t, int axis_index, double value)
 
 /* One formulation and quantity at one point. */
 typedef struct seen {
-    int asked; /* 0: nothing to measure by */
-    int open;  /* 1: there is a value all the same */
-    int least; /* 0: never */
+    int asked;  /* 0: nothing to measure by */
+    int proven; /* 1: by a truth */
+    int open;   /* 1: there is a value all the same */
+    int least;  /* 0: never */
     char within[SERIES_MAX_MESHES];
 } seen;
 
@@ -122,6 +123,7 @@ static seen look_at(const tally *t, const rows *w, int here, int which, int quan
         s.within[k] = fabs(w->error[at]) <= t->of->request.tolerance;
     }
     s.asked &= !s.open;
+    s.proven = s.asked && (kind == ROWS_STORED || kind == ROWS_DERIVED);
     return s;
 }
 
@@ -133,6 +135,7 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
     if (!s->asked)
         return;
     to->asked++;
+    to->proven += s->proven;
     for (int k = 0; k < t->of->meshes; k++)
         to->within[k] += s->within[k];
     to->never += s->least == 0;
@@ -140,16 +143,18 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
     if (place == NULL)
         return;
     place->asked++;
+    place->proven += s->proven;
     place->never += s->least == 0;
     place->least = s->least > place->least ? s->least : place->least;
 }
 
 static void join(const tally *t, seen *all, const seen *one)
 {
-    const int open = all->open | one->open;
+    const int open = all->open | one->open, proven = all->proven | one->proven;
     if (one->asked && !all->asked)
         *all = *one;
     all->open = open;
+    all->proven = proven;
     if (!one->asked)
         return;
     for (int k = 0; k < t->of->meshes; k++)
@@ -164,6 +169,7 @@ static void close(seen *all)
     if (!all->open)
         return;
     all->asked &= all->least == 0;
+    all->proven &= all->asked;
     memset(all->within, 0, sizeof all->within);
 }
 

@@ -20,6 +20,7 @@ typedef struct tally_worst {
  * is asked only where another is never within; else nobody knows. */
 typedef struct tally_series {
     long asked;                     /* points with a reference */
+    long proven;                    /* of them measured by a truth */
     long open;                      /* points with a value and nothing to measure it by */
     long within[SERIES_MAX_MESHES]; /* of them, with each mesh */
     long never;                     /* of them, not with all meshes from some on */
@@ -29,7 +30,8 @@ typedef struct tally_series {
 /* A place of the map. */
 typedef struct tally_place {
     long points, asked, never;
-    int least; /* elements from which on all points here are within */
+    long proven; /* of those asked: measured by a truth, not by limits of meshes alone */
+    int least;   /* elements from which on all points here are within */
 } tally_place;
 
 typedef struct tally {

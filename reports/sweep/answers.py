@@ -199,6 +199,17 @@ def outcomes(sweep, found):
     return sorted(out, key=lambda row: -row[2])
 
 
+def proven(rows):
+    """(quantities, most of their points that are measured by truths) where others of their points
+    are measured by limits only; rows: as of references."""
+    mixed = []
+    for quantity, kinds, *_ in rows:
+        truths = sum(n for kind, n in kinds.items() if kind.startswith("truth"))
+        if 0 < truths < sum(kinds.values()):
+            mixed.append((quantity.name, truths))
+    return [name for name, _ in mixed], max((n for _, n in mixed), default=0)
+
+
 def references(sweep, found):
     """[(quantity, {kind: points}, largest doubt, doubtful points, points without, Box of these)]"""
     rows = []

@@ -126,6 +126,14 @@ class Pages(ProgramTest):
             self.assertIn("No point has anything to measure by", said)
             self.assertNotIn("Who is cheapest", said)
 
+    def test_truths_here_limits_there(self):
+        said, axes = "elsewhere against limits of meshes", (WIDTH, ANGLE)
+        truth, limit = 0, 2
+        for kind, found in ((lambda at: np.where(at[:, 0] < 0.5, truth, limit), self.assertIn),
+                            (lambda at: np.full(len(at), limit), self.assertNotIn),
+                            (lambda at: np.full(len(at), truth), self.assertNotIn)):
+            found(said, text_of(self.page(axes, kind=kind)))
+
     def test_one_point(self):
         """And one formulation, one mesh."""
         axes = (("width", "m", "list", (2.5,)), ("shape", "1", "words", ("C",)))
