@@ -1,6 +1,7 @@
 #include "harness/motion/integrator.h"
 
 #include "harness/conserving/conserving.h"
+#include "harness/explicit/explicit.h"
 #include "harness/radau/radau.h"
 #include "harness/scheme/alpha.h"
 
@@ -15,6 +16,7 @@ status integrator_alloc(const scheme_request *r, scheme **out, fault *f)
     case SCENE_CONSERVING:
         return conserving_alloc(r, out, f);
     case SCENE_EXPLICIT:
+        return explicit_alloc(r, out, f);
     case SCENE_SCHEMES:
         break;
     }
