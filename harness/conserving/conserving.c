@@ -179,6 +179,26 @@ static status iterate(conserving *s, const instant *from, double h, instant *to,
     }
 }
 
+/* The forces of the step along it: what its energy gains to the last digit. */
+static status add_work(conserving *s, const instant *from, double h, instant *to, fault *f)
+{
+    const size_t bytes = (size_t)s->all * sizeof *s->residual;
+    double gap = 0;
+    to->work = from->work;
+    to->dissipated = from->dissipated;
+    memset(s->residual, 0, bytes);
+    if (s->all > s->free) {
+        sparse_zero(&s->S);
+        TRY(conserving_elements(s, from, to->state, &gap, f));
+        conserving_inertia(s, from, to->state, h);
+        to->work -= dense_dot(s->all - s->free, s->residual + s->free, s->step + s->free);
+        memset(s->residual, 0, bytes);
+    }
+    add_loads(s, from, to->state, h);
+    to->work += dense_dot(s->free, s->residual, s->step);
+    return STATUS_OK;
+}
+
 static status step(scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
@@ -196,6 +216,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     conserving_rates(s, from, h, to);
     drive_at(m, from->state, record->path, NULL, to->v, to->a);
     to->time = record->path;
+    TRY(add_work(s, from, h, to, f));
     double square = 0; /* of the trapezoidal rule: h^2/12 (a1 - a) */
     for (int c = 0; c < s->free; c++) {
         const double one = h * h / 12 * (to->a[c] - from->a[c]);

@@ -1,4 +1,4 @@
-/* Forces that the elements around a node put on it. */
+/* Forces of some of the elements: on a node, on coordinates. */
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -34,4 +34,26 @@ void linearise_node_force(model *m, const model_state *s, int node, double F[6])
         }
     }
     discrete_node_force(m, s, node, F);
+}
+
+void linearise_add_internal(model *m, const model_state *s, int elements, const int element[],
+                            double out[])
+{
+    for (int k = 0; k < elements; k++) {
+        const mesh_element *el = &m->element[element[k]];
+        node_state x[ELEMENT_MAX_NODES];
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, el, x);
+        m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                &s->sigma[(size_t)element[k] * (size_t)m->strains], force);
+        eliminate_forces(m, s, el, force);
+        assemble_vector(el, force, out);
+    }
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        double force[MODEL_MAX_COORDINATES] = {0},
+               K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+        if (discrete_equations(m, s, &m->discrete[i], s->path, force, K, NULL) == STATUS_OK)
+            assemble_vector(&m->discrete[i].el, force, out);
+    }
 }

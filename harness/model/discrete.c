@@ -195,6 +195,17 @@ double discrete_energy2(const model *m, const model_state *s, double path, const
     return sum;
 }
 
+double discrete_stored(const model *m, const model_state *s)
+{
+    double sum = 0;
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        spring_state p;
+        spring_at(m, s, &m->discrete[i], &p);
+        sum += dense_dot(SPRING_STRAINS, p.e, p.sigma) / 2;
+    }
+    return sum;
+}
+
 void discrete_node_force(const model *m, const model_state *s, int node, double F[6])
 {
     for (int i = 0; i < m->discretes; i++) {

@@ -1,9 +1,7 @@
 #include "harness/motion/balance.h"
 
-#include <math.h>
-
 #include "harness/inertia/inertia.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/discrete.h"
 
 static status stored(model *m, const model_state *s, double *out, fault *f)
 {
@@ -20,6 +18,7 @@ static status stored(model *m, const model_state *s, double *out, fault *f)
                              m->type->name);
         *out += energy;
     }
+    *out += discrete_stored(m, s);
     return STATUS_OK;
 }
 
@@ -31,7 +30,9 @@ status balance_of(model *m, const carried *masses, const instant *at, double out
     TRY(stored(m, at->state, &out[SCENE_STRAIN], f));
     out[SCENE_KINETIC] = moving.kinetic;
     out[SCENE_ENERGY] = out[SCENE_KINETIC] + out[SCENE_STRAIN];
-    out[SCENE_WORK] = out[SCENE_DISSIPATED] = out[SCENE_DRIFT] = NAN;
+    out[SCENE_WORK] = at->work;
+    out[SCENE_DISSIPATED] = at->dissipated;
+    out[SCENE_DRIFT] = out[SCENE_ENERGY] + at->dissipated - at->work;
     for (int i = 0; i < 3; i++) {
         out[SCENE_PX + i] = moving.momentum[i];
         out[SCENE_LX + i] = moving.angular[i];

@@ -5,7 +5,7 @@
 #include "harness/inertia/carried.h"
 #include "harness/scheme/instant.h"
 
-/* out[SCENE_BALANCES]; work, dissipated and drift: NAN. */
+/* out[SCENE_BALANCES]; of the drift the energy of the begin is not yet taken off. */
 status balance_of(model *, const carried *, const instant *, double out[SCENE_BALANCES], fault *);
 
 #endif

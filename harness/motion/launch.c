@@ -3,6 +3,7 @@
  * by next to nothing. */
 #include "harness/motion/launch.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,10 +11,11 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/scheme/drive.h"
+#include "harness/scheme/massless.h"
 #include "harness/solver/history.h"
 
 /* Of the square of a step: how far positions give way. */
-static const double softness = 1e-8;
+static const double softness = 1e-12;
 
 static void start_vertex(const model *m, const model_state *s, int index, const scene_start *start,
                          double v[])
@@ -37,8 +39,23 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
     }
 }
 
-static status settle(stage *s, double h, instant *now, instant *room, double *inc, double *zero,
-                     fault *f)
+/* What is driven begins where the state has it. */
+static status check_drivers(const model *m, const double inc[], fault *f)
+{
+    const double nothing = 1e-9;
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const int c = m->driver_coordinate[d];
+        if (c >= m->free && fabs(inc[c]) > nothing * (1 + m->size))
+            return fault_set(f, STATUS_REFUSED,
+                             "driver %s begins %g away from where the state has it: let its value "
+                             "at 0 s be that of the state",
+                             m->scene->driver[d].name, inc[c]);
+    }
+    return STATUS_OK;
+}
+
+static status settle(stage *s, int massless, double h, instant *now, instant *room, double *inc,
+                     double *zero, fault *f)
 {
     model *m = s->c->model;
     stage_rates r = {.b = 1 / (softness * h * h),
@@ -51,8 +68,11 @@ static status settle(stage *s, double h, instant *now, instant *room, double *in
     step_record record = {.path = now->time};
     instant_copy(m, now, room);
     drive_at(m, now->state, now->time, inc, room->v, room->a);
+    TRY(check_drivers(m, inc, f));
     TRY(stage_solve(s, now->state, now->time, &r, room->state, &record, f));
     history_drop_step(s->c->result, &record);
+    if (massless == 0) /* nothing moves but by what was given way */
+        kinematics_state_copy(m, now->state, room->state);
     memcpy(room->algorithm, room->a, (size_t)s->all * sizeof *room->a);
     instant_copy(m, room, now);
     return STATUS_OK;
@@ -66,7 +86,8 @@ status launch_again(analysis_context *c, const carried *masses, const scene_moti
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
     drive_at(c->model, now->state, now->time, NULL, now->v, now->a);
     const status outcome = inc != NULL
-                               ? settle(&s, how->step, now, room, inc, inc + s.all + 1, f)
+                               ? settle(&s, massless_count(c->model, masses, now->state), how->step,
+                                        now, room, inc, inc + s.all + 1, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     free(inc);
     stage_free(&s);

@@ -12,6 +12,7 @@
 #include "harness/motion/launch.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
+#include "harness/scheme/massless.h"
 #include "harness/solver/history.h"
 
 enum { MAX_HALVINGS = 12 };
@@ -25,6 +26,7 @@ typedef struct motion {
     const scene_motion *how;
     int follows;
     carried masses;
+    work work;
     scheme *scheme;
     instant now, next;
     double h, least; /* [s] next step; the shortest */
@@ -41,6 +43,8 @@ static status record_step(motion *w, const step_record *record, double error, fa
                         .iterations = record->iterations,
                         .rejected = record->rejected};
     TRY(balance_of(w->c->model, &w->masses, &w->now, w->balance, f));
+    const double *begin = w->out->steps > 0 ? w->out->step[0].balance : w->balance;
+    w->balance[SCENE_DRIFT] -= begin[SCENE_ENERGY];
     memcpy(one.balance, w->balance, sizeof one.balance);
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
@@ -144,6 +148,20 @@ static status begin(motion *w, fault *f)
     return STATUS_OK;
 }
 
+/* Without numerical damping accelerations of what has no inertia grow until they overflow. */
+static status check_massless(const motion *w, fault *f)
+{
+    const scene_alpha *how = &w->how->alpha;
+    const int massless = massless_count(w->c->model, &w->masses, w->now.state);
+    if (massless == 0 || w->how->scheme != SCENE_ALPHA || how->force > how->mass)
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "%d coordinates have no inertia: their accelerations would grow by the "
+                     "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
+                     "sections rotary inertia",
+                     massless);
+}
+
 static status solve(motion *w, fault *f)
 {
     outcome_motion *o = w->out;
@@ -153,7 +171,8 @@ static status solve(motion *w, fault *f)
     TRY(drive_check(m, f));
     TRY(kinks_check(m, w->how->path.value[w->how->path.stations - 1], f));
     TRY(carried_alloc(m, &w->masses, f));
-    const scheme_request request = {w->c, &w->masses, w->how, w->how->tolerance > 0};
+    TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
+    const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     TRY(integrator_alloc(&request, &w->scheme, f));
     TRY(instant_alloc(m, &w->now, f));
     TRY(instant_alloc(m, &w->next, f));
@@ -162,6 +181,7 @@ static status solve(motion *w, fault *f)
     if (o->instant == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     TRY(begin(w, f));
+    TRY(check_massless(w, f));
     TRY(launch(w->c, &w->masses, w->how, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
     return integrate(w, f);
@@ -182,5 +202,6 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     instant_free(&w.next);
     integrator_free(w.scheme);
     carried_free(&w.masses);
+    work_free(&w.work);
     return result;
 }

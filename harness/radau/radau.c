@@ -11,6 +11,7 @@
 #include "harness/model/metric.h"
 #include "harness/radau/radau_impl.h"
 #include "harness/scheme/drive.h"
+#include "harness/scheme/kinks.h"
 #include "harness/solver/history.h"
 
 enum { MAX_ITERATIONS = 15 };
@@ -77,6 +78,18 @@ static status iterate(radau *r, const instant *from, double h, step_record *reco
     }
 }
 
+/* The power of the stages by the quadrature of the scheme. */
+static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
+{
+    double sum = 0;
+    for (int i = 0; i < STAGES; i++) {
+        const radau_stage *one = &r->stage[i];
+        const double time = kinks_before(r->of.c->model, radau_time(r, from, h, i, record));
+        sum += h * r->weights[i] * work_power(r->of.work, one->state, one->v, one->a, time, one->v);
+    }
+    return sum;
+}
+
 static status solve(radau *r, const instant *from, double h, instant *to, double *error,
                     step_record *record, fault *f)
 {
@@ -101,6 +114,8 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     memcpy(to->a, last->a, bytes);
     memcpy(to->algorithm, last->a, bytes);
     to->time = record->path;
+    to->work = from->work + work_of_stages(r, from, h, record);
+    to->dissipated = from->dissipated;
     return STATUS_OK;
 }
 

@@ -21,6 +21,7 @@ void radau_coefficients(radau *r)
     double LU[9];
     int pivot[STAGES];
     memcpy(LU, A, sizeof LU);
+    memcpy(r->weights, &A[6], sizeof r->weights);
     for (int i = 0; i < 9; i++)
         r->B[i] = i % 4 == 0;
     dense_lu(STAGES, LU, pivot);

@@ -17,7 +17,7 @@ typedef struct radau_stage {
 typedef struct radau {
     scheme base;
     const scheme_request of;
-    double node[STAGES], B[STAGES * STAGES];
+    double node[STAGES], weights[STAGES], B[STAGES * STAGES];
     radau_stage stage[STAGES];
     sparse K;
     stages_matrix S;
@@ -32,7 +32,7 @@ typedef struct radau {
 } radau;
 
 /* radau_equations.c */
-/* Nodes and B of the scheme. */
+/* Nodes, weights and B of the scheme. */
 void radau_coefficients(radau *);
 /* Of the instant of a stage [s]: the last one is at the end of the step as it was asked for. */
 double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);

@@ -11,6 +11,7 @@
 typedef struct alpha {
     scheme base;
     stage stage;
+    work *work;
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
@@ -64,6 +65,8 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     for (int i = 0; i < s->stage.all; i++)
         to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);
     to->time = time;
+    to->work = from->work + work_trapezoid(s->work, from, to, s->inc);
+    to->dissipated = from->dissipated;
     *error = error_of(s, from, to, h);
     return STATUS_OK;
 }
@@ -88,6 +91,7 @@ status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
     *s = (alpha){.base = {.order = 3, .step = step, .free = release},
+                 .work = request->work,
                  .mass = how->mass,
                  .force = how->force,
                  .gamma = gamma,

@@ -35,6 +35,8 @@ void instant_copy(const model *m, const instant *from, instant *to)
 {
     const size_t bytes = coordinates_of(m) * sizeof *from->v;
     to->time = from->time;
+    to->work = from->work;
+    to->dissipated = from->dissipated;
     memcpy(to->v, from->v, bytes);
     memcpy(to->a, from->a, bytes);
     memcpy(to->algorithm, from->algorithm, bytes);

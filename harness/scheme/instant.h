@@ -7,7 +7,8 @@
 typedef struct instant {
     double time; /* [s] */
     model_state *state;
-    double *v, *a;     /* [free + driven] rates and their derivatives: see forms.h */
+    double *v, *a;           /* [free + driven] rates and their derivatives: see forms.h */
+    double work, dissipated; /* [J] since the begin: by what acts from outside; by damping */
     double *algorithm; /* [free + driven] of generalized-alpha: the acceleration it averages */
 } instant;
 

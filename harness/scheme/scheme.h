@@ -4,12 +4,14 @@
 
 #include "harness/inertia/carried.h"
 #include "harness/scheme/instant.h"
+#include "harness/scheme/work.h"
 #include "harness/solver/context.h"
 
 typedef struct scheme_request {
     analysis_context *c;
     const carried *masses;
     const scene_motion *how;
+    work *work;   /* of what acts from outside: for instant.work */
     int estimate; /* 1: the error of each step is wanted */
 } scheme_request;
 

@@ -1,0 +1,62 @@
+/* Motions of tests: a case's structure with an integration of its own. */
+#ifndef BEAMWORK_TEST_MOVING_H
+#define BEAMWORK_TEST_MOVING_H
+
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/catalogue/parameters.h"
+#include "harness/test/ask.h"
+
+enum { MOVING_STATIONS = 20 };
+
+/* The structure of a case at the parameters "name=value;...", without what it asks for. */
+static inline void moving_case(const case_type *type, const char *parameters, scene *s)
+{
+    double value[CASE_MAX_PARAMETERS];
+    fault f = {""};
+    parameters_default(type, value);
+    if (parameters_parse(type, parameters, value, NULL, &f) != STATUS_OK)
+        gsl_test(1, "%s", f.text);
+    scene_init(s, type->name);
+    gsl_test(case_build(type, value, s, &f) != STATUS_OK, "%s: built (%s)", type->name, f.text);
+    s->analyses = s->quantities = 0;
+}
+
+/* A motion to `end` [s] with stations at equal distances. */
+static inline int moving_add(scene *s, scene_scheme scheme, double step, double end)
+{
+    double path[MOVING_STATIONS];
+    for (int i = 0; i < MOVING_STATIONS; i++)
+        path[i] = end * (i + 1) / MOVING_STATIONS;
+    return scene_add_motion(
+        s, SCENE_NONE, MOVING_STATIONS, path,
+        (scene_motion){.scheme = scheme, .alpha = scene_alpha_of_radius(0.9), .step = step});
+}
+
+/* NAME_max and NAME_min of the stations. */
+static inline void moving_range(scene *s, const char *name, int motion, scene_balance what)
+{
+    char full[SCENE_NAME];
+    for (int i = 0; i < 2; i++) {
+        snprintf(full, sizeof full, "%s_%s", name, i ? "min" : "max");
+        scene_add_quantity(s, full, "J", motion, scene_balance_of(what))->reduction =
+            i ? SCENE_MIN : SCENE_MAX;
+    }
+}
+
+/* The larger of both in size. */
+static inline double moving_largest(const answer *a, const char *name)
+{
+    char full[SCENE_NAME];
+    double largest = 0;
+    for (int i = 0; i < 2; i++) {
+        snprintf(full, sizeof full, "%s_%s", name, i ? "min" : "max");
+        const double value = answer_of(a, full);
+        largest = isnan(value) || fabs(value) > largest ? fabs(value) : largest;
+    }
+    return largest;
+}
+
+#endif
