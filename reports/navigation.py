@@ -11,6 +11,7 @@ GROUPS = (
     ("Formulations", ("formulations.html", "certificates.html", "newton.html")),
     ("Profiles", ("profiles.html",)),
     ("Stability", ("stability.html",)),
+    ("Motion", ("integrators.html", "motions.html")),
     ("Papers & errata", ("claims.html", "papers.html", "errata.html")),
     ("Ledger", ("ledger.html", "causes.html")),
     ("Glossary", ("glossary.html",)),

@@ -38,6 +38,7 @@ PAGES = (
     "newton",
     "predictions",
     "stability",
+    "integrators_page",
     "checks",
     "printable",
     "environment",

@@ -26,6 +26,12 @@ TABLE = {
     "sheet_third": ("#882255", "#d8639b", "<"),
     "sheet_third_printed": ("#44aa99", "#7fdccd", ">"),
 }
+# Integrators of motions, likewise; their colours are among those above.
+SCHEMES = {
+    "alpha": ("#0072b2", "#4a9fe0", "o"), "conserving": ("#d55e00", "#ff8c42", "s"),
+    "radau": ("#009e73", "#2bc495", "D"), "explicit": ("#882255", "#d8639b", "^"),
+    "hht": ("#56b4e9", "#8fd2fa", "v"), "trapezoidal": ("#000000", "#f4f6f9", "X"),
+}
 # Formulations that the table does not name take one of these by their name.
 RESERVE = (("#6a51a3", "#a793dc"), ("#a6761d", "#dfb060"), ("#c51b7d", "#f06cb4"),
            ("#1b7837", "#5fc07c"), ("#5b6675", "#aab4c2"))
@@ -64,7 +70,7 @@ def look(key):
     """(colour, colour on a dark page, marker) of a formulation with or without options."""
     name = key.partition(":")[0]
     number = zlib.crc32(name.encode())
-    return TABLE.get(name) or (*RESERVE[number % len(RESERVE)],
+    return TABLE.get(name) or SCHEMES.get(name) or (*RESERVE[number % len(RESERVE)],
                                RESERVE_MARKERS[number // 7 % len(RESERVE_MARKERS)])
 
 

@@ -1,0 +1,1 @@
+"""The page of integrators: error of time against cost, stability, iterations."""
