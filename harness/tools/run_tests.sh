@@ -3,6 +3,8 @@
 # one line: N passed, M failed[, K skipped].  A skipped test is named with what it needs: "SKIP name: needs chromium".
 # usage: run_tests.sh LOGDIR PROGRAM|FOLDER...
 set -u
+# One that hangs ends here [s]: far beyond what the longest takes on a slow machine with sanitizers.
+limit=1200
 
 # Of unittest's output: a test's line is its name, or its name and then its docstring.
 verdicts() {
@@ -23,13 +25,13 @@ tally() { # name log exit-status
 one() { # program or folder
     if [ -d "$1" ]; then
         name=$1 log=$logs/$(echo "$1" | tr / _).log
-        /usr/bin/python3 -m unittest discover -v -s "$1" -t . -p '*_test.py' >"$log.raw" 2>&1
+        timeout -k 30 $limit /usr/bin/python3 -m unittest discover -v -s "$1" -t . -p '*_test.py' >"$log.raw" 2>&1
         status=$?
         verdicts <"$log.raw" >"$log"
         [ $status = 0 ] || tail -n 30 "$log.raw" | sed 's/^/    /' >&2
     else
         name=$(basename "$1") log=$logs/$(echo "$1" | tr / _).log
-        GSL_TEST_VERBOSE=1 "$1" >"$log" 2>&1
+        GSL_TEST_VERBOSE=1 timeout -k 30 $limit "$1" >"$log" 2>&1
         status=$?
     fi
     told=$(tally "$name" "$log" $status) # in one piece
