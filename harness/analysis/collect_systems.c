@@ -136,7 +136,8 @@ static status keep_path(const analysis_context *c, int analysis, workspace *w, s
                         fault *f)
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
-    if (c->scene->analysis[analysis].kind == SCENE_COMPLIANCE) /* about those of another */
+    const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
+    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* about those of another; no balance */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));

@@ -3,11 +3,11 @@
 #include <math.h>
 
 #include "elements/math/pi.h"
-#include "elements/math/rotation.h"
 #include "harness/analysis/extract_section.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
+#include "harness/motion/reading.h"
 #include "harness/solver/modes.h"
 #include "harness/solver/quantity.h"
 
@@ -47,6 +47,12 @@ static const rotation_modes *modes_at(const analysis_outcome *o, int i)
     return modes != NULL ? &modes[i] : NULL;
 }
 
+/* NULL: not of a motion. */
+static const double *rate_at(const analysis_outcome *o, int i)
+{
+    return o->kind == SCENE_MOTION ? outcome_motion_of(o)->instant[i].rate : NULL;
+}
+
 /* Value of a quantity of the path at one station; NAN: r may say why. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i, quantity_result *r)
@@ -75,17 +81,9 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_STRESS:
         return extract_section_state(c, q, path->state[i], r);
     case SCENE_RELATIVE:
-        return kinematics_relative(c->model, path->state[i], scene_relative_of(q)->from,
-                                   scene_relative_of(q)->node, scene_relative_of(q)->component);
     case SCENE_RATE:
-        return outcome_motion_of(o)->instant[i].rate[kinematics_coordinate(
-            c->model, scene_component_of(q)->node, scene_component_of(q)->component)];
-    case SCENE_ORIENTATION: {
-        double place[3], turn[4], all[9];
-        kinematics_frame(c->model, path->state[i], scene_orientation_of(q)->node, place, turn);
-        rotation_matrix(turn, all);
-        return all[3 * scene_orientation_of(q)->row + scene_orientation_of(q)->column];
-    }
+    case SCENE_ORIENTATION:
+        return reading_of(c->model, q, path->state[i], rate_at(o, i));
     case SCENE_BALANCE:
         return outcome_motion_of(o)->instant[i].balance[scene_balance_in(q)];
     case SCENE_CRITICAL_FACTOR:

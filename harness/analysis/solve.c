@@ -47,11 +47,12 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     return NULL;
 }
 
-/* Did it fail before it left the undeformed state? */
+/* Did it fail before it left the undeformed state? In time a structure may be free to move. */
 static int is_stuck(const analysis_outcome *o)
 {
     const int failed = o->status == STATUS_SINGULAR || o->status == STATUS_NOT_CONVERGED;
-    return failed && (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
+    return failed && o->kind != SCENE_MOTION &&
+           (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
 /* The first failure names the whole. */

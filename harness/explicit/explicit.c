@@ -89,7 +89,7 @@ status explicit_alloc(const scheme_request *request, scheme **out, fault *f)
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
-    s->base = (scheme){.order = 8, .step = step, .free = release};
+    s->base = (scheme){.order = 8, .degree = BETWEEN_QUINTIC, .step = step, .free = release};
     s->of = *request;
     s->free = size.free;
     s->all = size.free + size.driven;

@@ -10,6 +10,7 @@
 #include "harness/motion/balance.h"
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"
+#include "harness/motion/stations.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
 #include "harness/scheme/massless.h"
@@ -24,12 +25,13 @@ static const double shorter = 0.3, longer = 2, safety = 0.9;
 typedef struct motion {
     analysis_context *c;
     const scene_motion *how;
-    int follows;
+    int analysis, follows;
     carried masses;
     work work;
     scheme *scheme;
     instant now, next;
     double h, least; /* [s] next step; the shortest */
+    stations stations;
     outcome_motion *out;
     double balance[SCENE_BALANCES]; /* at `now` */
 } motion;
@@ -53,6 +55,7 @@ static status keep_step(motion *w, const step_record *record, double error, faul
 {
     TRY(history_add_step(w->c->result, record, f));
     model_counters(w->c->model)->steps++;
+    TRY(stations_inside(&w->stations, &w->now, &w->next, f));
     instant_copy(w->c->model, &w->next, &w->now);
     return record_step(w, record, error, f);
 }
@@ -101,34 +104,19 @@ static status take_step(motion *w, double target, fault *f)
     }
 }
 
-/* The present instant becomes a station. */
-static status keep(motion *w, double time, fault *f)
-{
-    outcome_motion *o = w->out;
-    const model *m = w->c->model;
-    const size_t bytes = (size_t)(model_sizes(m).free + model_sizes(m).driven + 1) * sizeof(double);
-    outcome_instant *to = &o->instant[o->path.reached];
-    to->rate = malloc(bytes);
-    if (to->rate == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
-    memcpy(to->rate, w->now.v, bytes);
-    memcpy(to->balance, w->balance, sizeof to->balance);
-    return outcome_keep(&o->path, m, w->now.state, 1, time, f);
-}
-
 static status integrate(motion *w, fault *f)
 {
+    const scene_path *path = &w->how->path;
+    const double end = path->value[path->stations - 1];
     w->h = w->how->step;
     w->least = w->how->step / (1 << MAX_HALVINGS);
-    for (int i = 0; i < w->how->path.stations; i++) {
-        const double target = w->how->path.value[i];
-        while (w->now.time < target) {
-            const double kink = kinks_next(w->c->model, w->now.time);
-            TRY(take_step(w, fmin(target, kink), f));
-            if (w->now.time == kink)
-                TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
-        }
-        TRY(keep(w, target, f));
+    TRY(stations_here(&w->stations, &w->now, w->balance, f));
+    while (w->now.time < end) {
+        const double kink = kinks_next(w->c->model, w->now.time);
+        TRY(take_step(w, fmin(end, kink), f));
+        if (w->now.time == kink)
+            TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
+        TRY(stations_here(&w->stations, &w->now, w->balance, f));
     }
     return STATUS_OK;
 }
@@ -164,7 +152,6 @@ static status check_massless(const motion *w, fault *f)
 
 static status solve(motion *w, fault *f)
 {
-    outcome_motion *o = w->out;
     const step_record start = {.increment = 0};
     const model *m = w->c->model;
     TRY(forms_check(m, f));
@@ -176,10 +163,12 @@ static status solve(motion *w, fault *f)
     TRY(integrator_alloc(&request, &w->scheme, f));
     TRY(instant_alloc(m, &w->now, f));
     TRY(instant_alloc(m, &w->next, f));
-    TRY(outcome_stations(&o->path, w->how->path.stations, f));
-    o->instant = calloc((size_t)w->how->path.stations + 1, sizeof *o->instant);
-    if (o->instant == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    w->stations = (stations){.c = w->c,
+                             .analysis = w->analysis,
+                             .masses = &w->masses,
+                             .scheme = w->scheme,
+                             .out = w->out};
+    TRY(stations_alloc(&w->stations, f));
     TRY(begin(w, f));
     TRY(check_massless(w, f));
     TRY(launch(w->c, &w->masses, w->how, &w->now, &w->next, f));
@@ -193,6 +182,7 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     memset(&w, 0, sizeof w);
     w.c = c;
     w.how = scene_motion_of(&c->scene->analysis[analysis]);
+    w.analysis = analysis;
     w.follows = c->scene->analysis[analysis].follows;
     w.out = outcome_motion_in(o);
     c->model->in_time = 1;
@@ -200,6 +190,7 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     c->model->in_time = 0;
     instant_free(&w.now);
     instant_free(&w.next);
+    stations_free(&w.stations);
     integrator_free(w.scheme);
     carried_free(&w.masses);
     work_free(&w.work);

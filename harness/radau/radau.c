@@ -184,7 +184,9 @@ static status allocate(radau *r, fault *f)
 
 status radau_alloc(const scheme_request *request, scheme **out, fault *f)
 {
-    const radau begin = {.base = {.order = 4, .step = step, .free = release}, .of = *request};
+    const radau begin = {
+        .base = {.order = 4, .degree = BETWEEN_QUINTIC, .step = step, .free = release},
+        .of = *request};
     radau *r = malloc(sizeof *r);
     *out = NULL;
     if (r == NULL)

@@ -3,7 +3,7 @@
 #define BEAMWORK_SCHEME_H
 
 #include "harness/inertia/carried.h"
-#include "harness/scheme/instant.h"
+#include "harness/scheme/between.h"
 #include "harness/scheme/work.h"
 #include "harness/solver/context.h"
 
@@ -17,7 +17,8 @@ typedef struct scheme_request {
 
 typedef struct scheme scheme;
 struct scheme {
-    int order; /* of the error of one step that is estimated, in its size */
+    int order;             /* of the error of one step that is estimated, in its size */
+    between_degree degree; /* inside a step; quintic: accelerations are as exact as rates */
     /* One step of h [s]; *error: estimate of what it adds to positions, in the measure of
      * metric.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
     status (*step)(scheme *, const instant *from, double h, instant *to, double *error,

@@ -55,7 +55,7 @@ static void free_side(outcome_side *side)
 int outcome_has_path(const analysis_outcome *o)
 {
     return o->kind == SCENE_STATIC || o->kind == SCENE_COMPLIANCE ||
-           o->kind == SCENE_CONTINUATION || o->kind == SCENE_ROTATION;
+           o->kind == SCENE_CONTINUATION || o->kind == SCENE_ROTATION || o->kind == SCENE_MOTION;
 }
 
 int outcome_has_spectrum(const analysis_outcome *o)
