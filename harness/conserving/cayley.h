@@ -1,9 +1,10 @@
 /* A step of one element as a common turn, which is taken out of it exactly, and a motion relative
  * to that: nodes j move by dr_j and turn by the Cayley vectors c_j, R_1 = cay(c) R_n. With the mean
  * c, kappa = 1/sqrt(1 + c.c/4),  b = kappa^2/(4 (1 + kappa)),  S = kappa 1 + b c c^T,  T = 1 - b c
- * c^T, G half the common turn and D_j = r_j - mean r, r(s) = (1 - s) G D_n + s G^T D_1,   R(s) =
- * exp(s phi) G R_n,   a(s) = a_n + s da, dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa
- * (1 + c.c_j/4)),   phi_j = psi_j c^_j: zero for every rigid motion. */
+ * c^T, G half the common turn and D_j = r_j - mean r,
+ *   r(s) = (1 - s) G D_n + s G^T D_1,   R(s) = exp(s phi) G R_n,   a(s) = a_n + s da,
+ *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j:
+ * zero for every rigid motion. What is fixed to the ground turns with nothing: c = 0, D_j = r_j. */
 #ifndef BEAMWORK_CAYLEY_H
 #define BEAMWORK_CAYLEY_H
 
@@ -14,9 +15,12 @@ void cayley_of_vector(const double t[3], double c[3]);
 void cayley_to_vector(const double c[3], double t[3]);
 /* T_c = (1 + c~/2)/(1 + c.c/4): the spatial turn at the end is T_c dc. */
 void cayley_tangent(const double c[3], double T[9]);
+/* v~ */
+void cayley_skew(const double v[3], double A[9]);
 
 typedef struct cayley_step {
     int nodes;
+    double share; /* of a node in the means: 1/nodes, on the ground 0 */
     double mean[3], kappa, b, S[9], T[9], G[9];
     double Dn[ELEMENT_MAX_NODES][3], D1[ELEMENT_MAX_NODES][3], Dm[ELEMENT_MAX_NODES][3];
     double dD[ELEMENT_MAX_NODES][3];
@@ -27,24 +31,19 @@ typedef struct cayley_step {
 } cayley_step;
 
 /* dr, c of the nodes [nodes x 3], da[nodes]; `from` stays where it is. */
-void cayley_begin(int nodes, const node_state from[], double dr[][3], double c[][3],
+void cayley_begin(int nodes, int ground, const node_state from[], double dr[][3], double c[][3],
                   const double da[], cayley_step *);
-/* The states at s between 0 and 1, in axes turned by half. */
-void cayley_between(const cayley_step *, double s, node_state x[]);
-/* What forces f[7 nodes] on dr^, phi, da are on dr, c, da. */
-void cayley_forces(const cayley_step *, const double f[], double F[]);
 
-/* What a change of one coordinate (dr, c, da of the nodes, in this order) does. */
-typedef struct cayley_change {
-    double kappa, S[9], T[9], spin[3]; /* of G */
-    double D1[ELEMENT_MAX_NODES][3], phi[ELEMENT_MAX_NODES][3], z[ELEMENT_MAX_NODES];
-    double a[ELEMENT_MAX_NODES];
-} cayley_change;
-void cayley_change_by(const cayley_step *, int coordinate, cayley_change *);
-/* Increments y[7 nodes] of the states at s, spatial. */
-void cayley_change_between(const cayley_step *, const cayley_change *, double s, double y[]);
-/* Change of cayley_forces, f changed by df. */
-void cayley_change_forces(const cayley_step *, const cayley_change *, const double f[],
-                          const double df[], double dF[]);
+/* The relative motion at s in [0, 1]: r(s), R(s), a(s), and exp(s phi) of every node. */
+typedef struct cayley_point {
+    double at;
+    double turn[ELEMENT_MAX_NODES][9];
+    node_state x[ELEMENT_MAX_NODES];
+} cayley_point;
+void cayley_between(const cayley_step *, double at, cayley_point *);
+
+/* Forces f on the relative motion, columns of f[7 nodes x columns], become those on dr, c, da:
+ * F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
+void cayley_forces(const cayley_step *, int columns, double f[]);
 
 #endif

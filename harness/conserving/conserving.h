@@ -11,7 +11,7 @@
 
 #include "harness/scheme/scheme.h"
 
-/* REFUSED: angles in sequence, released ends, springs. */
+/* REFUSED: several angles of a node in sequence. */
 status conserving_alloc(const scheme_request *, scheme **, fault *);
 
 #endif

@@ -5,8 +5,11 @@
 #include "harness/conserving/cayley.h"
 #include "harness/inertia/inertia.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/spring.h"
 #include "harness/scheme/scheme.h"
 #include "harness/solver/arrival.h"
+
+typedef struct evaluation evaluation; /* deformable.h */
 
 typedef struct conserving {
     scheme base;
@@ -14,40 +17,53 @@ typedef struct conserving {
     int free, all;
     sparse S;
     factor *factor;
-    double *step;                         /* [free + driven] dr, Cayley vector c, da */
+    double *step; /* [free + driven] dr, Cayley vectors c, da; of single angles and of what released
+                     ends keep to themselves the increments, of balls c */
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
     double *weight;
-    double *W;      /* [elements x strains^2] P'' at rest */
-    double *energy; /* [elements] P(e_n) */
-    double *d;      /* [elements x strains] */
-    double *slot;   /* [elements x slot_size] what an element keeps from equations to update */
+    int strains;    /* most of an element or a spring */
+    double *W;      /* [deformables x strains^2] P'' at rest */
+    double *energy; /* [deformables] P(e_n) */
+    double *d;      /* [deformables x strains] */
+    double *spring; /* [springs x 3 x SPRING_STRAINS] e and sigma of the end, sigma_n */
+    double *slot;   /* [deformables x slot_size] what one keeps from its evaluation to update */
     int slot_size;
+    evaluation *evaluation;         /* [CHUNK_MOST] work space */
     double k, denominator, missing; /* missing: of sum k_e . gap_e + k_d . gap_d */
     double largest, change;         /* stresses */
     arrival arrival;
     long counted;
 } conserving;
 
-/* conserving_element.c */
+/* conserving_strain.c: of all elements and springs. */
+/* Their P'' at rest. */
 status conserving_rest(conserving *, fault *);
-/* Energies of the begin. */
+/* Energies of the begin, and springs as they are there; d is zero. */
 status conserving_begin(conserving *, const instant *from, fault *);
-/* k of the present strains; 0 as long as it is not to be trusted. */
-status conserving_scalar(conserving *, const instant *from, const model_state *now, int iteration,
-                         fault *);
-/* residual -= forces, S += tangent, column and row, of all elements. */
-status conserving_elements(conserving *, const instant *from, const model_state *now,
-                           double *incompatibility, fault *);
+/* Stresses of the present strains, and k; 0 as long as it is not to be trusted. */
+status conserving_stresses(conserving *, const instant *from, model_state *now, int iteration,
+                           fault *);
 /* The strains of the end and d take dx; the largest inner change. */
 double conserving_update(conserving *, const instant *from, model_state *now);
+
+/* conserving_forces.c: residual -= forces, S += tangent, column and row, of all of them. */
+void conserving_forces(conserving *, const instant *from, model_state *now,
+                       double *incompatibility);
 
 /* conserving_inertia.c: residual -= forces of inertia, S += theirs. */
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
 /* Rates at the end. */
 void conserving_rates(conserving *, const instant *from, double h, instant *to);
 
-/* Step of a vertex: dr, c of its own frame or of the body that moves it. */
-void conserving_vertex(const conserving *, const model_state *from, const model_state *now,
-                       int vertex, double dr[3], double c[3]);
+/* conserving_loads.c: out[free + driven] += the loads at the middle, S += what they add. */
+void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
+                      double out[]);
+
+/* conserving_predict.c: the step, to begin with; as increments of coordinates (increment.h). */
+void conserving_predict(conserving *, const instant *from, double h);
+void conserving_increment(const conserving *, const model_state *from, double inc[]);
+
+/* conserving_work.c: what the work of `to` has become. */
+status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
 
 #endif

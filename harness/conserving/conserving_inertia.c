@@ -4,7 +4,8 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/conserving/conserving_impl.h"
+#include "harness/conserving/place.h"
+#include "harness/model/kinematics.h"
 
 /* One frame with its mass over a step. */
 typedef struct carried_step {
@@ -38,7 +39,7 @@ static void step_of(const conserving *s, const instant *from, const model_state 
     rotation_matrix(&now->q[4 * one->frame], out->R1);
     mat3_mul_vec(out->Rn, centre, out->before);
     mat3_mul_vec(out->R1, centre, out->after);
-    conserving_vertex(s, from->state, now, one->frame, dr, out->c);
+    place_step(s, from->state, now, one->frame, dr, out->c);
     for (int i = 0; i < 3; i++)
         out->mean[i] = (out->before[i] + out->after[i]) / 2;
     vec3_cross(r.w, out->before, turned);
@@ -67,12 +68,6 @@ static void forces_of(const carried_mass *one, const carried_step *p, double h, 
         F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i];
 }
 
-static void skew(const double v[3], double A[9])
-{
-    const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
-    memcpy(A, all, sizeof all);
-}
-
 /* K[6 x 6] by dr and c. */
 static void tangent_of(const carried_mass *one, const carried_step *p, double h, const double F[6],
                        double K[36])
@@ -81,7 +76,7 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
     double T[9], A[9], swept[9], half[9], RJ[9], RJR[9], H1[3], spun[3], turn[9], mean[9], lever[9],
         force[9], more[9];
     cayley_tangent(p->c, T);
-    skew(p->after, A);
+    cayley_skew(p->after, A);
     mat3_mul(A, T, swept); /* minus d(centre)/dc */
     mat3_mul(p->R1, p->J, RJ);
     for (int i = 0; i < 3; i++)
@@ -89,11 +84,11 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
             RJR[3 * i + j] = vec3_dot(&RJ[3 * i], &p->Rn[3 * j]);
     mat3_mul_vec(p->J, p->W1, H1);
     mat3_mul_vec(p->R1, H1, spun);
-    skew(spun, A);
+    cayley_skew(spun, A);
     mat3_mul(A, T, turn);
-    skew(p->mean, mean);
+    cayley_skew(p->mean, mean);
     mat3_mul(mean, swept, lever);
-    skew(F, force);
+    cayley_skew(F, force);
     mat3_mul(force, swept, more);
     memset(half, 0, sizeof half);
     for (int i = 0; i < 3; i++)
@@ -113,18 +108,14 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
     const carried *all = s->of.masses;
     for (int k = 0; k < all->masses; k++) {
         const carried_mass *one = &all->mass[k];
-        const int *at = m->vertex[one->frame].coordinate;
         carried_step p;
         double F[6], K[36];
         step_of(s, from, now, h, one, &p);
         forces_of(one, &p, h, F);
         tangent_of(one, &p, h, F, K);
-        for (int i = 0; i < 6; i++) {
-            if (at[i] != NONE)
-                s->residual[at[i]] -= F[i];
-            for (int j = 0; j < 6; j++)
-                assemble_subtract(&s->S, at[i], at[j], -K[6 * i + j]);
-        }
+        for (int i = 0; i < 6; i++)
+            F[i] = -F[i];
+        place_add(s, from->state, now, one->frame, F, K, s->residual);
     }
     for (int i = 0; i < m->warps; i++) {
         const int c = m->warp[i].coordinate;
@@ -132,6 +123,27 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
         s->residual[c] -= mass * (2 * s->step[c] / h - 2 * from->v[c]) / h;
         assemble_subtract(&s->S, c, c, -2 * mass / (h * h));
     }
+}
+
+/* Of an angle about an axis: the angular velocity along that. */
+static void angle_rate(const model *m, int vertex, instant *to, const double w[3])
+{
+    const int at = m->vertex[vertex].coordinate[SCENE_RX];
+    double b[3][3];
+    if (m->vertex[vertex].angles == 0 || at == NONE || at >= m->free)
+        return;
+    kinematics_axes(m, to->state, vertex, b);
+    to->v[at] = vec3_dot(b[0], w);
+}
+
+/* What released ends keep to themselves has no inertia: means of the step. */
+static void released_rates(const conserving *s, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    for (int i = m->first_release; i < m->vertices; i++)
+        for (int c = 0; c < 6; c++)
+            if (m->vertex[i].coordinate[c] != NONE)
+                to->v[m->vertex[i].coordinate[c]] = s->step[m->vertex[i].coordinate[c]] / h;
 }
 
 /* Of frames with a mass by their centres, of the others by themselves. */
@@ -155,14 +167,16 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
         for (int c = 0; c < 3; c++) {
             if (at[c] != NONE && at[c] < m->free)
                 to->v[at[c]] = p.v1[c] - turned[c];
-            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free)
+            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free && m->vertex[i].angles == 0)
                 to->v[at[SCENE_RX + c]] = p.W1[c];
         }
+        angle_rate(m, i, to, w);
     }
     for (int i = 0; i < m->warps; i++) {
         const int c = m->warp[i].coordinate;
         to->v[c] = 2 * s->step[c] / h - from->v[c];
     }
+    released_rates(s, h, to);
     for (int c = 0; c < s->free; c++)
         to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
 }

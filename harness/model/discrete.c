@@ -102,13 +102,9 @@ static void eliminated(const model *m, const model_state *s, const mesh_discrete
     eliminate_forces(m, s, &d->el, force);
 }
 
-static status check_turn(const model *m, const model_state *s, const mesh_discrete *d, fault *f)
+status discrete_check_turn(const model *m, const mesh_discrete *d, const double e[], fault *f)
 {
-    spring_state p;
-    if (d->spring == NULL)
-        return STATUS_OK;
-    spring_at(m, s, d, &p);
-    const double turn = vec3_norm(p.e + 3);
+    const double turn = vec3_norm(e + 3);
     return turn < SPRING_LARGEST_TURN
                ? STATUS_OK
                : fault_set(f, STATUS_NOT_CONVERGED,
@@ -119,7 +115,11 @@ static status check_turn(const model *m, const model_state *s, const mesh_discre
 status discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,
                           double force[], double K[], fault *f)
 {
-    TRY(check_turn(m, s, d, f));
+    if (d->spring != NULL) {
+        spring_state p;
+        spring_at(m, s, d, &p);
+        TRY(discrete_check_turn(m, d, p.e, f));
+    }
     eliminated(m, s, d, path, 1, force, K);
     return STATUS_OK;
 }

@@ -77,17 +77,15 @@ static void follow_turns(const mesh_release *r, const double angle[3], const dou
     }
 }
 
-/* Spatial axes of the turns [turns x 3]; of three: the fixed ones. */
-static void turn_axes(const model *m, const model_state *s, int vertex, double b[3][3])
+void release_turn_axes(const model *m, const model_state *s, int vertex, double b[3][3])
 {
     double q[4];
     follow_turns(release_of(m, vertex), &s->angle[3 * vertex], &s->q[4 * m->vertex[vertex].body], b,
                  q);
 }
 
-/* Spatial directions of the shifts [slides x 3], and how far the end is from its node [m]. */
-static void slide_axes(const model *m, const model_state *s, int vertex, double along[3][3],
-                       double apart[3])
+void release_slide_axes(const model *m, const model_state *s, int vertex, double along[3][3],
+                        double apart[3])
 {
     const mesh_release *r = release_of(m, vertex);
     memset(apart, 0, 3 * sizeof *apart);
@@ -104,8 +102,8 @@ void release_add_local(const model *m, const model_state *s, int vertex, const d
     const mesh_release *r = release_of(m, vertex);
     const int *coordinate = m->vertex[vertex].coordinate;
     double b[3][3], along[3][3], apart[3], moved[3];
-    turn_axes(m, s, vertex, b);
-    slide_axes(m, s, vertex, along, apart);
+    release_turn_axes(m, s, vertex, b);
+    release_slide_axes(m, s, vertex, along, apart);
     for (int i = 0; i < 3; i++) {
         d[3 + i] = r->turns == BALL ? 0 : d[3 + i];
         for (int k = 0; k < r->turns; k++)
@@ -124,8 +122,8 @@ void release_jacobian(const model *m, const model_state *s, int vertex, int coun
 {
     const mesh_release *r = release_of(m, vertex);
     double b[3][3], along[3][3], apart[3];
-    turn_axes(m, s, vertex, b);
-    slide_axes(m, s, vertex, along, apart);
+    release_turn_axes(m, s, vertex, b);
+    release_slide_axes(m, s, vertex, along, apart);
     for (int k = 0; k < own && r->turns == BALL; k++)
         for (int i = 3; i < 6; i++)
             T[i * count + k] = 0;
@@ -176,7 +174,7 @@ void release_follow(const model *m, model_state *s)
         if (r->turns < BALL)
             follow_turns(r, &s->angle[3 * i], body, b, &s->q[4 * i]);
         rotation_apply(body, v->offset, rho);
-        slide_axes(m, s, i, along, apart);
+        release_slide_axes(m, s, i, along, apart);
         for (int k = 0; k < 3; k++)
             s->u[3 * i + k] = s->u[3 * v->body + k] + (rho[k] - v->offset[k]) + apart[k];
     }
@@ -186,8 +184,8 @@ void release_force(const model *m, const model_state *s, int vertex, double forc
 {
     const mesh_release *r = release_of(m, vertex);
     double b[3][3], along[3][3], apart[3];
-    turn_axes(m, s, vertex, b);
-    slide_axes(m, s, vertex, along, apart);
+    release_turn_axes(m, s, vertex, b);
+    release_slide_axes(m, s, vertex, along, apart);
     for (int k = 0; k < r->slides; k++)
         own[r->turns + k] = vec3_dot(along[k], force);
     if (r->slides > 0)
@@ -263,8 +261,8 @@ void release_matrix(const model *m, const model_state *s, int vertex, int n, int
 {
     const mesh_release *r = release_of(m, vertex);
     double b[3][3], along[3][3], apart[3];
-    turn_axes(m, s, vertex, b);
-    slide_axes(m, s, vertex, along, apart);
+    release_turn_axes(m, s, vertex, b);
+    release_slide_axes(m, s, vertex, along, apart);
     if (r->slides > 0)
         take_slides(r, along, apart, n, at, own, force, K);
     for (int k = 0; k < r->turns; k++)

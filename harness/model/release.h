@@ -35,6 +35,12 @@ double release_advance(const model *, model_state *, int vertex, const double dx
 /* Place and orientation behind those of all nodes. */
 void release_follow(const model *, model_state *);
 
+/* Spatial axes of the turns [turns x 3]; of three: the fixed ones. */
+void release_turn_axes(const model *, const model_state *, int vertex, double b[3][3]);
+/* Spatial directions of the shifts [slides x 3], and how far the end is from its node [m]. */
+void release_slide_axes(const model *, const model_state *, int vertex, double along[3][3],
+                        double apart[3]);
+
 /* force[7 at, its six]: of the end's frame becomes that of its node's place; own[]: of its
  * coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);

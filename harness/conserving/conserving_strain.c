@@ -1,0 +1,165 @@
+/* Strains and stresses of all elements and springs, and the number that makes their work exact. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/conserving/deformable.h"
+#include "harness/equations/chunk.h"
+#include "harness/model/discrete.h"
+#include "harness/model/kinematics.h"
+
+static const double *inner_of(const model *m, const model_state *s, int i)
+{
+    static const double none[1] = {0};
+    return m->inner > 0 ? s->inner + (size_t)i * (size_t)m->inner : none;
+}
+
+/* Of elements of one kind. */
+static status stress_of(model *m, int count, const int index[], const double *const e[],
+                        const model_state *s, stress_output out[], fault *f)
+{
+    const element_data *data[CHUNK_MOST];
+    const double *inner[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        data[k] = m->kind[m->element[index[k]].kind].data;
+        inner[k] = inner_of(m, s, index[k]);
+    }
+    m->counters.stress_evaluations += count;
+    if (count > 1 && m->type->stress_many != NULL)
+        m->type->stress_many(count, data, e, inner, out, outcome);
+    else
+        for (int k = 0; k < count; k++)
+            outcome[k] = m->type->stress(data[k], e[k], inner[k], &out[k]);
+    for (int k = 0; k < count; k++)
+        if (outcome[k] != STATUS_OK)
+            return fault_set(f, outcome[k], "element %d of member %d: outside what %s can evaluate",
+                             index[k], m->element[index[k]].member, m->type->name);
+    return STATUS_OK;
+}
+
+status conserving_rest(conserving *s, fault *f)
+{
+    model *m = s->of.c->model;
+    const size_t square = (size_t)s->strains * (size_t)s->strains;
+    for (int i = 0; i < m->elements; i++) {
+        const double *e = m->rest->e + (size_t)i * (size_t)m->strains;
+        TRY(stress_of(m, 1, &i, &e, m->rest, &(stress_output){.C = s->W + (size_t)i * square}, f));
+    }
+    for (int i = 0; i < m->springs; i++)
+        memcpy(s->W + (size_t)(m->elements + i) * square,
+               m->discrete[m->discretes - m->springs + i].spring->stiffness,
+               SPRING_STRAINS * SPRING_STRAINS * sizeof *s->W);
+    return STATUS_OK;
+}
+
+static double energy_of_spring(const deformable *of)
+{
+    return dense_quadratic(SPRING_STRAINS, of->W, of->e) / 2;
+}
+
+/* Stresses of a spring are its stiffness times its strains. */
+static void begin_spring(conserving *s, const instant *from, int i)
+{
+    deformable of = deformable_at(s, from, from->state, i);
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(s->of.c->model, from->state, of.el, x);
+    spring_strain(of.el->nodes, x, &(strain_output){.e = of.e});
+    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.sigma);
+    memcpy(of.sigma + SPRING_STRAINS, of.sigma, SPRING_STRAINS * sizeof *of.sigma);
+    s->energy[i] = energy_of_spring(&of);
+}
+
+status conserving_begin(conserving *s, const instant *from, fault *f)
+{
+    model *m = s->of.c->model;
+    const double *e[CHUNK_MOST] = {NULL};
+    memset(s->d, 0, (size_t)deformable_count(s) * (size_t)s->strains * sizeof *s->d);
+    for (int i = 0; i < m->elements;) {
+        const int count = deformable_together(s, i);
+        stress_output out[CHUNK_MOST];
+        int index[CHUNK_MOST] = {0};
+        for (int k = 0; k < count; k++) {
+            index[k] = i + k;
+            e[k] = from->state->e + (size_t)(i + k) * (size_t)m->strains;
+            out[k] = (stress_output){.energy = &s->energy[i + k]};
+        }
+        TRY(stress_of(m, count, index, e, from->state, out, f));
+        i += count;
+    }
+    for (int i = m->elements; i < deformable_count(s); i++)
+        begin_spring(s, from, i);
+    return STATUS_OK;
+}
+
+/* Numerator and denominator of k. */
+typedef struct scalar_parts {
+    double lacking, square, size;
+} scalar_parts;
+
+static void take_energy(conserving *s, const deformable *of, double energy, scalar_parts *sum)
+{
+    sum->lacking += energy - s->energy[of->index];
+    for (int k = 0; k < of->strains; k++) {
+        sum->lacking -= (of->before[k] + of->present[k]) / 2 * of->d[k];
+        s->largest = fmax(s->largest, fabs(of->present[k]));
+    }
+    sum->square += dense_quadratic(of->strains, of->W, of->d);
+    sum->size += dense_quadratic(of->strains, of->W, of->e);
+}
+
+static status stress_together(conserving *s, const instant *from, model_state *now, int first,
+                              int count, scalar_parts *sum, fault *f)
+{
+    model *m = s->of.c->model;
+    deformable of[CHUNK_MOST];
+    const double *e[CHUNK_MOST] = {NULL};
+    stress_output out[CHUNK_MOST];
+    double energy[CHUNK_MOST];
+    int index[CHUNK_MOST] = {0};
+    for (int k = 0; k < count; k++) {
+        of[k] = deformable_at(s, from, now, first + k);
+        index[k] = first + k;
+        e[k] = of[k].e;
+        out[k] = (stress_output){.energy = &energy[k],
+                                 .sigma = of[k].present,
+                                 .C = of[k].C,
+                                 .memory = m->memory > 0 ? of[k].memory : NULL};
+    }
+    TRY(stress_of(m, count, index, e, now, out, f));
+    for (int k = 0; k < count; k++)
+        take_energy(s, &of[k], energy[k], sum);
+    return STATUS_OK;
+}
+
+static status stress_spring(conserving *s, const instant *from, model_state *now, int i,
+                            scalar_parts *sum, fault *f)
+{
+    const deformable of = deformable_at(s, from, now, i);
+    TRY(discrete_check_turn(s->of.c->model, of.spring, of.e, f));
+    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.present);
+    memcpy(of.C, of.W, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.C);
+    take_energy(s, &of, energy_of_spring(&of), sum);
+    return STATUS_OK;
+}
+
+status conserving_stresses(conserving *s, const instant *from, model_state *now, int iteration,
+                           fault *f)
+{
+    const model *m = s->of.c->model;
+    const double wild = 0.3, nothing = 1e-16;
+    scalar_parts sum = {0, 0, 0};
+    s->largest = 0;
+    for (int i = 0; i < m->elements;) {
+        const int count = deformable_together(s, i);
+        TRY(stress_together(s, from, now, i, count, &sum, f));
+        i += count;
+    }
+    for (int i = m->elements; i < deformable_count(s); i++)
+        TRY(stress_spring(s, from, now, i, &sum, f));
+    s->denominator = sum.square;
+    s->k = sum.square > nothing * sum.size && iteration > 2 ? sum.lacking / sum.square : 0;
+    if (fabs(s->k) > wild)
+        s->k = 0;
+    return STATUS_OK;
+}

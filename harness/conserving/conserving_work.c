@@ -1,0 +1,58 @@
+/* What comes from outside over a step: the very forces of the step, on what they work on. */
+#include <math.h>
+#include <string.h>
+
+#include "harness/conserving/conserving_impl.h"
+#include "harness/model/release.h"
+
+/* dr and c of the coordinates; of single angles 2 tan(d angle/2). */
+static double worked_on(const conserving *s, const double force[])
+{
+    const model *m = s->of.c->model;
+    double sum = 0;
+    for (int c = 0; c < s->all; c++)
+        sum += force[c] * s->step[c];
+    for (int i = 0; i < m->vertices; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        const mesh_release *r = release_of(m, i);
+        const int turns = r == NULL ? v->body == i && v->angles > 0 : r->turns < 3 ? r->turns : 0;
+        for (int k = 0; k < turns; k++) {
+            const int c = v->coordinate[SCENE_RX + k];
+            if (c != NONE)
+                sum += force[c] * (2 * tan(s->step[c] / 2) - s->step[c]);
+        }
+    }
+    return sum;
+}
+
+static int moves_by_drivers(const conserving *s)
+{
+    for (int c = s->free; c < s->all; c++)
+        if (s->step[c] != 0)
+            return 1;
+    return 0;
+}
+
+status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
+{
+    const size_t bytes = (size_t)s->all * sizeof *s->residual;
+    const int behind = 3; /* of the iterations in which k counts */
+    double ignored = 0;
+    memset(s->residual, 0, bytes);
+    conserving_loads(s, from, to->state, h, s->residual);
+    to->work = from->work;
+    if (moves_by_drivers(s)) {
+        double *held = s->dx;
+        memcpy(held, s->residual, bytes);
+        TRY(conserving_stresses(s, from, to->state, behind, f));
+        conserving_forces(s, from, to->state, &ignored);
+        conserving_inertia(s, from, to->state, h);
+        for (int c = s->free; c < s->all; c++)
+            held[c] -= s->residual[c];
+        to->work += worked_on(s, held);
+    } else {
+        to->work += worked_on(s, s->residual);
+    }
+    to->dissipated = from->dissipated;
+    return STATUS_OK;
+}
