@@ -19,31 +19,32 @@ def noise_of(site):
 def rows_of(problems, noise):
     """[(problem, {level: Answer})] of the table who is cheapest."""
     return [(p, {level: answers.answer(p, level, noise) for level in answers.LEVELS})
-            for p in problems if p.runs]
+            for p in answers.judged(problems)]
 
 
-def orders_of(problems):
-    """[(problem, [(scheme, order shown, nominal order)])]"""
-    found = [(p, [(s, answers.order(answers.series(p, s)), stored.nominal(s))
-                  for s in p.schemes()]) for p in problems]
-    return [(p, [o for o in own if o[1] == o[1]]) for p, own in found
-            if any(o[1] == o[1] for o in own)]
+def maps_of(problems):
+    """[(name, Image, sentence)]: a map for each structure, letters explained below the first."""
+    found = [own for own in answers.structures(problems).values() if stability.fates(own)]
+    return [(min(own, key=lambda p: p.stiffening).name, stability.draw(own, own is found[0]),
+             words.stability(own)) for own in found]
 
 
 def failures_of(problems):
-    """[(problem, run)] of what has no error, and why."""
-    return [(p, r) for p in problems for r in p.runs if r.status != "ok"]
+    """[(problem, run)] of what has no error, and why; large steps that are to stop stand in the
+    maps."""
+    return [(p, r) for p in answers.judged(problems) for r in p.runs if r.status != "ok"]
 
 
 def write(site):
-    problems, noise = stored.beside(site.results), noise_of(site)
+    record, noise = stored.beside(site.results), noise_of(site)
+    problems = record.problems
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(problem)
     diagrams = ((case, figures.work_precision(site, case, found)) for case, found in cases.items())
-    profiles = ((level, figures.profile(site, problems, level)) for level in answers.LEVELS)
+    profiles = ((level, figures.profile(site, answers.judged(problems), level))
+                for level in answers.LEVELS)
     counted, stiffenings = answers.iterations(problems)
-    mapped = [p for p in problems if p.cells]
     site.write("integrators.html",
                "integrators.html",
                first=words.first(problems, noise),
@@ -51,11 +52,12 @@ def write(site):
                rows=rows_of(problems, noise),
                noise=noise,
                diagrams=[(case, image) for case, image in diagrams if image],
-               maps=[(p, stability.draw(p, p is mapped[0]), words.stability(p.cells))
-                     for p in mapped],
+               maps=maps_of(problems),
                profiles=[(level, image) for level, image in profiles if image],
-               iterations=counted, stiffenings=[(s, stability.short(s)) for s in stiffenings],
-               orders=orders_of(problems),
+               iterations=counted, counted=words.iterations(counted),
+               stiffenings=[(s, stability.short(s)) for s in stiffenings],
+               ladders=[(p, one) for p in answers.judged(problems) for one in p.ladders],
+               verdicts=record.verdicts, judged=words.verdicts(record.verdicts),
                failures=failures_of(problems))
 
 

@@ -1,78 +1,55 @@
 """Which integrator, with which step, is soonest within an error of time; and whether that can be
-believed.
-
-A scheme is within an error by the cheapest of its runs from which on all with smaller steps or
-tolerances are within it, too."""
+believed. What a scheme needs for an error is told by `beamwork motion` itself."""
 import math
 from dataclasses import dataclass
 
-from reports.integrators.stored import nominal, ordered
+from reports.integrators.stored import ordered
 
 LEVELS = (1e-2, 1e-4, 1e-6)
-NEAR = 0.3  # an order is the one that a scheme should have when it is not lower by more
-FLOOR = 1e-9  # below it the error of the reference may count: no order is read there
 FACTORS = [10**(i / 12) for i in range(25)]  # of profiles: from 1 to 100
 
 
 @dataclass(frozen=True)
 class Answer:
-    """best: the run that is soonest, or None; ties: schemes as soon, within the noise of costs;
-    ways: {scheme: run}."""
+    """ways: the cheapest first; ties: schemes that are as soon, within the noise of costs."""
 
     level: float
-    best: object
+    ways: tuple
     ties: tuple
-    ways: dict
 
-
-def series(problem, scheme, stiffening=1):
-    """Its runs, from the coarsest to the finest."""
-    own = [r for r in problem.runs if r.scheme == scheme and r.stiffening == stiffening]
-    return sorted(own, key=lambda r: (-r.tolerance, -r.step))
-
-
-def way(runs, level):
-    """The cheapest run from which on all are within the level, or None."""
-    kept = []
-    for run in reversed(runs):
-        if not (run.known and abs(run.error) <= level):
-            break
-        kept.append(run)
-    return min(kept, key=lambda r: r.cost, default=None)
-
-
-def groups(runs):
-    """Runs of one step each, and those with a tolerance, apart: each goes to its own limit."""
-    return [[r for r in runs if bool(r.tolerance) == wanted] for wanted in (False, True)]
+    @property
+    def best(self):
+        return self.ways[0] if self.ways else None
 
 
 def answer(problem, level, noise=1.0):
     """The Answer of one problem."""
-    ways = {}
-    for scheme in problem.schemes():
-        found = [w for w in (way(own, level) for own in groups(series(problem, scheme))) if w]
-        if found:
-            ways[scheme] = min(found, key=lambda r: r.cost)
-    best = min(ways.values(), key=lambda r: r.cost, default=None)
-    ties = tuple(s for s, r in ways.items() if r is not best and r.cost <= noise * best.cost)
-    return Answer(level, best, ties, ways)
+    ways = tuple(problem.reached.get(level, ()))
+    ties = tuple(w.scheme for w in ways[1:] if w.cost <= noise * ways[0].cost)
+    return Answer(level, ways, ties)
 
 
-def order(runs):
-    """The order that the two finest runs of equal steps show, above the floor, or NaN."""
-    told = [r for r in runs if r.known and not r.tolerance and abs(r.error) > FLOOR]
-    if len(told) < 2 or told[-1].step == told[-2].step:
-        return math.nan
-    return (math.log(abs(told[-2].error / told[-1].error)) /
-            math.log(told[-2].step / told[-1].step))
+def judged(problems):
+    """Those with errors of time."""
+    return [p for p in problems if not p.reference and any(r.known for r in p.runs)]
 
 
-def doubts(problem, run):
-    """Why the error of a run may not be what it says: [words]."""
-    found, shown = order(series(problem, run.scheme)), nominal(run.scheme)
-    if math.isfinite(found) and found < shown - NEAR:
-        return [f"its error falls with order {found:.1f}, not {shown}"]
-    return []
+def series(problem, scheme):
+    """Its runs, from the coarsest to the finest: [those with equal steps, those with a
+    tolerance]."""
+    own = sorted((r for r in problem.runs if r.scheme == scheme),
+                 key=lambda r: (-r.tolerance, -r.step))
+    return [[r for r in own if bool(r.tolerance) == wanted] for wanted in (False, True)]
+
+
+def doubt(problem, way):
+    """Why the error of a run may not be what it says; empty: nothing speaks against it."""
+    ladder = problem.ladder(way.scheme)
+    if ladder is not None and ladder.verdict == "low order":
+        return f"its error falls with order {ladder.order:.1f}, not {ladder.nominal:g}"
+    if problem.uncertainty > abs(way.run.error):
+        return f"the reference itself may be off by {problem.uncertainty:.0e}"
+    return ""
 
 
 def wins(problems, level, noise=1.0):
@@ -92,25 +69,35 @@ def profile(problems, level):
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(answer(problem, level))
-    schemes = ordered({r.scheme for p in problems for r in p.runs})
-    out = {s: [0.0] * len(FACTORS) for s in schemes}
+    out = {s: [0.0] * len(FACTORS) for s in ordered({r.scheme for p in problems for r in p.runs})}
     for found in cases.values():
         for one in found:
-            for scheme, run in one.ways.items():
+            for way in one.ways:
                 for i, factor in enumerate(FACTORS):
-                    if run.cost <= factor * one.best.cost * (1 + 1e-12):
-                        out[scheme][i] += 1 / len(found) / len(cases)
+                    if way.cost <= factor * one.best.cost * (1 + 1e-12):
+                        out[way.scheme][i] += 1 / len(found) / len(cases)
+    return out
+
+
+def structures(problems):
+    """{structure: [Problem]}: one structure with all its stiffenings."""
+    out = {}
+    for problem in problems:
+        out.setdefault(problem.structure, []).append(problem)
     return out
 
 
 def iterations(problems):
-    """({(problem name, scheme, step): {stiffening: iterations a step}}, stiffenings): what was
-    measured with several stiffenings."""
+    """({(name, scheme, step): {stiffening: iterations a step}}, stiffenings): what was run with
+    several stiffenings."""
     rows = {}
-    for problem in problems:
-        for one in (*problem.cells, *problem.runs):
-            if math.isfinite(one.iterations) and not getattr(one, "tolerance", 0):
-                rows.setdefault((problem.name, one.scheme, one.step),
-                                {})[one.stiffening] = one.iterations
-    rows = {key: found for key, found in rows.items() if len(found) > 1}
+    for own in structures(problems).values():
+        for problem in own:
+            for run in problem.runs:
+                if math.isfinite(run.iterations) and not run.tolerance and run.status == "ok":
+                    key = min(own, key=lambda p: p.stiffening).name, run.scheme, run.step
+                    rows.setdefault(key, {})[problem.stiffening] = run.iterations
+    place = {s: i for i, s in enumerate(ordered({scheme for _, scheme, _ in rows}))}
+    rows = {key: rows[key] for key in sorted(rows, key=lambda k: (k[0], place[k[1]], -k[2]))
+            if len(rows[key]) > 1}
     return rows, sorted({s for found in rows.values() for s in found})

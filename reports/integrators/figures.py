@@ -28,7 +28,7 @@ def slope_lines(panel, runs):
 
 def draw_scheme(site, panel, problem, scheme):
     """Its curve, equal steps and steps by a tolerance apart."""
-    for own in answers.groups(answers.series(problem, scheme)):
+    for own in answers.series(problem, scheme):
         known = [r for r in own if r.known and r.cost > 0]
         if not known:
             continue
@@ -43,17 +43,17 @@ def draw_scheme(site, panel, problem, scheme):
 
 def work_precision(site, case, problems):
     """The Image of a case: a panel for each formulation."""
-    told = [p for p in problems if any(r.known and r.cost > 0 for r in p.runs)]
+    told = [p for p in answers.judged(problems) if any(r.known and r.cost > 0 for r in p.runs)]
     if not told:
         return None
     columns = min(COLUMNS, len(told))
     chart = Chart(columns, SIZE if columns > 1 else ONE)
     for i, problem in enumerate(told):
-        panel = chart.panel(f"{problem.formulation}, n = {problem.elements}",
+        stiff = f", EA × {problem.stiffening:g}" if problem.stiffening != 1 else ""
+        panel = chart.panel(f"{problem.formulation}, n = {problem.elements}{stiff}",
                             "cost [s]" if i + columns >= len(told) else "",
                             "" if i % columns else "error of time")
-        slope_lines(panel, [r for r in problem.runs if r.known and r.cost > 0 and
-                            r.stiffening == 1] or [r for r in problem.runs if r.known])
+        slope_lines(panel, [r for r in problem.runs if r.known and r.cost > 0])
         for scheme in problem.schemes():
             draw_scheme(site, panel, problem, scheme)
     return chart.image(site, f"integrators_{case}")

@@ -1,32 +1,30 @@
-"""What `beamwork motion --json` wrote, as plain records: runs of integrators, and what became of
-long motions with large steps."""
+"""What `beamwork motion --json` wrote, as plain records: motions by integrators with steps and
+tolerances."""
 import json
 import math
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 FILE = "motion.json"
-NOMINAL = {"alpha": 2, "hht": 2, "trapezoidal": 2, "conserving": 2, "radau": 5, "explicit": 8}
-USUAL_RHO = 0.9
+ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
+STIFFENING = "stiffening"  # parameter of cases that says how many times as stiff elongation is
 
 
 @dataclass(frozen=True)
 class Run:
-    """One motion by one integrator. error: of time alone, relative; cost [s] of counted work;
-    energy, momentum: largest relative change that nothing explains."""
+    """One motion. error: of time alone; cost [s] of counted work; energy, momentum: largest
+    relative change that nothing explains; fate: what became of it once nothing acts."""
 
     scheme: str
     step: float
     tolerance: float
-    stiffening: float
     error: float
-    order: float
     cost: float
-    seconds: float
     iterations: float
     rejected: int
     energy: float
     momentum: float
+    fate: str
     status: str
     reason: str
 
@@ -41,50 +39,67 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Cell:
-    """What became of a long motion. outcome: exact, bounded, grows or stops."""
+class Ladder:
+    """Order of an integrator from steps that are halved; verdict: pass, low order or undecided."""
 
     scheme: str
-    step: float
-    stiffening: float
-    outcome: str
-    iterations: float
-    energy: float
-    reason: str
+    nominal: float
+    order: float
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a scheme comes within an error: cost [s] where the error is just that, and the run that
+    is within it."""
+
+    scheme: str
+    cost: float
+    run: Run
 
 
 @dataclass
 class Problem:
-    """A formulation on a mesh of a case."""
+    """A formulation on a mesh of a case. reached: {error: [Way]}, the cheapest first."""
 
     case: str
+    parameters: str
     formulation: str
     elements: int
+    stiffening: float
+    alone_from: float
+    reference: str  # why there is none; empty: there is one
+    uncertainty: float
     runs: list
-    cells: list = field(default_factory=list)
+    ladders: list
+    reached: dict
 
     @property
     def name(self):
-        return f"{self.case}, {self.formulation}, n = {self.elements}"
+        at = f" ({self.parameters})" if self.parameters else ""
+        return f"{self.case}{at}, {self.formulation}, n = {self.elements}"
+
+    @property
+    def structure(self):
+        """The same for all stiffenings."""
+        rest = [p for p in self.parameters.split(";") if not p.strip().startswith(STIFFENING)]
+        return self.case, ";".join(rest), self.formulation, self.elements
 
     def schemes(self):
-        """In the order of NOMINAL, those with options behind."""
-        return ordered({r.scheme for r in self.runs} | {c.scheme for c in self.cells})
+        return ordered({r.scheme for r in self.runs})
+
+    def ladder(self, scheme):
+        """Of a scheme, or None."""
+        return next((one for one in self.ladders if one.scheme == scheme), None)
 
 
 def ordered(schemes):
-    known = list(NOMINAL)
-
+    """Known ones in their order, those with options behind."""
     def place(scheme):
         name = scheme.partition(":")[0]
-        return known.index(name) if name in known else len(known), scheme
+        return ORDER.index(name) if name in ORDER else len(ORDER), scheme
 
     return sorted(schemes, key=place)
-
-
-def nominal(scheme):
-    """The order that a scheme should have, or NaN."""
-    return NOMINAL.get(scheme.partition(":")[0], math.nan)
 
 
 def number(row, name, other=math.nan):
@@ -92,38 +107,48 @@ def number(row, name, other=math.nan):
     return other if value is None else float(value)
 
 
-def scheme_of(row):
-    """Its name, with the radius where it is not the usual one."""
-    rho = number(row, "rho", USUAL_RHO)
-    plain = row["integrator"] != "alpha" or rho == USUAL_RHO
-    return row["integrator"] + ("" if plain else f":rho={rho:g}")
-
-
 def run_of(row):
-    return Run(scheme_of(row), number(row, "step"), number(row, "tolerance", 0),
-               number(row, "stiffening", 1), number(row, "error"), number(row, "order"),
-               number(row, "cost"), number(row, "seconds"), number(row, "iterations_per_step"),
+    return Run(row["integrator"], number(row, "step"), number(row, "tolerance", 0),
+               number(row, "error"), number(row, "cost"), number(row, "iterations"),
                int(number(row, "rejected", 0)), number(row, "energy_drift"),
-               number(row, "momentum_drift"), row.get("status", "ok"), row.get("reason", ""))
+               number(row, "momentum_drift"), row["fate"], row["status"], row["reason"])
 
 
-def cell_of(row):
-    return Cell(scheme_of(row), number(row, "step"), number(row, "stiffening", 1), row["outcome"],
-                number(row, "iterations_per_step"), number(row, "energy_drift"),
-                row.get("reason", ""))
+def ways_of(rows, runs):
+    """{error: [Way]}"""
+    found = {(r.scheme, r.step, r.tolerance): r for r in runs}
+    out = {}
+    for row in rows:
+        run = found[row["integrator"], row["step"], row["tolerance"]]
+        out.setdefault(row["error"], []).append(Way(row["integrator"], row["cost"], run))
+    return {error: sorted(ways, key=lambda w: w.cost) for error, ways in out.items()}
 
 
 def problem_of(row):
-    return Problem(row["case"], row["formulation"], int(row["elements"]),
-                   [run_of(r) for r in row["runs"]], [cell_of(c) for c in row.get("stability", ())])
+    runs, reference = [run_of(r) for r in row["runs"]], row["reference"] or {}
+    ladders = [Ladder(o["integrator"], o["nominal"], number(o, "order"), o["verdict"])
+               for o in row["orders"]]
+    return Problem(row["case"], row["parameters"], row["formulation"], int(row["elements"]),
+                   float(row["values"].get(STIFFENING, 1)), number(row, "alone_from"),
+                   reference.get("reason", "none is wanted"), number(reference, "uncertainty"),
+                   runs, ladders, ways_of(row["reached"], runs))
+
+
+@dataclass
+class Record:
+    """verdicts: rows of what is judged against what is expected."""
+
+    problems: list
+    verdicts: list
 
 
 def read(path):
-    """[Problem], or None where there is no such file."""
+    """The Record, or None where there is no such file."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
-        return [problem_of(row) for row in json.load(file)["cases"]]
+        found = json.load(file)
+    return Record([problem_of(row) for row in found["cases"]], found["verdicts"])
 
 
 def beside(results):

@@ -12,14 +12,16 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """`alpha (2 of 3)` for each scheme that wins somewhere."""
+    """`within 1 % alpha in 2 of 3`; of one problem with its step."""
     count, reached = answers.wins(problems, level, noise)
     if not reached:
         return f"within {level_words(level)} none"
-    most = sorted(count.items(), key=lambda item: -item[1])
     if len(problems) == 1:
-        best = answers.answer(problems[0], level, noise).best
-        return f"within {level_words(level)} {best.scheme} with {best.setting}"
+        found = answers.answer(problems[0], level, noise)
+        tied = f" (as soon: {joined(found.ties)})" if found.ties else ""
+        best = found.best
+        return f"within {level_words(level)} {best.scheme} with {best.run.setting}{tied}"
+    most = sorted(count.items(), key=lambda item: -item[1])
     told = joined(f"{scheme} in {n}" for scheme, n in most)
     tied = " (ties count for each)" if sum(count.values()) > reached else ""
     return f"within {level_words(level)} {told} of {reached}{tied}"
@@ -32,40 +34,62 @@ def trust(problems, noise):
             if found.best]
     if not best:
         return "No run comes within these errors."
-    doubted = [(p, run, words) for p, run in best for words in answers.doubts(p, run)]
+    doubted = [(p, way, answers.doubt(p, way)) for p, way in best]
+    doubted = [row for row in doubted if row[2]]
     if doubted:
-        p, run, words = doubted[0]
+        p, way, words = doubted[0]
         return (f"{len(doubted)} of these {len(best)} answers should not be relied on yet: "
-                f"{run.scheme} in {p.name}: {words}.")
-    measured = {run.scheme: answers.order(answers.series(p, run.scheme)) for p, run in best}
-    orders = [f"{s} {order:.1f}" for s, order in measured.items() if order == order]
-    told = f" (orders: {', '.join(orders)})" if orders else ""
-    return ("They can be believed: the errors are measured on the same mesh against radau with a "
-            "tolerance of 1e-10, and where an order can be read they fall with the one that the "
-            f"scheme should have{told}.")
+                f"{way.scheme} in {p.name}: {words}.")
+    found = [p.ladder(way.scheme) for p, way in best]
+    passed = sum(one is not None and one.verdict == "pass" for one in found)
+    unread = len(best) - passed
+    told = (f"; of {passed} the order of the scheme is confirmed, of {unread} it cannot be read"
+            if unread else ", and the order of the scheme is confirmed")
+    return (f"These {len(best)} answers can be believed: errors are measured on the same mesh "
+            f"against a reference that is closer than they are{told}.")
 
 
 def first(problems, noise):
     """The first sentences of the page."""
-    every = [p for p in problems if p.runs]
-    if not every:
+    told = answers.judged(problems)
+    if not told:
         return "No run of these results tells an error of time."
-    where = (f"{every[0].name}: the soonest is" if len(every) == 1 else
-             f"Of {len(every)} problems (a case with a formulation) the soonest is")
-    told = "; ".join(soonest(every, level, noise) for level in answers.LEVELS)
-    return f"{where} {told}. {trust(every, noise)}"
+    where = (f"{told[0].name}: soonest is" if len(told) == 1 else
+             f"Of {len(told)} problems (a case with a formulation) soonest is")
+    levels = "; ".join(soonest(told, level, noise) for level in answers.LEVELS)
+    return f"{where} {levels}. {trust(told, noise)}"
 
 
-def stability(cells):
+def stability(problems):
     """One sentence on a map: which schemes grow or stop anywhere."""
-    bad = {}
-    for cell in cells:
-        if cell.outcome in ("grows", "stops"):
-            bad.setdefault(cell.scheme, set()).add(cell.step)
-    every = dict.fromkeys(c.scheme for c in cells)
+    bad, every = {}, {}
+    for problem in problems:
+        for run in problem.runs:
+            if run.fate and not run.tolerance:
+                every[run.scheme] = True
+            if run.fate in ("grows", "stops") and not run.tolerance:
+                bad.setdefault(run.scheme, set()).add(run.step)
     good = [s for s in every if s not in bad]
     told = [f"{s} grows or stops from a step of {min(steps):.3g} s on" for s, steps in bad.items()]
     if good:
         told = [f"{joined(good)} stay{'s' if len(good) == 1 else ''} bounded everywhere"] + told
     text = "; ".join(told)
     return text[:1].upper() + text[1:] + "."
+
+
+def iterations(rows):
+    """One sentence on how iterations change between the least and the largest stiffness."""
+    change = [found[max(found)] - found[min(found)] for found in rows.values()]
+    if not change:
+        return ""
+    return (f"From the softest to the stiffest a step takes at most {max(0, max(change)):.1f} "
+            f"iterations more, of {len(change)} that were run with both.")
+
+
+def verdicts(rows):
+    """One sentence on what is judged."""
+    off = sum(not row["as_expected"] for row in rows)
+    if not rows:
+        return ""
+    told = f"{len(rows)} verdicts on orders, conservation and large steps: "
+    return told + (f"{off} differ from what is expected." if off else "all as expected.")
