@@ -11,9 +11,10 @@ import os
 import numpy as np
 
 from reports import viewer
-from reports.shapes import CLAMPED, bodies, distance, exaggeration, read, strips
+from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read, size_of, strips
 
 NAVIGATION = [("pictures.html", "pictures")]
+FLAT = 0.02  # extent to size below which a structure lies in a plane
 FAR, NEARLY = 0.45, 0.9  # of the largest distance: below a half and the whole, which evenly spaced states miss by a little
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
@@ -46,6 +47,8 @@ def best_view(s, states):
                     for k in states),
                    default=0)
 
+    if any(s.kind[k] == FRAME for k in states) and np.ptp(s.position[..., 2]) < FLAT * size_of(s):
+        return View(-84, 74)  # a motion in the plane of x and y: from above, x to the right
     side, above = View(), View(elevation=52)
     return above if seen(above) > 1.25 * seen(side) else side
 
@@ -114,7 +117,8 @@ class Sheet:
 
 def still(s, state):
     """One state over the pale undeformed one, as SVG: what is seen where nothing can be turned."""
-    scale, view = exaggeration(s, state), best_view(s, [state])
+    scale = 1 if s.kind[state] == FRAME else exaggeration(s, state)
+    view = best_view(s, [state])
     rest, here = drawn_polygons(s, state, scale)
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
     sheet = Sheet(view, np.concatenate([p for p, _ in rest + here] + [nodes]))
@@ -145,7 +149,7 @@ def title_of(s, state, scale):
     words = {
         "undeformed": "undeformed", "path": f"at path parameter {value}",
         "linear": "linear solution", "buckling": f"buckling at load factor {value}",
-        "mode": f"{value} Hz"
+        "mode": f"{value} Hz", FRAME: f"t = {value} s"
     }[s.kind[state]]
     return words + (f", displacements × {scale:g}" if scale != 1 else "")
 
@@ -153,7 +157,7 @@ def title_of(s, state, scale):
 def chosen(s):
     """States worth a picture: of a path the first that has moved far and the last that is farthest
     from it, a linear solution, the first modes."""
-    path = [k for k, kind in enumerate(s.kind) if kind == "path"]
+    path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:
         moved = [distance(s, k, 0) for k in path]
@@ -171,7 +175,7 @@ def draw(site, case, s):
     """The still picture and the shape that can be turned, as files."""
     worth = chosen(s)
     first = worth[min(1, len(worth) - 1)]
-    start = max((k for k in worth if s.kind[k] == "path"), default=first)
+    start = max((k for k in worth if s.kind[k] in ("path", FRAME)), default=first)
     with open(os.path.join(site.folder, f"picture_{case.name}.svg"), "w", encoding="utf-8") as out:
         out.write(still(s, start))
     view = best_view(s, [start])
@@ -188,8 +192,8 @@ def write_case(site, case):
 def caption(s):
     return (
         f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through "
-        "their axes. Pale: undeformed; sand: rigid bodies; squares: held; circles: released ends. "
-        "Modes: largest displacement a tenth of the size, or largest turn half a radian.")
+        "their axes. Pale: undeformed; sand: rigid bodies; squares: held; circles: released ends. " + ("Play, or drag the slider, to see it move, at true scale." if FRAME in s.kind else
+           "Modes: largest displacement a tenth of the size, or largest turn half a radian."))
 
 
 def markup(case, s):

@@ -17,6 +17,7 @@ THIN = 0.2  # thickness to length of a wall that is drawn as a surface
 VISIBLE = 0.02  # displacement to size below which the picture exaggerates
 GAP = 0.35  # between the points of a body, to its extent, beyond which they are drawn as parts joined by rods
 CLAMPED = 63  # all six components held
+FRAME = "motion"  # kind of a state that is a frame of a motion; its value is the time [s]
 
 
 @dataclasses.dataclass
@@ -50,8 +51,13 @@ def matrices(q):
 
 def read(site, case):
     """Shapes of a case's defaults, or None when the results hold none."""
-    with h5py.File(site.results) as file:
-        place = f"cases/{case.name}/shapes/default"
+    return read_file(site.results, case.name)
+
+
+def read_file(path, name, point="default"):
+    """The same of a case of a file, at a point."""
+    with h5py.File(path) as file:
+        place = f"cases/{name}/shapes/{point}"
         if place not in file:
             return None
         g = file[place]

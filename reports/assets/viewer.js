@@ -30,6 +30,7 @@ function open() {
   if (!context.getProgramParameter(program, context.LINK_STATUS)) return null;
   context.useProgram(program);
   context.enable(context.DEPTH_TEST);
+  context.kept = [context.createBuffer(), context.createBuffer()];
   context.place = name => context.getUniformLocation(program, name);
   return context;
 }
@@ -98,6 +99,7 @@ class Viewer {
     row.hidden = shape.states.length < 2;
     this.listen();
     this.choose();
+    if ((shape.times || []).filter(t => t !== null).length > 1) play(this);
   }
 
   listen() {
@@ -135,9 +137,9 @@ class Viewer {
     const ink = dark ? [0.9, 0.92, 0.95] : [0.11, 0.14, 0.19], soft = dark ? [0.35, 0.4, 0.46] : [0.36, 0.5, 0.63], pale = dark ? [0.27, 0.3, 0.35] : [0.8, 0.83, 0.87];
     this.words.textContent = this.shape.states[k];
     this.slider.setAttribute("aria-valuetext", this.shape.states[k]);
-    const rest = new State(this.shape, 0).mesh(pale, pale);
+    const rest = k ? new State(this.shape, 0).mesh(pale, pale) : { edges: [], lines: [] };
     this.mesh = new State(this.shape, k).mesh(ink, soft);
-    if (k) this.mesh.ghost = [...rest.edges, ...rest.lines];
+    this.mesh.ghost = [...rest.edges, ...rest.lines];
     this.draw();
   }
 
@@ -161,7 +163,7 @@ class Viewer {
       gl.uniform1i(gl.place("lit"), lit);
       gl.uniform1f(gl.place("before"), lit ? 0 : 0.004); // lines and dots lie before the walls they are on
       [0, 1].forEach(i => {
-        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+        gl.bindBuffer(gl.ARRAY_BUFFER, gl.kept[i]);
         gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(list.flatMap(item => item[i])), gl.STREAM_DRAW);
         gl.enableVertexAttribArray(i); gl.vertexAttribPointer(i, 3, gl.FLOAT, false, 0, 0);
       });
@@ -191,7 +193,13 @@ class Viewer {
   }
 }
 
-// A shape is fetched when its place comes into view: file://, too, lets a script be loaded.
+// What plays motions is fetched with the first one; a film has it in itself.
+const play = viewer => {
+  if (window.beamwork_player) { window.beamwork_player(viewer); return; }
+  document.head.append(Object.assign(document.createElement("script"), { src: "player.js", onload: () => window.beamwork_player(viewer) }));
+};
+
+// A shape is fetched when its place comes into view: file://, too, lets a script be loaded. That of a film stands in it.
 const waiting = {};
 window.beamwork_shape = (name, shape) => {
   gl = gl || open();
@@ -199,9 +207,10 @@ window.beamwork_shape = (name, shape) => {
 };
 const watch = new IntersectionObserver(seen => seen.filter(each => each.isIntersecting).forEach(({ target }) => {
   watch.unobserve(target);
-  const name = target.dataset.shape;
+  const name = target.dataset.shape, own = document.getElementById(`shape_${name}`);
   (waiting[name] = waiting[name] || []).push(target);
-  document.head.append(Object.assign(document.createElement("script"), { src: `shape_${name}.js` }));
+  if (own) window.beamwork_shape(name, JSON.parse(own.textContent));
+  else document.head.append(Object.assign(document.createElement("script"), { src: `shape_${name}.js` }));
 }), { rootMargin: "200px" });
 document.querySelectorAll("div.viewer").forEach(place => watch.observe(place));
 })();

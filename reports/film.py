@@ -1,0 +1,130 @@
+"""python -m reports.film RESULTS.h5 [-k CASE] -o FILM.html: a motion as one file that any browser
+plays from disk: the viewer in space (assets/viewer.js, assets/player.js) with the frames in it. It
+plays again and again, can be paused (Space), turned and looked at frame by frame; where less motion
+is asked for it waits."""
+import argparse
+import os
+import sys
+
+import h5py
+from markupsafe import Markup, escape
+
+from reports import data, pictures, shapes, viewer
+from reports.site import ASSETS
+
+MOST = 40_000  # points of all frames together: about 0.9 MB
+SCRIPTS = ("player.js", "viewer.js")
+LOOK = """body { max-width: 76rem; } h1 { margin: 0; } div.viewer { max-width: none; }
+canvas.space { height: max(16rem, calc(100vh - 14rem)); }
+@media (max-width: 40rem) { canvas.space { height: 58vh; } }
+p { margin: .2rem 0 .5rem; }"""
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<link rel="icon" href="data:,">
+<style>
+{style}
+{look}
+</style>
+</head>
+<body>
+<main>
+<h1>{title}</h1>
+<p>{words}</p>
+<div class="viewer" data-play data-shape="{name}" data-alt="{title} in space">{still}</div>
+<p class="small">{caption}</p>
+</main>
+<script type="application/json" id="shape_{name}">{shape}</script>
+{scripts}
+</body>
+</html>
+"""
+
+
+class NoFilm(Exception):
+    """Why there is nothing to be filmed."""
+
+
+def films(path):
+    """{case: (summary, point)} of the cases with frames, of each the first point that has some."""
+    out = {}
+    with h5py.File(path) as file:
+        for name, group in file["cases"].items():
+            for point, shape in sorted(group.get("shapes", {}).items(),
+                                       key=lambda item: item[0] != "default"):
+                if shapes.FRAME.encode() in shape["kind"][()].tolist():
+                    out.setdefault(name, (data.text(group.attrs["summary"]), point))
+    return out
+
+
+def chosen(path, wanted):
+    """(case, summary, point): the one that is wanted, or the only one."""
+    found = films(path)
+    name = next(iter(found)) if wanted is None and len(found) == 1 else wanted
+    if name in found:
+        return name, *found[name]
+    if not found:
+        raise NoFilm(f"{path}: holds no frames of a motion; 'beamwork solve CASE --shapes -o FILE' "
+                     "writes them")
+    asked = f"no frames of '{wanted}'" if wanted else "several motions"
+    raise NoFilm(f"{path}: {asked}; choose one with -k: {', '.join(sorted(found))}")
+
+
+def words_of(summary, s):
+    """What is seen."""
+    times = s.value[viewer.frames_of(s)]
+    return (f"{summary[:1].upper()}{summary[1:]}. {times[0]:.4g} to {times[-1]:.4g} s, computed "
+            f"with {s.formulation}, n = {s.n}, at true scale.")
+
+
+def page(path, wanted=None):
+    """The film as text."""
+    name, summary, point = chosen(path, wanted)
+    s = shapes.read_file(path, name, point)
+    first = viewer.frames_of(s)[0]
+    view = pictures.best_view(s, viewer.frames_of(s))
+    shape = viewer.shape(s, pictures.title_of, pictures.supports(s), pictures.hinges(s), first,
+                         view.angles, MOST)
+    scripts = "\n".join(f"<script>\n{(ASSETS / n).read_text(encoding='utf-8')}</script>"
+                        for n in SCRIPTS)
+    held = ("Drag it, or use the arrow keys, to turn it; + and - change its size; Space plays and "
+            "pauses; comma and full stop go to the frame before and after; &lt; and &gt; change "
+            "the speed. Pale: undeformed.")
+    return PAGE.format(title=escape(name), name=escape(name), words=escape(words_of(summary, s)),
+                       style=(ASSETS / "style.css").read_text(encoding="utf-8"), look=LOOK,
+                       still=Markup(pictures.still(s, first)), caption=held,
+                       shape=viewer.as_json(shape).replace("<", "\\u003c"), scripts=scripts)
+
+
+def write(text, path):
+    """Appears complete or not at all."""
+    part = f"{path}.part"
+    with open(part, "w", encoding="utf-8") as out:
+        out.write(text)
+    os.replace(part, path)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="reports.film", description=__doc__)
+    parser.add_argument("results", help="of 'beamwork solve --shapes -o' or 'verify --shapes -o'")
+    parser.add_argument("-k", dest="case", help="its name, where the file holds several motions")
+    parser.add_argument("-o", dest="film", required=True, help="an HTML file")
+    given = parser.parse_args(arguments)
+    try:
+        data.read_about(given.results)
+        write(page(given.results, given.case), given.film)
+    except NoFilm as why:
+        print(f"film: {why}", file=sys.stderr)
+        return 2
+    except (data.Unreadable, OSError) as why:
+        print(f"film: {why}", file=sys.stderr)
+        return 4
+    print(f"{os.path.getsize(given.film) / 1e6:.2f} MB: {given.film}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

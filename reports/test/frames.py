@@ -1,0 +1,43 @@
+"""Frames of motions put into a file of results by hand: a structure that turns as a rigid body."""
+import h5py
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from reports.shapes import FRAME
+
+
+def turned(axes, by):
+    """Quaternions [w, x, y, z] that are turned."""
+    own = Rotation.from_quat(axes[:, [1, 2, 3, 0]])
+    return (by * own).as_quat()[:, [3, 0, 1, 2]]
+
+
+def add(path, case, times, rate=1.0):
+    """Appends a frame for each time to the shapes of a case: all of it turns about z."""
+    with h5py.File(path, "r+") as file:
+        g = file[f"cases/{case}/shapes/default"]
+        new = {"kind": [FRAME.encode()] * len(times), "value": list(times),
+               "position": [], "orientation": [], "nodes": []}
+        for t in times:
+            by = Rotation.from_rotvec([0, 0, rate * t])
+            new["position"].append(by.apply(g["position"][0]))
+            new["orientation"].append(turned(g["orientation"][0], by))
+            new["nodes"].append(by.apply(g["nodes"][0]))
+        for name, values in new.items():
+            old = g[name][()]
+            values = np.array(values)
+            if name == "kind":
+                old, values = old.astype("S16"), values.astype("S16")
+            del g[name]
+            g[name] = np.concatenate([old, values])
+
+
+def only(path, case, times, rate=1.0):
+    """The same where nothing but the undeformed state and the frames is left."""
+    with h5py.File(path, "r+") as file:
+        g = file[f"cases/{case}/shapes/default"]
+        for name in ("kind", "value", "position", "orientation", "nodes"):
+            old = g[name][()][:1]
+            del g[name]
+            g[name] = old
+    add(path, case, times, rate)
