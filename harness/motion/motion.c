@@ -186,8 +186,10 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     w.follows = c->scene->analysis[analysis].follows;
     w.out = outcome_motion_in(o);
     c->model->in_time = 1;
-    const status result = solve(&w, f);
+    status result = solve(&w, f);
     c->model->in_time = 0;
+    if (result != STATUS_FAULT && history_add_motion(c->result, analysis, w.out, f) != STATUS_OK)
+        result = STATUS_FAULT;
     instant_free(&w.now);
     instant_free(&w.next);
     stations_free(&w.stations);

@@ -100,8 +100,8 @@ status json_finish(json_t *root, FILE *to, fault *f)
 
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
 {
-    static const record_type *const lists[] = {&record_event, &record_step, &record_iteration,
-                                               &record_matrix};
+    static const record_type *const lists[] = {&record_event, &record_motion, &record_step,
+                                               &record_iteration, &record_matrix};
     const gathering g = {s, NULL, t};
     const subject cell = gather_cell(&g, 0, 0);
     json_t *root = json_pack("{s:i,s:s,s:s,s:i}", "schema_version", SCHEMA_VERSION, "case",

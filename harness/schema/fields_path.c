@@ -155,6 +155,35 @@ const record_type record_event = {"event",
                                   "what a continued path met",
                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_event}};
 
+#define MOTION(member) AT(motion_record, at.member)
+#define BALANCE(of)    AT(motion_record, at.balance[of])
+static const schema_field fields_of_motion[] = {
+    {"analysis", "1", FIELD_INT, "of the scene", AT(motion_record, analysis)},
+    {"time", "s", FIELD_DOUBLE, "where the step ended; the first record: the begin", MOTION(time)},
+    {"step", "s", FIELD_DOUBLE, "its length; of the begin 0", MOTION(step)},
+    {"iterations", "1", FIELD_INT, "of Newton's method", MOTION(iterations)},
+    {"rejected", "1", FIELD_INT, "longer steps that were tried before it", MOTION(rejected)},
+    {"error", "1", FIELD_DOUBLE,
+     "estimate of what it adds to places, by the size; 0: none was made", MOTION(error)},
+    {"kinetic", "J", FIELD_DOUBLE, "energy of motion", BALANCE(SCENE_KINETIC)},
+    {"strain", "J", FIELD_DOUBLE, "energy stored in members and springs", BALANCE(SCENE_STRAIN)},
+    {"work", "J", FIELD_DOUBLE, "of loads and of what is driven, since the begin",
+     BALANCE(SCENE_WORK)},
+    {"dissipated", "J", FIELD_DOUBLE, "by damping, since the begin", BALANCE(SCENE_DISSIPATED)},
+    {"drift", "J", FIELD_DOUBLE, "both energies and what was dissipated, less work and the begin",
+     BALANCE(SCENE_DRIFT)},
+    {"px", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PX)},
+    {"py", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PY)},
+    {"pz", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PZ)},
+    {"lx", "kg m^2/s", FIELD_DOUBLE, "angular momentum about the origin", BALANCE(SCENE_LX)},
+    {"ly", "kg m^2/s", FIELD_DOUBLE, "the same about y", BALANCE(SCENE_LY)},
+    {"lz", "kg m^2/s", FIELD_DOUBLE, "the same about z", BALANCE(SCENE_LZ)},
+    {0}};
+const record_type record_motion = {"motion",
+                                   "motion",
+                                   "a motion in time at its begin and where its steps ended",
+                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_motion}};
+
 static void get_path(const subject *s, field_value *out)
 {
     out->numbers = ((const nodal_matrices *)s->record)->path + s->index;

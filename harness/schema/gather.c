@@ -153,6 +153,8 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
         add_iterations(cell, r, out);
     else if (type == &record_event)
         add_array(cell, r->events, r->event, sizeof *r->event, out);
+    else if (type == &record_motion)
+        add_array(cell, r->motions, r->motion, sizeof *r->motion, out);
     else if (type == &record_matrix)
         add_matrices(cell, r, out);
     else if (type == &record_timing && cell.series->timing != NULL)

@@ -95,9 +95,9 @@ typedef struct record_type {
 
 /* A series of meshes, one mesh of it, what it found and how, its time, what the judge says. */
 extern const record_type record_point, record_series, record_cell, record_quantity, record_curve,
-    record_step, record_iteration, record_event, record_matrix, record_timing, record_verdict,
-    record_agreement, record_coverage, record_import, record_scene, record_parameter,
-    record_meaning;
+    record_step, record_iteration, record_event, record_motion, record_matrix, record_timing,
+    record_verdict, record_agreement, record_coverage, record_import, record_scene,
+    record_parameter, record_meaning;
 extern const record_type *const record_types[]; /* all of them; ends with NULL */
 extern const record_type record_truth;          /* of a quantity, in JSON only */
 extern const record_type record_declaration;    /* of a whole run, in HDF5 only */

@@ -12,6 +12,8 @@ status history_add_iteration(solve_result *r, step_record *step, const iteration
 void history_drop_step(solve_result *r, const step_record *step);
 
 status history_add_step(solve_result *, const step_record *, fault *);
+/* All steps of a motion. */
+status history_add_motion(solve_result *, int analysis, const outcome_motion *, fault *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
 #endif

@@ -1,6 +1,6 @@
 /* What an analysis leaves for those that follow it and for the quantities that are read from it. */
-#ifndef BEAMWORK_OUTCOME_H
-#define BEAMWORK_OUTCOME_H
+#ifndef BEAMWORK_SOLVER_OUTCOME_H
+#define BEAMWORK_SOLVER_OUTCOME_H
 
 #include "harness/algebra/eigen.h"
 #include "harness/solver/modes.h"

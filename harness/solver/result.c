@@ -28,5 +28,6 @@ void result_free(solve_result *r)
     system_matrices_free(&r->systems);
     free(r->iteration);
     free(r->event);
+    free(r->motion);
     memset(r, 0, sizeof *r);
 }

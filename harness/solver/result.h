@@ -4,6 +4,7 @@
 #define BEAMWORK_RESULT_H
 
 #include "harness/model/model.h"
+#include "harness/solver/outcome.h"
 #include "harness/solver/shapes.h"
 #include "harness/solver/system_matrices.h"
 
@@ -96,6 +97,12 @@ typedef struct path_event {
                        distance of the branches */
 } path_event;
 
+/* Of a motion in time: its begin, and where each of its steps ended. */
+typedef struct motion_record {
+    int analysis; /* of the scene */
+    outcome_step at;
+} motion_record;
+
 typedef struct solve_result {
     status status;
     char reason[FAULT_TEXT];
@@ -109,6 +116,8 @@ typedef struct solve_result {
     nodal_matrices *matrices;
     int events;
     path_event *event;
+    int motions;
+    motion_record *motion; /* [motions] one motion after the other */
     double seconds_setup,
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
     double phase[PHASES]; /* [s] of seconds_solve, when asked for */

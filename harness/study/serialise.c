@@ -36,6 +36,7 @@ static const branch of_cell[] = {
     {SOLVE(step), sizeof(step_record), SOLVE(steps), 0, 1, 0, NULL},
     {SOLVE(iteration), sizeof(iteration_record), SOLVE(iterations), 0, 1, 0, NULL},
     {SOLVE(event), sizeof(path_event), SOLVE(events), 0, 1, 0, NULL},
+    {SOLVE(motion), sizeof(motion_record), SOLVE(motions), 0, 1, 0, NULL},
     {SOLVE(matrices), sizeof(nodal_matrices), SOLVE(matrix_sets), 0, 1, 0, of_matrices},
     {SOLVE(shapes.first), sizeof(int), SOLVE(shapes.members), 0, 1, 1, NULL},
     {SOLVE(shapes.state), sizeof(shape_state), SOLVE(shapes.states), 0, 1, 0, NULL},

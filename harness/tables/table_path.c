@@ -16,20 +16,30 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
     paragraph_end(&words, column, column);
 }
 
+/* Steps of motions are told in short. */
+static int steps_told(const solve_result *r)
+{
+    int steps = r->steps;
+    for (int i = 0; i < r->motions; i++)
+        steps -= r->motion[i].at.step > 0;
+    return steps;
+}
+
 void table_path_steps(FILE *to, const solve_result *r)
 {
-    if (r->steps == 0)
+    const int steps = steps_told(r);
+    if (steps <= 0)
         return;
     fprintf(to, "%4s %12s %12s %8s %10s  %s\n", "step", "path", "increment", "rejected",
             "iterations", "their corrections");
-    for (int i = 0; i < r->steps && i < MOST_STEPS; i++) {
+    for (int i = 0; i < steps && i < MOST_STEPS; i++) {
         const step_record *k = &r->step[i];
         const int column = fprintf(to, "%4d %12.6g %12.4g %8d %10d  ", i + 1, k->path, k->increment,
                                    k->rejected, k->iterations);
         corrections(to, column, r, k);
     }
-    if (r->steps > MOST_STEPS)
-        fprintf(to, "%4s %d more steps: --format json has them all\n", "", r->steps - MOST_STEPS);
+    if (steps > MOST_STEPS)
+        fprintf(to, "%4s %d more steps: --format json has them all\n", "", steps - MOST_STEPS);
 }
 
 static void matrix(FILE *to, const double value[36], const char *const row[6],

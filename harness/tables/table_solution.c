@@ -4,6 +4,7 @@
 
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+#include "harness/tables/table_motion.h"
 #include "harness/tables/table_path.h"
 #include "harness/truth/truth.h"
 
@@ -93,5 +94,6 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
             quantity_line(to, s, t, i);
     predictions(to, p, t);
     table_path_matrices(to, &c->solve);
+    table_motion(to, &c->solve);
     table_path_steps(to, &c->solve);
 }

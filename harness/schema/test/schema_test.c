@@ -108,6 +108,7 @@ static void pipe_carries_all(void)
     step_record step = {.path = 0};
     iteration_record iteration = {.residual = 0};
     path_event event = {.factor = 0};
+    motion_record motion = {.analysis = 0};
     nodal_matrices matrices = {.node = 0};
     cell_result cell = {.left_out_lines = 1, .left_out = lines}, back;
     for (int i = 0; i < 36; i++) {
@@ -119,6 +120,7 @@ static void pipe_carries_all(void)
     plant_all(&record_step, &step);
     plant_all(&record_iteration, &iteration);
     plant_all(&record_event, &event);
+    plant_all(&record_motion, &motion);
     plant_all(&record_matrix, &matrices);
     quantity.curve = (curve){2, x, y};
     matrices.stations = 1;
@@ -126,11 +128,12 @@ static void pipe_carries_all(void)
     matrices.compliance = compliance;
     matrices.stiffness = stiffness;
     cell.solve.quantities = cell.solve.steps = cell.solve.iterations = cell.solve.events =
-        cell.solve.matrix_sets = 1;
+        cell.solve.motions = cell.solve.matrix_sets = 1;
     cell.solve.quantity = &quantity;
     cell.solve.step = &step;
     cell.solve.iteration = &iteration;
     cell.solve.event = &event;
+    cell.solve.motion = &motion;
     cell.solve.matrices = &matrices;
     FILE *file = tmpfile();
     gsl_test(serialise_write(file, &cell) != 0, "written");
@@ -141,6 +144,7 @@ static void pipe_carries_all(void)
     all_same(&record_step, &step, back.solve.step);
     all_same(&record_iteration, &iteration, back.solve.iteration);
     all_same(&record_event, &event, back.solve.event);
+    all_same(&record_motion, &motion, back.solve.motion);
     all_same(&record_matrix, &matrices, back.solve.matrices);
     gsl_test(memcmp(back.solve.matrices->compliance, compliance, sizeof compliance) != 0,
              "compliance");

@@ -110,6 +110,18 @@ static inline void fill_steps(dice *d, solve_result *s)
             .residual = number(d), .correction = number(d), .incompatibility = number(d)};
 }
 
+static inline void fill_motion(dice *d, solve_result *s)
+{
+    s->motions = 1 + whole(d, 3);
+    s->motion = calloc((size_t)s->motions, sizeof *s->motion);
+    for (int i = 0; i < s->motions; i++) {
+        outcome_step *at = &s->motion[i].at;
+        *at = (outcome_step){number(d), number(d), number(d), whole(d, 9), whole(d, 9), {0}};
+        fill(d, SCENE_BALANCES, at->balance);
+        s->motion[i].analysis = whole(d, 9);
+    }
+}
+
 static inline void fill_events(dice *d, solve_result *s)
 {
     s->events = 1 + whole(d, 3);
@@ -187,6 +199,7 @@ static inline cell_result random_cell(dice *d)
     fill_quantities(d, s);
     fill_steps(d, s);
     fill_events(d, s);
+    fill_motion(d, s);
     fill_matrices(d, s);
     fill_shapes(d, &s->shapes);
     s->seconds_setup = number(d);
@@ -207,6 +220,9 @@ static inline void random_cell_complete(void)
                  "iterations as filled above");
     gsl_test_int((int)sizeof(path_event), (int)(4 * sizeof(double) + 4 * sizeof(int)),
                  "events as filled above");
+    gsl_test_int((int)sizeof(outcome_step),
+                 (int)((3 + SCENE_BALANCES) * sizeof(double) + 2 * sizeof(int)),
+                 "steps of motions as filled above");
     gsl_test_int((int)sizeof(centreline_point), (int)(14 * sizeof(double)),
                  "points as filled above");
     gsl_test_int((int)sizeof(shape_state), (int)(2 * sizeof(double) + 2 * sizeof(int)),

@@ -91,6 +91,17 @@ static inline void compare_event(difference *out, const path_event *a, const pat
     SAME(measure);
 }
 
+static inline void compare_motion(difference *out, const motion_record *a, const motion_record *b)
+{
+    SAME(analysis);
+    SAME(at.time);
+    SAME(at.step);
+    SAME(at.error);
+    SAME(at.iterations);
+    SAME(at.rejected);
+    SAME(at.balance);
+}
+
 static inline void compare_matrices(difference *out, const nodal_matrices *a,
                                     const nodal_matrices *b)
 {
@@ -147,6 +158,7 @@ static inline void compare_solution(difference *out, const solve_result *a, cons
     SAME(iterations);
     SAME(matrix_sets);
     SAME(events);
+    SAME(motions);
     SAME(seconds_setup);
     SAME(seconds_solve);
     SAME(phase);
@@ -160,6 +172,8 @@ static inline void compare_solution(difference *out, const solve_result *a, cons
         compare_iteration(out, &a->iteration[i], &b->iteration[i]);
     for (int i = 0; i < a->events; i++)
         compare_event(out, &a->event[i], &b->event[i]);
+    for (int i = 0; i < a->motions; i++)
+        compare_motion(out, &a->motion[i], &b->motion[i]);
     for (int i = 0; i < a->matrix_sets; i++)
         compare_matrices(out, &a->matrices[i], &b->matrices[i]);
     compare_shapes(out, &a->shapes, &b->shapes);

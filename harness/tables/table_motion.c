@@ -1,0 +1,114 @@
+#include "harness/tables/table_motion.h"
+
+#include <math.h>
+
+#include "harness/tables/paragraph.h"
+
+enum { INDENT = 2 };
+
+/* Records [first, end) of one motion, the begin first. */
+typedef struct extent {
+    const motion_record *record;
+    int first, end;
+} extent;
+
+static double length_at(const motion_record *r, int of)
+{
+    const double *v = r->at.balance + of;
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static void steps_line(FILE *to, const extent *e)
+{
+    const outcome_step *begin = &e->record[e->first].at, *last = &e->record[e->end - 1].at;
+    const int steps = e->end - e->first - 1;
+    double least = INFINITY, largest = 0;
+    long iterations = 0, rejected = 0;
+    int most = 0;
+    for (int i = e->first + 1; i < e->end; i++) {
+        const outcome_step *one = &e->record[i].at;
+        least = fmin(least, one->step);
+        largest = fmax(largest, one->step);
+        iterations += one->iterations;
+        rejected += one->rejected;
+        most = one->iterations > most ? one->iterations : most;
+    }
+    const int at = fprintf(to, "motion: ");
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fprintf(text, "%g to %g s in %d step%s", begin->time, last->time, steps, steps == 1 ? "" : "s");
+    if (steps > 0 && largest - least <= 1e-9 * largest)
+        fprintf(text, " of %.4g s", largest);
+    else if (steps > 0)
+        fprintf(text, " of %.3g to %.3g s", least, largest);
+    fprintf(text, ", %ld longer rejected", rejected);
+    if (iterations > 0)
+        fprintf(text, "; %.1f iterations a step, at most %d", (double)iterations / steps, most);
+    paragraph_end(&words, at, INDENT);
+}
+
+static void energy_line(FILE *to, const extent *e)
+{
+    const outcome_step *last = &e->record[e->end - 1].at;
+    double drift = 0, when = 0, size = 0;
+    for (int i = e->first; i < e->end; i++) {
+        const outcome_step *one = &e->record[i].at;
+        size = fmax(size, fabs(one->balance[SCENE_ENERGY]));
+        if (fabs(one->balance[SCENE_DRIFT]) > fabs(drift)) {
+            drift = one->balance[SCENE_DRIFT];
+            when = one->time;
+        }
+    }
+    const int at = fprintf(to, "energy: ");
+    paragraph words;
+    FILE *text = paragraph_begin(&words, to);
+    fprintf(text,
+            "%.6g J at the end, %.6g J of it kinetic; work since the begin %.6g J, dissipated "
+            "%.3g J; what is missing is at most %.2g J",
+            last->balance[SCENE_ENERGY], last->balance[SCENE_KINETIC], last->balance[SCENE_WORK],
+            last->balance[SCENE_DISSIPATED], fabs(drift));
+    if (size > 0 && drift != 0)
+        fprintf(text, ", %.1e of the largest energy, at %.4g s", fabs(drift) / size, when);
+    paragraph_end(&words, at, INDENT);
+}
+
+/* How far a vector moves from what it is at the begin. */
+static double change_of(const extent *e, int of)
+{
+    const double *begin = e->record[e->first].at.balance + of;
+    double largest = 0;
+    for (int i = e->first; i < e->end; i++) {
+        const double *v = e->record[i].at.balance + of;
+        double square = 0;
+        for (int k = 0; k < 3; k++)
+            square += (v[k] - begin[k]) * (v[k] - begin[k]);
+        largest = fmax(largest, sqrt(square));
+    }
+    return largest;
+}
+
+static void momentum_line(FILE *to, const extent *e)
+{
+    const motion_record *last = &e->record[e->end - 1];
+    const int at = fprintf(to, "momenta: ");
+    paragraph_say(to, at, INDENT,
+                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they move by at most "
+                  "%.2g and %.2g from those at the begin",
+                  length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
+                  change_of(e, SCENE_LX));
+}
+
+void table_motion(FILE *to, const solve_result *r)
+{
+    extent e = {.record = r->motion};
+    for (e.first = 0; e.first < r->motions; e.first = e.end) {
+        e.end = e.first + 1;
+        while (e.end < r->motions && r->motion[e.end].analysis == r->motion[e.first].analysis)
+            e.end++;
+        steps_line(to, &e);
+        energy_line(to, &e);
+        momentum_line(to, &e);
+    }
+    if (r->motions > 0)
+        fputs("  --format json has every step\n", to);
+}
