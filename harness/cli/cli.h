@@ -10,6 +10,6 @@
 typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare,
     cli_truth, cli_schema, cli_scene, cli_import, cli_export, cli_explain, cli_element_test,
-    cli_merge, cli_sweep;
+    cli_merge, cli_sweep, cli_motion;
 
 #endif

@@ -32,6 +32,7 @@ static const verb verbs[] = {
     {"verify", cli_verify, "every formulation on every case, judged against stored truths"},
     {"bench", cli_bench, "error against run time: the cheapest way to an error"},
     {"stress", cli_stress, "every formulation at extremes: a value, or a named failure"},
+    {"motion", cli_motion, "integrators side by side: error of time, energy, momenta, cost"},
     {"element-test", cli_element_test,
      "a formulation against the interface: what to mend, and what it can do"},
     {"merge", cli_merge, "what shards of verify, stress, converge or bench computed, as one run"},

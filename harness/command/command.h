@@ -71,8 +71,11 @@ typedef struct command_request {
     const char *from[COMMAND_MAX_CASES]; /* folders with batches, taken instead of computing */
     int from_count, partial;             /* 1: what is missing is left out */
     int hash;                            /* 1: of stored runs */
-    int verbose, quiet;                  /* 1: every limit, only what is unexpected */
-    double plant; /* share of its time that is added to every run of the other */
+    const char *integrators, *step_lengths, *tolerances; /* lists of a judged motion */
+    const char *expected; /* table of verdicts, in the place of a case */
+    int no_errors;        /* 1: without a reference */
+    int verbose, quiet;   /* 1: every limit, only what is unexpected */
+    double plant;         /* share of its time that is added to every run of the other */
 } command_request;
 
 /* Options shared by the verbs; a verb lists the keys it takes, and '+' when it takes several cases.

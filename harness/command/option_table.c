@@ -125,9 +125,26 @@ const verb_option option_table[OPTION_MOST] = {
     {"propose", 'p', "FILE",
      "findings that new formulations would need, as rows for a ledger (CSV)",
      offsetof(command_request, propose)},
+    {"integrator", 'u', "NAME[,NAME...]",
+     "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit (default: "
+     "six of them)",
+     offsetof(command_request, integrators)},
+    {"step", 'a', "H[,H...]|H..H",
+     "steps of integration [s]; a range is halved from the first to the last (default: 2, 1, 1/2 "
+     "and 1/4 of that of the motion)",
+     offsetof(command_request, step_lengths)},
+    {"tolerance", 'l', "R[,R...]|R..R",
+     "errors of a step by which it is chosen, of integrators that estimate it; a range goes by "
+     "hundredths",
+     offsetof(command_request, tolerances)},
+    {"no-errors", '3', NULL,
+     "no reference is computed, and no step is halved: energy and momenta alone",
+     offsetof(command_request, no_errors)},
+    {"expected", '1', "FILE.csv", "verdicts that are expected, in the place of a case",
+     offsetof(command_request, expected)},
     {"verbose", 'v', NULL,
      "verify: every limit, not only the overview; converge: values, times and limits of each "
-     "formulation by itself",
+     "formulation by itself; motion --expected: every motion",
      offsetof(command_request, verbose)},
     {"quiet", 'q', NULL, "only what is unexpected, and the last sentence",
      offsetof(command_request, quiet)},

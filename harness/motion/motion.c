@@ -109,7 +109,7 @@ static status integrate(motion *w, fault *f)
     const scene_path *path = &w->how->path;
     const double end = path->value[path->stations - 1];
     w->h = w->how->step;
-    w->least = w->how->step / (1 << MAX_HALVINGS);
+    w->least = w->how->step / (w->c->options->whole_steps ? 1 : 1 << MAX_HALVINGS);
     TRY(stations_here(&w->stations, &w->now, w->balance, f));
     while (w->now.time < end) {
         const double kink = kinks_next(w->c->model, w->now.time);

@@ -30,6 +30,7 @@ typedef struct solve_options {
                    no values */
     int shapes;  /* most states of every path whose centre lines are kept; 0: no shapes */
     int systems; /* 1: the matrices of small motions about all states are kept */
+    int whole_steps; /* 1: a step in time that fails ends the motion, instead of being halved */
     int values_only; /* 1: what only curves and matrices show at a station is not computed */
 } solve_options;
 

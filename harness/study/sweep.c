@@ -74,8 +74,10 @@ cell_request sweep_cell(const sweep *s, int series_index, int mesh)
     out.solve.steps_between = p->steps;
     out.solve.condition = p->condition;
     out.solve.values_only = s->values_only;
+    out.solve.whole_steps = p->whole_steps;
+    out.solve.shapes = p->shapes;
     out.threads = s->threads;
-    if (p->text[0] == '\0' && mesh == one->meshes - 1)
+    if (p->shapes == 0 && p->text[0] == '\0' && mesh == one->meshes - 1)
         out.solve.shapes = s->shapes;
     return out;
 }

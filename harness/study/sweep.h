@@ -21,8 +21,10 @@ typedef struct point {
     scene_edit edit;            /* that was made to the scene */
     int steps;                  /* load steps between stations; 0: the scene's */
     int condition;              /* 1: estimate the condition of the tangents */
-    scene scene;                /* of all its cells, with their quantities */
-    status status;              /* of building the scene */
+    int shapes;      /* most states whose centre lines are kept of all its cells; 0: none */
+    int whole_steps; /* 1: steps in time are not halved */
+    scene scene;     /* of all its cells, with their quantities */
+    status status;   /* of building the scene */
     char reason[FAULT_TEXT];
 } point;
 

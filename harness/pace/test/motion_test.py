@@ -1,0 +1,129 @@
+"""beamwork motion: errors of time, orders, energy and momenta, through the program."""
+import csv
+import io
+import json
+import math
+import unittest
+
+from harness.test import program
+from harness.test.program import ProgramTest
+
+FLIGHT = ("free_flight_space", "-f", "collocation", "-n", "4")
+
+
+def run(*arguments):
+    return program.run("motion", *arguments)
+
+
+class Runs(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        done = run(*FLIGHT, "--integrator", "alpha,conserving,radau", "--step", "0.1..0.025",
+                   "--tolerance", "1e-4,1e-6", "--format", "json")
+        assert done.returncode == 0, done.stderr
+        cls.case = json.loads(done.stdout)["cases"][0]
+
+    def runs(self, integrator, by_tolerance=False):
+        return [
+            r for r in self.case["runs"]
+            if r["integrator"] == integrator and (r["tolerance"] > 0) == by_tolerance
+        ]
+
+    def test_all_are_there(self):
+        self.assertEqual([r["step"] for r in self.runs("alpha")], [0.1, 0.05, 0.025])
+        self.assertEqual([r["tolerance"] for r in self.runs("radau", True)], [1e-4, 1e-6])
+        self.assertEqual(self.runs("conserving", True), [])
+        for r in self.case["runs"]:
+            self.assertEqual((r["status"], r["reason"]), ("ok", ""))
+            self.assertGreater(r["cost"], 0)
+            self.assertLess(r["iterations_per_step"], 5)
+
+    def test_errors_fall(self):
+        self.assertLess(self.case["references"][0]["uncertainty"], 1e-6)
+        for integrator in ("alpha", "conserving", "radau"):
+            errors = [r["error"] for r in self.runs(integrator)]
+            self.assertEqual(errors, sorted(errors, reverse=True))
+        coarse, fine = self.runs("radau", True)
+        self.assertLess(fine["error"], coarse["error"] / 3)
+        self.assertGreater(fine["steps"], coarse["steps"])
+
+    def test_orders(self):
+        orders = {o["integrator"]: o for o in self.case["orders"]}
+        for integrator in ("alpha", "conserving"):
+            errors = [r["error"] for r in self.runs(integrator)]
+            self.assertAlmostEqual(orders[integrator]["order"], math.log2(errors[1] / errors[2]))
+            self.assertEqual(self.runs(integrator)[2]["order"], orders[integrator]["order"])
+            self.assertGreater(orders[integrator]["order"], 1.7)
+
+    def test_what_is_conserved(self):
+        self.assertEqual(self.case["references"][0]["alone_from"], 5)
+        for r in self.runs("conserving"):
+            self.assertLess(r["energy_drift"], 1e-11)
+            self.assertLess(r["momentum_drift"], 1e-12)
+            self.assertEqual(r["outcome"], "exact")
+        for r in self.runs("alpha"):
+            self.assertGreater(r["energy_drift"], 1e-6)
+            self.assertEqual(r["outcome"], "bounded")
+        drift = [r["momentum_drift"] for r in self.runs("alpha")]
+        self.assertAlmostEqual(math.log2(drift[1] / drift[2]), 2, delta=0.3)
+
+    def test_cheapest(self):
+        for one in self.case["reached"]:
+            runs = self.runs(one["integrator"]) + self.runs(one["integrator"], True)
+            within = [r["cost"] for r in runs if r["error"] <= one["error"]]
+            self.assertLessEqual(one["cost"], max(within) * (1 + 1e-12), one)
+        self.assertTrue(any(o["error"] == 1e-4 for o in self.case["reached"]))
+
+
+class Stability(ProgramTest):
+
+    def test_trapezoidal_in_stiff_flight(self):
+        case = "free_flight_space", "-f", "collocation", "-n", "4", "--set", "time=20"
+        record = self.record("motion", *case, "--vary", "stiffening=1,1e4", "--no-errors",
+                             "--integrator", "trapezoidal,conserving", "--step", "0.2")
+        points = record["cases"][0]["stability"]
+        self.assertEqual([(r["stiffening"], r["integrator"]) for r in points],
+                         [(k, i) for k in (1, 1e4) for i in ("trapezoidal", "conserving")])
+        self.assertEqual(record["cases"][0]["runs"], [])
+        for r in points:
+            self.assertEqual(r["rejected"], 0)
+            self.assertEqual(r["outcome"] == "stops", r["status"] != "ok")
+            self.assertEqual(r["stopped"] is None, r["status"] == "ok")
+            self.assertEqual(bool(r["reason"]), r["status"] != "ok")
+
+    def test_held_structures_have_no_fate(self):
+        record = self.record("motion", "pendulum", "-f", "collocation", "-n", "2", "--no-errors",
+                             "--integrator", "alpha", "--step", "0.01")
+        self.assertEqual(record["cases"][0]["stability"][0]["outcome"], "")
+
+
+class Words(ProgramTest):
+
+    def test_formats_agree(self):
+        asked = *FLIGHT, "--integrator", "alpha", "--step", "0.1,0.05"
+        record = self.record("motion", *asked)
+        rows = list(csv.DictReader(io.StringIO(run(*asked, "--format", "csv").stdout)))
+        self.assertEqual([float(r["error"]) for r in rows],
+                         [r["error"] for r in record["cases"][0]["runs"]])
+        text = run(*asked).stdout
+        self.assertIn("free_flight_space, collocation, n = 4, to 7.5 s", text)
+        self.assertIn("for an error of 0.01:", text)
+
+    def test_refusals(self):
+        for arguments, words in (
+            (("elastica",), "elastica is no motion in time"),
+            ((*FLIGHT, "--integrator", "euler"), "--integrator 'euler'"),
+            ((*FLIGHT, "--step", "0.1..0.2"), "--step '0.1..0.2'"),
+            ((*FLIGHT, "--tolerance", "0"), "--tolerance '0'"),
+            (("free_flight_space", "-n", "2,4"), "one mesh"),
+            ((*FLIGHT, "--vary", "stiffening=1..2"), "one --vary"),
+        ):
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(words, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
