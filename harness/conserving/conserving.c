@@ -120,6 +120,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     conserving_rates(s, from, h, to);
     drive_at(m, from->state, record->path, NULL, to->v, to->a);
     to->time = record->path;
+    to->work += conserving_impulses(s, from, h, to);
     double square = 0; /* of the trapezoidal rule: h^2/12 (a1 - a) */
     for (int c = 0; c < s->free; c++) {
         const double one = h * h / 12 * (to->a[c] - from->a[c]);

@@ -52,6 +52,8 @@ void conserving_forces(conserving *, const instant *from, model_state *now,
 
 /* conserving_inertia.c: residual -= forces of inertia, S += theirs. */
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
+/* Work of what takes driven masses from the rates of the step to the prescribed ones at its end. */
+double conserving_impulses(const conserving *, const instant *from, double h, const instant *to);
 /* Rates at the end. */
 void conserving_rates(conserving *, const instant *from, double h, instant *to);
 

@@ -2,8 +2,8 @@
  * centres' mean places. */
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "elements/math/vec3.h"
 #include "harness/conserving/place.h"
 #include "harness/model/kinematics.h"
 
@@ -102,6 +102,42 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
         }
 }
 
+static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],
+                        const double W[3])
+{
+    return (one->mass * vec3_dot(v, v) + dense_quadratic(3, p->J, W)) / 2;
+}
+
+static int is_driven(const model *m, int vertex)
+{
+    for (int c = 0; c < 6; c++)
+        if (m->vertex[vertex].coordinate[c] >= m->free)
+            return 1;
+    return 0;
+}
+
+double conserving_impulses(const conserving *s, const instant *from, double h, const instant *to)
+{
+    const model *m = s->of.c->model;
+    double sum = 0;
+    for (int k = 0; k < s->of.masses->masses && s->all > s->free; k++) {
+        const carried_mass *one = &s->of.masses->mass[k];
+        carried_step p;
+        frame_rates r;
+        double v[3], W[3], turned[3];
+        if (!is_driven(m, one->frame))
+            continue;
+        step_of(s, from, to->state, h, one, &p);
+        forms_rates(m, to->state, one->frame, to->v, NULL, &r);
+        vec3_cross(r.w, p.after, turned);
+        mat3_transpose_mul_vec(r.R, r.w, W);
+        for (int i = 0; i < 3; i++)
+            v[i] = r.v[i] + turned[i];
+        sum += energy_of(one, &p, v, W) - energy_of(one, &p, p.v1, p.W1);
+    }
+    return sum;
+}
+
 void conserving_inertia(conserving *s, const instant *from, const model_state *now, double h)
 {
     const model *m = s->of.c->model;
@@ -151,14 +187,15 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
     const carried *all = s->of.masses;
-    for (int i = 0; i < m->first_release; i++) {
+    for (int i = 0, k = 0; i < m->first_release; i++) {
         const carried_mass plain = {.frame = i};
-        const carried_mass *one = &plain;
         const int *at = m->vertex[i].coordinate;
+        while (k < all->masses && all->mass[k].frame < i)
+            k++;
+        const carried_mass *one =
+            k < all->masses && all->mass[k].frame == i ? &all->mass[k] : &plain;
         if (m->vertex[i].body != i)
             continue;
-        for (int k = 0; k < all->masses; k++)
-            one = all->mass[k].frame == i ? &all->mass[k] : one;
         carried_step p;
         double w[3], turned[3];
         step_of(s, from, to->state, h, one, &p);
