@@ -11,7 +11,7 @@ GROUPS = (
     ("Formulations", ("formulations.html", "certificates.html", "newton.html")),
     ("Profiles", ("profiles.html",)),
     ("Stability", ("stability.html",)),
-    ("Motion", ("integrators.html", "motions.html")),
+    ("Motion", ("motions.html", "integrators.html")),
     ("Papers & errata", ("claims.html", "papers.html", "errata.html")),
     ("Ledger", ("ledger.html", "causes.html")),
     ("Glossary", ("glossary.html",)),
@@ -52,6 +52,8 @@ def group_of(name, found, cases):
     """The group that a page belongs to, or None: pages of cases and formulations are in theirs."""
     if name.startswith("formulation_"):
         name = "formulations.html"
+    elif name.startswith("motion_"):
+        name = "motions.html"
     elif name.removesuffix(".html") in cases:
         name = "cases.html"
     return next((g for g in found if g.holds(name)), None)

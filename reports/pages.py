@@ -39,6 +39,7 @@ PAGES = (
     "predictions",
     "stability",
     "integrators_page",
+    "motion_page",
     "checks",
     "printable",
     "environment",

@@ -1,0 +1,1 @@
+"""Pages of motions in time: energies, momenta, steps and quantities over time."""
