@@ -11,6 +11,10 @@ def scheme(how):
     name = how.get("integrator", "alpha")
     if name != "alpha":
         return name
+    if how.get("trapezoidal"):
+        return "the trapezoidal rule"
+    if "hht" in how:
+        return f"HHT ({how['hht']:g})"
     if "parameters" not in how:
         return f"alpha (rho {how.get('rho', 0.9):g})"
     alpha_m, alpha_f = how["parameters"]

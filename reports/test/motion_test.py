@@ -31,6 +31,8 @@ class Words(unittest.TestCase):
                             ({"parameters": [0, 0]}, "the trapezoidal rule"),
                             ({"parameters": [0, 0.05]}, "HHT (0.05)"),
                             ({"parameters": [0.1, 0.3]}, "alpha (0.1, 0.3)"),
+                            ({"hht": 0.1}, "HHT (0.1)"),
+                            ({"trapezoidal": True}, "the trapezoidal rule"),
                             ({"rho": 0.6}, "alpha (rho 0.6)"), ({}, "alpha (rho 0.9)")):
             self.assertEqual(words.scheme(how), wanted)
 
