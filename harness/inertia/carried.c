@@ -26,18 +26,20 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* What a vertex carries goes to the frame that moves it. */
+/* What a vertex carries goes to the frame that moves it; a released end keeps what is its own. */
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
     const mesh_vertex *v = &m->vertex[vertex];
-    carried_mass *to = &of[v->body];
+    const int released = vertex >= m->first_release;
+    const double none[3] = {0, 0, 0}, *offset = released ? none : v->offset;
+    carried_mass *to = &of[released ? vertex : v->body];
     double moved[9];
     memcpy(moved, tensor, sizeof moved);
-    shift(mass, moment, v->offset, moved);
+    shift(mass, moment, offset, moved);
     to->mass += mass;
     for (int i = 0; i < 3; i++)
-        to->moment[i] += moment[i] + mass * v->offset[i];
+        to->moment[i] += moment[i] + mass * offset[i];
     for (int i = 0; i < 9; i++)
         to->inertia[i] += moved[i];
 }

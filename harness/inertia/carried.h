@@ -7,7 +7,7 @@
 
 /* At one frame, in axes that turn with it and were the fixed ones at rest. */
 typedef struct carried_mass {
-    int frame;         /* vertex with coordinates of its own */
+    int frame;         /* vertex with coordinates of its own, or of a released end */
     double mass;       /* [kg] */
     double moment[3];  /* mass times its centre, from the frame [kg m] */
     double inertia[9]; /* about the frame [kg m^2] */
@@ -20,8 +20,7 @@ typedef struct carried {
     double total;       /* [kg] */
 } carried;
 
-/* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). The rotary
- * inertia of an end that is released from its node counts at the node: half an element's. */
+/* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). */
 status carried_alloc(const model *, carried *, fault *);
 void carried_free(carried *);
 

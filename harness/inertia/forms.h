@@ -16,8 +16,8 @@ typedef enum rotation_form {
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
-/* Velocity and acceleration of a frame, spatial [m/s, rad/s, m/s^2, rad/s^2], from rates v[free +
- * driven] and their derivatives a (NULL: zero). */
+/* Velocity and acceleration of a frame, also of a released end, spatial [m/s, rad/s, m/s^2,
+ * rad/s^2], from rates v[free + driven] and their derivatives a (NULL: zero). */
 typedef struct frame_rates {
     double R[9];
     double v[3], w[3], a[3], wd[3];
@@ -25,8 +25,7 @@ typedef struct frame_rates {
 void forms_rates(const model *, const model_state *, int vertex, const double v[], const double a[],
                  frame_rates *out);
 
-/* A frame whose every coordinate is independent: F (force, moment) into its rows; K[6 x 6] in
- * spatial increments of it. */
+/* F[6] (force, moment) on a frame into the rows of the coordinates that move it. */
 void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
                      double out[]);
 

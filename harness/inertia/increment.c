@@ -34,6 +34,17 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     rotation_normalise(&to->q[4 * index]);
 }
 
+/* R_n exp(inc), as of frames. */
+static void turn_ball(const model *m, const model_state *from, int index, const double inc[],
+                      model_state *to)
+{
+    double t[3], q[4];
+    three(&m->vertex[index], inc, t);
+    rotation_exp(t, q);
+    rotation_compose(&from->q[4 * index], q, &to->q[4 * index]);
+    rotation_normalise(&to->q[4 * index]);
+}
+
 void increment_apply(const model *m, const model_state *from, const double inc[], double time,
                      model_state *to)
 {
@@ -46,6 +57,8 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
         memcpy(&to->angle[3 * i], &from->angle[3 * i], 3 * sizeof *to->angle);
         memcpy(&to->shift[3 * r], &from->shift[3 * r], 3 * sizeof *to->shift);
         release_advance(m, to, i, inc);
+        if (release_of(m, i)->turns == 3)
+            turn_ball(m, from, i, inc, to);
     }
     for (int i = 0; i < m->warps; i++)
         to->warp[i] = from->warp[i] + inc[m->warp[i].coordinate];
@@ -70,17 +83,6 @@ static void add_turn(const model_state *now, int index, const mesh_vertex *v, co
         inc[v->coordinate[SCENE_RX + k]] = at[k];
 }
 
-/* That of a ball is spatial, and nothing has rates of it. */
-static void add_ball(const mesh_vertex *v, const double dx[], double inc[])
-{
-    double first[3], then[3];
-    three(v, inc, first);
-    three(v, dx, then);
-    turning_add(then, first);
-    for (int k = 0; k < 3; k++)
-        inc[v->coordinate[SCENE_RX + k]] = then[k];
-}
-
 static void add_plainly(const model *m, const mesh_vertex *v, int first, int end, const double dx[],
                         double inc[])
 {
@@ -97,9 +99,7 @@ void increment_add(const model *m, const model_state *now, const double dx[], do
         if (r == NULL && v->body != i)
             continue;
         add_plainly(m, v, SCENE_UX, SCENE_RX, dx, inc);
-        if (r != NULL && r->turns == 3)
-            add_ball(v, dx, inc);
-        else if (r == NULL && forms_of(m, i) == FORM_BODY && v->coordinate[SCENE_RX] < m->free)
+        if (forms_of(m, i) == FORM_BODY && v->coordinate[SCENE_RX] < m->free)
             add_turn(now, i, v, dx, inc);
         else
             add_plainly(m, v, SCENE_RX, SCENE_RZ + 1, dx, inc);

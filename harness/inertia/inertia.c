@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/inertia/released.h"
 #include "harness/inertia/turning.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
@@ -161,6 +163,14 @@ void inertia_rows(const double turn[9], double K[36])
     }
 }
 
+void inertia_turn(const model *m, int vertex, const model_state *s, const double inc[], double E[9])
+{
+    double R[9], N[9];
+    rotation_matrix(&s->q[4 * vertex], R);
+    inertia_chart(m, vertex, inc, R, N);
+    mat3_mul(R, N, E);
+}
+
 void inertia_chart(const model *m, int vertex, const double inc[], const double R[9], double N[9])
 {
     double at[3], inverse[9];
@@ -175,6 +185,30 @@ void inertia_chart(const model *m, int vertex, const double inc[], const double 
             N[3 * i + j] = vec3_dot(&inverse[3 * i], &R[3 * j]);
 }
 
+/* The same of a released end; its rates' own change with the state (of axes that turn) is left out.
+ */
+static void released_tangent(const model *m, int vertex, const model_state *s,
+                             const inertia_parts *p, const inertia_relation *with, sparse *S)
+{
+    const int body = m->vertex[vertex].body;
+    released of;
+    double of_body[9], of_ball[9], one[9], motion[6 * KINEMATICS_MOST], rates[36],
+        K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
+    released_columns(m, s, vertex, &of);
+    identity(one);
+    inertia_turn(m, body, s, with->inc, of_body);
+    inertia_turn(m, vertex, s, with->inc, of_ball);
+    for (int i = 0; i < 36; i++)
+        rates[i] = with->b * p->acceleration[i] + with->g * p->velocity[i];
+    released_motion(&of, 1, of_body, of_ball, motion);
+    released_project(&of, rates, motion, K);
+    released_motion(&of, 1, one, one, motion);
+    released_project(&of, p->place, motion, K);
+    for (int i = 0; i < of.count; i++)
+        for (int j = 0; j < of.count; j++)
+            assemble_subtract(S, of.index[i], of.index[j], -K[of.count * i + j]);
+}
+
 void inertia_add_tangent(const model *m, const carried *all, const model_state *s, const double v[],
                          const double a[], const inertia_relation *with, sparse *S)
 {
@@ -184,6 +218,10 @@ void inertia_add_tangent(const model *m, const carried *all, const model_state *
         inertia_parts p;
         double N[9], E[9], rates[36], K[36], more[36];
         inertia_frame(m, all, k, s, v, a, &p);
+        if (vertex >= m->first_release) {
+            released_tangent(m, vertex, s, &p, with, S);
+            continue;
+        }
         inertia_chart(m, vertex, with->inc, p.rate, N);
         mat3_mul(p.rate, N, E);
         for (int i = 0; i < 36; i++)

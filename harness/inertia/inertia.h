@@ -42,6 +42,9 @@ void inertia_rows(const double turn[9], double K[36]);
  * that it leads to, whose orientation is R. */
 void inertia_chart(const model *, int vertex, const double inc[], const double R[9], double N[9]);
 
+/* R N: the same in spatial axes. */
+void inertia_turn(const model *, int vertex, const model_state *, const double inc[], double E[9]);
+
 typedef struct inertia_balance {
     double kinetic;     /* [J] */
     double momentum[3]; /* [kg m/s] */

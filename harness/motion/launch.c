@@ -21,6 +21,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
                          double v[])
 {
     const mesh_vertex *frame = &m->vertex[index];
+    const int own = index < m->first_release; /* a released end: only the turns of a ball */
     double r[3], R[9], turned[3], body[3];
     frame_rates none;
     kinematics_position(m, s, index, r);
@@ -32,9 +33,10 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
     mat3_transpose_mul_vec(R, start->spin, body);
     for (int i = 0; i < 3; i++) {
         const int c = frame->coordinate[i], t = frame->coordinate[SCENE_RX + i];
-        if (c != NONE && c < m->free)
+        if (c != NONE && c < m->free && own)
             v[c] = start->velocity[i] + turned[i];
-        if (t != NONE && t < m->free && frame->angles == 0)
+        if (t != NONE && t < m->free && frame->angles == 0 &&
+            (own || forms_of(m, index) == FORM_BODY))
             v[t] = body[i];
     }
 }
@@ -82,12 +84,13 @@ status launch_again(analysis_context *c, const carried *masses, const scene_moti
                     instant *now, instant *room, fault *f)
 {
     stage s;
+    int massless;
+    TRY(massless_count(c->model, masses, now->state, &massless, f));
     TRY(stage_alloc(c, masses, &s, f));
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
     drive_at(c->model, now->state, now->time, NULL, now->v, now->a);
     const status outcome = inc != NULL
-                               ? settle(&s, massless_count(c->model, masses, now->state), how->step,
-                                        now, room, inc, inc + s.all + 1, f)
+                               ? settle(&s, massless, how->step, now, room, inc, inc + s.all + 1, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     free(inc);
     stage_free(&s);
@@ -98,8 +101,8 @@ status launch(analysis_context *c, const carried *masses, const scene_motion *ho
               instant *room, fault *f)
 {
     const model *m = c->model;
-    for (int i = 0; i < m->first_release; i++)
-        if (m->vertex[i].body == i)
+    for (int i = 0; i < m->vertices; i++)
+        if (m->vertex[i].body == i || i >= m->first_release)
             start_vertex(m, now->state, i, &how->start, now->v);
     return launch_again(c, masses, how, now, room, f);
 }

@@ -140,7 +140,8 @@ static status begin(motion *w, fault *f)
 static status check_massless(const motion *w, fault *f)
 {
     const scene_alpha *how = &w->how->alpha;
-    const int massless = massless_count(w->c->model, &w->masses, w->now.state);
+    int massless;
+    TRY(massless_count(w->c->model, &w->masses, w->now.state, &massless, f));
     if (massless == 0 || w->how->scheme != SCENE_ALPHA || how->force > how->mass)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,

@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/equations/linearise.h"
 #include "harness/inertia/inertia.h"
+#include "harness/inertia/released.h"
 #include "harness/inertia/turning.h"
 #include "harness/radau/radau_impl.h"
 #include "harness/scheme/kinks.h"
@@ -40,8 +42,8 @@ static void three(const int at[6], const double of[], double out[3])
 static int is_free_turn(const model *m, int vertex)
 {
     const mesh_vertex *v = &m->vertex[vertex];
-    return v->body == vertex && v->angles == 0 && forms_of(m, vertex) == FORM_BODY &&
-           v->coordinate[SCENE_RX] < m->free;
+    return (v->body == vertex || vertex >= m->first_release) && v->angles == 0 &&
+           forms_of(m, vertex) == FORM_BODY && v->coordinate[SCENE_RX] < m->free;
 }
 
 double radau_time(const radau *r, const instant *from, double h, int stage,
@@ -61,7 +63,7 @@ void radau_rates(radau *r, const instant *from, double h)
                 one->rate[c] += r->B[STAGES * i + j] * r->stage[j].inc[c] / h;
             one->v[c] = one->rate[c];
         }
-        for (int x = 0; x < m->first_release; x++) {
+        for (int x = 0; x < m->vertices; x++) {
             const int *at = m->vertex[x].coordinate;
             double t[3], rate[3], Jr[9], W[3];
             if (!is_free_turn(m, x))
@@ -103,6 +105,31 @@ static void gains(const radau *r, int vertex, double h, int j, int k, double *tr
         turn[i] = b * turn[i] + (j == k ? D[i] : 0);
 }
 
+/* What the rates (rate) and accelerations of stage i gain by spatial increments of a vertex in
+ * stage k: scalars of translations, [3 x 3] of its rotation, in the axes of its rates. */
+typedef struct relation {
+    double rate, acceleration, turn_rate[9], turn_acceleration[9];
+} relation;
+
+static void relate(const radau *r, int vertex, double h, int i, int k, relation *out)
+{
+    const model *m = r->of.c->model;
+    double R[9], N[9], turn[9], sum[9] = {0};
+    out->acceleration = 0;
+    for (int j = 0; j < STAGES; j++) {
+        double translation;
+        gains(r, vertex, h, j, k, &translation, turn);
+        out->acceleration += r->B[STAGES * i + j] / h * translation;
+        for (int x = 0; x < 9; x++)
+            sum[x] += r->B[STAGES * i + j] / h * turn[x];
+    }
+    gains(r, vertex, h, i, k, &out->rate, turn);
+    rotation_matrix(&r->stage[k].state->q[4 * vertex], R);
+    inertia_chart(m, vertex, r->stage[k].inc, R, N);
+    mat3_mul(sum, N, out->turn_acceleration);
+    mat3_mul(turn, N, out->turn_rate);
+}
+
 /* Blocks (i, k) of one frame, k = 0 .. */
 static void add_frame(radau *r, int index, double h, int i)
 {
@@ -112,26 +139,13 @@ static void add_frame(radau *r, int index, double h, int i)
     inertia_parts p;
     inertia_frame(m, r->of.masses, index, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
     for (int k = 0; k < STAGES; k++) {
-        double of_rate, of_acceleration = 0, turn_rate[9], turn_acceleration[9] = {0}, N[9], A[9],
-                        V[9], E[9], K[36], more[36];
-        inertia_parts other;
-        for (int j = 0; j < STAGES; j++) {
-            double translation, turn[9];
-            gains(r, vertex, h, j, k, &translation, turn);
-            of_acceleration += r->B[STAGES * i + j] / h * translation;
-            for (int x = 0; x < 9; x++)
-                turn_acceleration[x] += r->B[STAGES * i + j] / h * turn[x];
-        }
-        gains(r, vertex, h, i, k, &of_rate, turn_rate);
-        inertia_frame(m, r->of.masses, index, r->stage[k].state, r->stage[k].v, r->stage[k].a,
-                      &other);
-        inertia_chart(m, vertex, r->stage[k].inc, other.rate, N);
-        mat3_mul(turn_acceleration, N, A);
-        mat3_mul(p.rate, A, E);
-        inertia_times(p.acceleration, of_acceleration, E, K);
-        mat3_mul(turn_rate, N, V);
-        mat3_mul(p.rate, V, E);
-        inertia_times(p.velocity, of_rate, E, more);
+        relation of;
+        double E[9], K[36], more[36];
+        relate(r, vertex, h, i, k, &of);
+        mat3_mul(p.rate, of.turn_acceleration, E);
+        inertia_times(p.acceleration, of.acceleration, E, K);
+        mat3_mul(p.rate, of.turn_rate, E);
+        inertia_times(p.velocity, of.rate, E, more);
         for (int x = 0; x < 36; x++)
             K[x] += more[x];
         if (i == k) {
@@ -143,6 +157,49 @@ static void add_frame(radau *r, int index, double h, int i)
         for (int row = 0; row < 6; row++)
             for (int column = 0; column < 6; column++)
                 stages_add(&r->S, i, k, at[row], at[column], K[6 * row + column]);
+    }
+}
+
+/* R_i B of a vertex. */
+static void in_space(const radau *r, int vertex, int i, const double B[9], double out[9])
+{
+    double R[9];
+    rotation_matrix(&r->stage[i].state->q[4 * vertex], R);
+    mat3_mul(R, B, out);
+}
+
+/* The same of a released end. */
+static void add_released(radau *r, int index, double h, int i)
+{
+    static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const model *m = r->of.c->model;
+    const int vertex = r->of.masses->mass[index].frame, body = m->vertex[vertex].body;
+    inertia_parts p;
+    released of;
+    inertia_frame(m, r->of.masses, index, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
+    released_columns(m, r->stage[i].state, vertex, &of);
+    for (int k = 0; k < STAGES; k++) {
+        relation of_body, of_end;
+        double at_body[9], at_end[9], motion[6 * KINEMATICS_MOST],
+            K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
+        relate(r, body, h, i, k, &of_body);
+        relate(r, vertex, h, i, k, &of_end);
+        in_space(r, body, i, of_body.turn_acceleration, at_body);
+        in_space(r, vertex, i, of_end.turn_acceleration, at_end);
+        released_motion(&of, of_body.acceleration, at_body, at_end, motion);
+        released_project(&of, p.acceleration, motion, K);
+        in_space(r, body, i, of_body.turn_rate, at_body);
+        in_space(r, vertex, i, of_end.turn_rate, at_end);
+        released_motion(&of, of_body.rate, at_body, at_end, motion);
+        released_project(&of, p.velocity, motion, K);
+        if (i == k) {
+            released_motion(&of, 1, one, one, motion);
+            released_project(&of, p.place, motion, K);
+        }
+        for (int row = 0; row < of.count; row++)
+            for (int column = 0; column < of.count; column++)
+                stages_add(&r->S, i, k, of.index[row], of.index[column],
+                           K[of.count * row + column]);
     }
 }
 
@@ -182,7 +239,10 @@ status radau_equations(radau *r, const instant *from, double h, step_record *rec
     }
     for (int i = 0; i < STAGES; i++)
         for (int k = 0; k < r->of.masses->masses; k++)
-            add_frame(r, k, h, i);
+            if (r->of.masses->mass[k].frame < r->of.c->model->first_release)
+                add_frame(r, k, h, i);
+            else
+                add_released(r, k, h, i);
     add_warps(r, h);
     return STATUS_OK;
 }

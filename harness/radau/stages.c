@@ -29,7 +29,7 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
 static int fill(const model *m, const sparse *single, const int frame_of[], const double warping[],
                 stages_matrix *out, int *row)
 {
-    const int n = out->n;
+    const int n = out->n, full = m->releases > 0; /* masses of released ends couple nodes */
     int count = 0;
     for (int k = 0; k < STAGES; k++)
         for (int c = 0; c < n; c++) {
@@ -38,8 +38,9 @@ static int fill(const model *m, const sparse *single, const int frame_of[], cons
             if (row != NULL)
                 out->whole.column[k * n + c] = count;
             for (int i = 0; i < STAGES; i++) {
-                const int entries = i == k ? single->column[c + 1] - single->column[c] : beside;
-                const int *rows = i == k ? single->row + single->column[c] : list;
+                const int entries =
+                    i == k || full ? single->column[c + 1] - single->column[c] : beside;
+                const int *rows = i == k || full ? single->row + single->column[c] : list;
                 if (row != NULL && i == k)
                     out->diagonal[k * n + c] = count;
                 for (int e = 0; row != NULL && e < entries; e++)

@@ -5,6 +5,6 @@
 #include "harness/inertia/carried.h"
 
 /* Free coordinates less the rank of their masses in the state. */
-int massless_count(const model *, const carried *, const model_state *);
+status massless_count(const model *, const carried *, const model_state *, int *count, fault *);
 
 #endif

@@ -46,10 +46,10 @@ static double product(const work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
     double sum = dense_dot(m->free + m->driven, w->force, along);
-    for (int i = 0; i < m->first_release; i++) {
+    for (int i = 0; i < m->vertices; i++) {
         const int *at = &m->vertex[i].coordinate[SCENE_RX];
         double R[9], own[3], moment[3], turned[3];
-        if (m->vertex[i].body != i || forms_of(m, i) != FORM_BODY)
+        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
             continue;
         rotation_matrix(&s->q[4 * i], R);
         for (int k = 0; k < 3; k++) {
