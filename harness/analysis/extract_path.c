@@ -6,6 +6,7 @@
 #include "harness/analysis/extract_section.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
+#include "harness/inertia/shares.h"
 #include "harness/model/kinematics.h"
 #include "harness/motion/reading.h"
 #include "harness/solver/modes.h"
@@ -31,13 +32,23 @@ static double growth_of(const rotation_modes *modes)
     return modes->count > 0 ? largest : NAN;
 }
 
+/* moving: of a motion; else NULL. */
 static double reaction_of(const analysis_context *c, const scene_component *what,
-                          const model_state *s)
+                          const model_state *s, const outcome_instant *moving)
 {
     double F[6], L[6];
     linearise_node_force(c->model, s, what->node, F);
     loads_at_node(c->model, s, what->node, L);
+    if (moving != NULL && shares_node(c->model, s, moving->rate, moving->acceleration, what->node,
+                                      F, NULL) != STATUS_OK)
+        return NAN;
     return F[what->component] - L[what->component];
+}
+
+/* NULL: not of a motion. */
+static const outcome_instant *moving_at(const analysis_outcome *o, int i)
+{
+    return o->kind == SCENE_MOTION ? &outcome_motion_of(o)->instant[i] : NULL;
 }
 
 /* NULL: no quantity asked for them. */
@@ -63,7 +74,7 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
         return kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
                                     scene_component_of(q)->component);
     case SCENE_REACTION:
-        return reaction_of(c, scene_component_of(q), path->state[i]);
+        return reaction_of(c, scene_component_of(q), path->state[i], moving_at(o, i));
     case SCENE_COMPLIANCE_ENTRY:
         return outcome_compliance_of(o)
             ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
@@ -79,7 +90,7 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
         return kinematics_state_path(path->state[i]);
     case SCENE_INTERNAL:
     case SCENE_STRESS:
-        return extract_section_state(c, q, path->state[i], r);
+        return extract_section_state(c, q, path->state[i], moving_at(o, i), r);
     case SCENE_RELATIVE:
     case SCENE_RATE:
     case SCENE_ORIENTATION:

@@ -6,6 +6,7 @@
 #include "harness/equations/internal.h"
 #include "harness/equations/internal_stress.h"
 #include "harness/equations/linear.h"
+#include "harness/inertia/shares.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/quantity.h"
 
@@ -70,10 +71,27 @@ static status value_in(const analysis_context *c, const scene_quantity *q, const
                               f);
 }
 
-double extract_section_state(const analysis_context *c, const scene_quantity *q,
-                             const model_state *s, quantity_result *r)
+typedef struct moving_state {
+    const model *m;
+    const model_state *s;
+    const outcome_instant *at;
+} moving_state;
+
+static void add_inertia(const void *context, int element, double ends[2][7])
 {
-    const internal_state at = {.s = s, .path = kinematics_state_path(s)};
+    const moving_state *of = context;
+    shares_ends(of->m, of->s, of->at->rate, of->at->acceleration, element, ends);
+}
+
+double extract_section_state(const analysis_context *c, const scene_quantity *q,
+                             const model_state *s, const outcome_instant *moving,
+                             quantity_result *r)
+{
+    const moving_state of = {c->model, s, moving};
+    const internal_state at = {.s = s,
+                               .path = kinematics_state_path(s),
+                               .moving = moving != NULL ? add_inertia : NULL,
+                               .context = &of};
     double value = NAN;
     fault f = {""};
     const status outcome = value_in(c, q, &at, &value, &f);
@@ -88,7 +106,8 @@ void extract_section_linear(const analysis_context *c, const scene_quantity *q,
 {
     const model_size size = model_sizes(c->model);
     double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma), value;
-    const internal_state at = {kinematics_rest(c->model), sigma, outcome_displacements(o), 1};
+    const internal_state at = {
+        .s = kinematics_rest(c->model), .sigma = sigma, .x = outcome_displacements(o), .path = 1};
     fault f = {"out of memory for stresses"};
     status outcome = sigma != NULL ? linear_stresses(c->model, at.x, sigma, &f) : STATUS_FAULT;
     if (outcome == STATUS_OK)

@@ -55,6 +55,8 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
         }
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
     }
+    if (s->moving != NULL)
+        s->moving(s->context, i, ends);
 }
 
 /* The element has a section of its own where it changes along the member, whose axes are not those
@@ -131,6 +133,11 @@ static status recover(model *m, const internal_state *s, int i, const span_grid 
         .section = &m->section[kind->section], .length = kind->length, .options = m->options};
     span_problem problem = {
         .request = &request, .linear = s->x != NULL, .context = &loads, .load = NULL};
+    if (s->moving != NULL)
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: in a motion resultants are those of its ends (at: 0 or 1); "
+                         "divide it where others are wanted",
+                         m->element[i].member);
     TRY(features_of_section(m, kind->section, &request.features, f));
     memcpy(request.curvature, kind->curvature, sizeof request.curvature);
     memcpy(request.strain, kind->strain, sizeof request.strain);

@@ -17,6 +17,9 @@ typedef struct internal_state {
     const double *x; /* of a linear solution about s, which is undeformed: its displacements [free +
                         driven]; NULL: s is in equilibrium */
     double path;     /* parameter of the loads */
+    /* of a motion: adds to ends[2][7] the forces of inertia of an element; NULL: nothing moves */
+    void (*moving)(const void *context, int element, double ends[2][7]);
+    const void *context;
 } internal_state;
 
 /* Of what lies towards `to` on what lies towards `from`, in the principal axes of the turned
@@ -25,7 +28,8 @@ typedef struct internal_state {
 void internal_at_end(model *, const internal_state *, int member, int end, double out[7]);
 
 /* The same at a place of a member, 0 from .. 1 to of its initial length, and what else span.h has:
- * out[SPAN_VALUES]. NOT_CONVERGED: as span_recover. */
+ * out[SPAN_VALUES]. NOT_CONVERGED: as span_recover. REFUSED: of a motion, between the ends of the
+ * member, where nothing tells how the inertia lies along an element. */
 status internal_at(model *, const internal_state *, int member, double place, double out[],
                    fault *);
 

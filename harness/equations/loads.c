@@ -25,6 +25,11 @@ static double interpolate(int stations, const double at[], const double value[],
     return value[stations - 1];
 }
 
+void loads_in_time(model *m, int in_time)
+{
+    m->in_time = in_time;
+}
+
 double loads_path_factor(const scene_load *load, double path)
 {
     return load->stations > 0 ? interpolate(load->stations, load->path, load->factor, path) : path;

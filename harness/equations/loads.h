@@ -4,6 +4,10 @@
 
 #include "harness/model/model.h"
 
+/* From here on the path parameter is the time: loads and drivers are functions of that; or it is
+ * not.
+ */
+void loads_in_time(model *, int in_time);
 /* Of a static path: what the load is times; of a known driver its value [m or rad]. */
 double loads_path_factor(const scene_load *load, double path);
 double loads_path_value(const scene_driver *d, double path);

@@ -22,12 +22,12 @@ static double error_of(const explicit_scheme *s)
 static int advance(explicit_scheme *s, const instant *from, double h)
 {
     const gsl_odeiv2_system equations = {
-        .function = explicit_rates, .dimension = 2 * (size_t)s->free, .params = s};
+        .function = explicit_rates, .dimension = 2 * (size_t)s->free + 1, .params = s};
     memset(s->y, 0, (size_t)s->free * sizeof *s->y);
     memcpy(s->y + s->free, from->v, (size_t)s->free * sizeof *s->y);
-    return s->free > 0 ? gsl_odeiv2_step_apply(s->stepper, from->time, h, s->y, s->error, NULL,
-                                               s->dydt, &equations)
-                       : explicit_rates(s->end, s->y, s->dydt, s);
+    s->y[2 * s->free] = from->work;
+    return gsl_odeiv2_step_apply(s->stepper, from->time, h, s->y, s->error, NULL, s->dydt,
+                                 &equations);
 }
 
 static status step(scheme *base, const instant *from, double h, instant *to, double *error,
@@ -45,6 +45,8 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
                          s->why.text);
     memcpy(to->algorithm, to->a, (size_t)s->all * sizeof *to->a);
     to->time = record->path;
+    to->work = s->y[2 * s->free];
+    to->dissipated = from->dissipated;
     *error = error_of(s);
     record->remaining = 0;
     return STATUS_OK;
@@ -65,8 +67,7 @@ static status allocate(explicit_scheme *s, fault *f)
     const size_t n = (size_t)s->free + 1, all = (size_t)s->all + 1;
     s->y = calloc(6 * n + 3 * all + (size_t)m->memory + ELEMENT_MAX_STRAINS, sizeof *s->y);
     gsl_error_handler_t *before = gsl_set_error_handler_off();
-    s->stepper =
-        gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * (size_t)(s->free > 0 ? s->free : 1));
+    s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * (size_t)s->free + 1);
     gsl_set_error_handler(before);
     if (s->y == NULL || s->stepper == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");

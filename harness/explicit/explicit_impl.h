@@ -11,7 +11,8 @@ typedef struct explicit_scheme {
     scheme_request of;
     gsl_odeiv2_step *stepper;
     int free, all;
-    double *y, *error, *dydt; /* [2 x free] increments, rates; GSL's estimate; at the end */
+    double *y, *error, *dydt; /* [2 x free + 1] increments, rates, work; GSL's estimate; at the end
+                               */
     double *inc, *residual;   /* [free + driven] */
     double *memory, *still;   /* of one element: as its type has it; no increment of strains */
     double *weight;           /* [free + driven] metric.h */

@@ -86,7 +86,7 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
     explicit_scheme *s = context;
     const model *m = s->of.c->model;
     const double time = t > s->from->time ? fmin(t, s->end) : t;
-    if (!is_finite(2 * s->free, y)) {
+    if (!is_finite(2 * s->free + 1, y)) {
         s->outcome = fault_set(&s->why, STATUS_NOT_CONVERGED,
                                "at %g s motions grow without bound: the step does not resolve the "
                                "fastest mode of the mesh",
@@ -102,5 +102,6 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
         return GSL_EFAILED;
     turn_rates(s, s->inc, s->at->v, dydt);
     memcpy(dydt + s->free, s->at->a, (size_t)s->free * sizeof *dydt);
+    dydt[2 * s->free] = work_power(s->of.work, s->at->state, s->at->v, s->at->a, time, s->at->v);
     return GSL_SUCCESS;
 }

@@ -69,19 +69,30 @@ static void turn(const double triad[9], const double moment[3], const double ten
     mat3_mul(half, transposed, out_tensor);
 }
 
-static void add_element(const model *m, const mesh_element *el, carried_mass of[], double warping[])
+void carried_share(const model *m, const mesh_element *el, int node, carried_mass *out,
+                   double *warping)
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const mesh_kind *kind = &m->kind[el->kind];
     const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
+    const double share = (el->nodes == 2 ? two : three)[node];
+    double moment[3], tensor[9];
+    lump(&whole, share, moment, tensor);
+    turn(el->triad[node], moment, tensor, out->moment, out->inertia);
+    out->frame = el->vertex[node];
+    out->mass = share * whole.mass;
+    *warping = share * whole.warping;
+}
+
+static void add_element(const model *m, const mesh_element *el, carried_mass of[], double warping[])
+{
     for (int k = 0; k < el->nodes; k++) {
-        const double share = (el->nodes == 2 ? two : three)[k];
-        double moment[3], tensor[9], at_rest[3], tensor_at_rest[9];
-        lump(&whole, share, moment, tensor);
-        turn(el->triad[k], moment, tensor, at_rest, tensor_at_rest);
-        take(m, el->vertex[k], share * whole.mass, at_rest, tensor_at_rest, of);
+        carried_mass share;
+        double of_warping;
+        carried_share(m, el, k, &share, &of_warping);
+        take(m, el->vertex[k], share.mass, share.moment, share.inertia, of);
         if (el->warp[k] != NONE)
-            warping[m->warp[el->warp[k]].coordinate] += share * whole.warping;
+            warping[m->warp[el->warp[k]].coordinate] += of_warping;
     }
 }
 

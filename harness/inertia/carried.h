@@ -23,5 +23,9 @@ typedef struct carried {
 /* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). */
 status carried_alloc(const model *, carried *, fault *);
 void carried_free(carried *);
+/* Of one node of an element, about it, and of its warping amplitude [kg m^4]. */
+struct mesh_element;
+void carried_share(const model *, const struct mesh_element *, int node, carried_mass *,
+                   double *warping);
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/inertia/released.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 
@@ -74,10 +73,6 @@ void forms_rates(const model *m, const model_state *s, int vertex, const double 
                  const double a[], frame_rates *out)
 {
     const mesh_vertex *frame = &m->vertex[vertex];
-    if (vertex >= m->first_release) {
-        released_rates(m, s, vertex, v, a, out);
-        return;
-    }
     memset(out, 0, sizeof *out);
     rotation_matrix(&s->q[4 * vertex], out->R);
     for (int i = 0; i < 3; i++) {
@@ -104,10 +99,6 @@ void forms_add_force(const model *m, const model_state *s, int vertex, const dou
 {
     const mesh_vertex *frame = &m->vertex[vertex];
     double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    if (vertex >= m->first_release) {
-        released_add_force(m, s, vertex, F, out);
-        return;
-    }
     if (frame->angles > 0)
         kinematics_axes(m, s, vertex, b);
     for (int c = 0; c < 3; c++)

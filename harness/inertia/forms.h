@@ -16,7 +16,7 @@ typedef enum rotation_form {
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
-/* Velocity and acceleration of a frame, also of a released end, spatial [m/s, rad/s, m/s^2,
+/* Velocity and acceleration of a node's frame, spatial [m/s, rad/s, m/s^2,
  * rad/s^2], from rates v[free + driven] and their derivatives a (NULL: zero). */
 typedef struct frame_rates {
     double R[9];
@@ -25,7 +25,7 @@ typedef struct frame_rates {
 void forms_rates(const model *, const model_state *, int vertex, const double v[], const double a[],
                  frame_rates *out);
 
-/* F[6] (force, moment) on a frame into the rows of the coordinates that move it. */
+/* F[6] (force, moment) on a node's frame into the rows of the coordinates that move it. */
 void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
                      double out[]);
 

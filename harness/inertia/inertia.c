@@ -30,8 +30,7 @@ static void at_frame(const carried_mass *one, const double R[9], spatial *out)
     turn_tensor(R, one->inertia, out->J);
 }
 
-/* F[6]: force and moment that the motion takes. */
-static void force_of(const carried_mass *one, const frame_rates *r, double F[6])
+void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6])
 {
     spatial s;
     double alpha_c[3], w_c[3], w_w_c[3], c_a[3], J_alpha[3], J_w[3], w_J_w[3];
@@ -49,17 +48,35 @@ static void force_of(const carried_mass *one, const frame_rates *r, double F[6])
     }
 }
 
+void inertia_rates(const model *m, const model_state *s, int vertex, const double v[],
+                   const double a[], frame_rates *out)
+{
+    if (vertex >= m->first_release)
+        released_rates(m, s, vertex, v, a, out);
+    else
+        forms_rates(m, s, vertex, v, a, out);
+}
+
+void inertia_force(const model *m, const carried_mass *one, const model_state *s, const double v[],
+                   const double a[], double F[6])
+{
+    frame_rates r;
+    inertia_rates(m, s, one->frame, v, a, &r);
+    inertia_force_at(one, &r, F);
+}
+
 void inertia_subtract(const model *m, const carried *all, const model_state *s, const double v[],
                       const double a[], double out[])
 {
     for (int k = 0; k < all->masses; k++) {
-        frame_rates r;
         double F[6];
-        forms_rates(m, s, all->mass[k].frame, v, a, &r);
-        force_of(&all->mass[k], &r, F);
+        inertia_force(m, &all->mass[k], s, v, a, F);
         for (int i = 0; i < 6; i++)
             F[i] = -F[i];
-        forms_add_force(m, s, all->mass[k].frame, F, out);
+        if (all->mass[k].frame >= m->first_release)
+            released_add_force(m, s, all->mass[k].frame, F, out);
+        else
+            forms_add_force(m, s, all->mass[k].frame, F, out);
     }
     for (int i = 0; i < m->warps && a != NULL; i++)
         out[m->warp[i].coordinate] -=
@@ -128,8 +145,8 @@ void inertia_frame(const model *m, const carried *all, int index, const model_st
     const mesh_vertex *frame = &m->vertex[one->frame];
     frame_rates r;
     double F[6], b[3][3];
-    forms_rates(m, s, one->frame, v, a, &r);
-    force_of(one, &r, F);
+    inertia_rates(m, s, one->frame, v, a, &r);
+    inertia_force_at(one, &r, F);
     parts_of(one, &r, F, out);
     identity(out->turn);
     memcpy(out->rate, r.R, sizeof out->rate);
@@ -250,7 +267,7 @@ void inertia_of(const model *m, const carried *all, const model_state *s, const 
         frame_rates r;
         spatial at;
         double w_c[3], p[3], Jw[3], c_v[3], position[3], r_p[3];
-        forms_rates(m, s, one->frame, v, NULL, &r);
+        inertia_rates(m, s, one->frame, v, NULL, &r);
         at_frame(one, r.R, &at);
         kinematics_position(m, s, one->frame, position);
         vec3_cross(r.w, at.c, w_c);

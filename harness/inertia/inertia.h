@@ -7,6 +7,13 @@
 #include "harness/inertia/carried.h"
 #include "harness/inertia/forms.h"
 
+/* Of a node's frame or of a released end: forms_rates. */
+void inertia_rates(const model *, const model_state *, int vertex, const double v[],
+                   const double a[], frame_rates *);
+/* F[6]: force and moment about the frame that the motion of a mass takes. */
+void inertia_force_at(const carried_mass *, const frame_rates *, double F[6]);
+void inertia_force(const model *, const carried_mass *, const model_state *, const double v[],
+                   const double a[], double F[6]);
 /* out[free + driven] -= forces of inertia at rates v and their derivatives a (NULL: zero, which
  * leaves those of the velocities). */
 void inertia_subtract(const model *, const carried *, const model_state *, const double v[],

@@ -121,10 +121,11 @@ static status integrate(motion *w, fault *f)
     return STATUS_OK;
 }
 
-/* The state that the motion starts from, at time 0. */
-static status begin(motion *w, fault *f)
+/* The state that the motion starts from, at time 0, and how the axes turn that it is at rest in. */
+static status begin(motion *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
+    memset(frame, 0, sizeof *frame);
     if (follows == SCENE_NONE)
         return STATUS_OK;
     const analysis_outcome *before = &w->c->outcomes[follows];
@@ -133,6 +134,12 @@ static status begin(motion *w, fault *f)
         return fault_set(f, STATUS_NOT_CONVERGED, "the state that the motion starts from: %s",
                          before->reason);
     kinematics_state_copy(w->c->model, path->state[path->reached - 1], w->now.state);
+    const scene_analysis *of = &w->c->scene->analysis[follows];
+    const double speed = of->kind == SCENE_ROTATION ? path->value[path->reached - 1] : 1;
+    if (scene_rotating_frame_of(of) != NULL)
+        *frame = *scene_rotating_frame_of(of);
+    for (int i = 0; i < 3; i++)
+        frame->omega[i] *= speed;
     return STATUS_OK;
 }
 
@@ -154,6 +161,7 @@ static status check_massless(const motion *w, fault *f)
 static status solve(motion *w, fault *f)
 {
     const step_record start = {.increment = 0};
+    scene_rotating_frame frame;
     const model *m = w->c->model;
     TRY(forms_check(m, f));
     TRY(drive_check(m, f));
@@ -170,9 +178,9 @@ static status solve(motion *w, fault *f)
                              .scheme = w->scheme,
                              .out = w->out};
     TRY(stations_alloc(&w->stations, f));
-    TRY(begin(w, f));
+    TRY(begin(w, &frame, f));
     TRY(check_massless(w, f));
-    TRY(launch(w->c, &w->masses, w->how, &w->now, &w->next, f));
+    TRY(launch(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
     return integrate(w, f);
 }
@@ -186,9 +194,7 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     w.analysis = analysis;
     w.follows = c->scene->analysis[analysis].follows;
     w.out = outcome_motion_in(o);
-    c->model->in_time = 1;
     status result = solve(&w, f);
-    c->model->in_time = 0;
     if (result != STATUS_FAULT && history_add_motion(c->result, analysis, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     instant_free(&w.now);

@@ -43,10 +43,12 @@ static status keep(stations *s, const instant *at, const double balance[SCENE_BA
     const model_size size = model_sizes(m);
     const size_t bytes = (size_t)(size.free + size.driven + 1) * sizeof(double);
     outcome_instant *to = &s->out->instant[s->out->path.reached];
-    to->rate = malloc(bytes);
+    to->rate = malloc(2 * bytes);
     if (to->rate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
+    to->acceleration = to->rate + bytes / sizeof(double);
     memcpy(to->rate, at->v, bytes - sizeof(double));
+    memcpy(to->acceleration, at->a, bytes - sizeof(double));
     memcpy(to->balance, balance, sizeof to->balance);
     return outcome_keep(&s->out->path, m, at->state, 1, next_of(s), f);
 }

@@ -18,7 +18,8 @@ typedef struct analysis_context {
                                    needs any more; NULL: none */
 } analysis_context;
 
-/* From here on the axes of the model turn as those of the analysis do. */
+/* From here on the axes of the model turn as those of the analysis do, and the path parameter is
+ * what it has. */
 void context_set_frame(const analysis_context *, int analysis);
 /* The numeric factors of K, and into the context whether they exist. */
 status context_factor(analysis_context *, factor *, const sparse *K, fault *);

@@ -57,7 +57,7 @@ typedef struct outcome_rotation {
 
 /* Of a motion at one instant, by scene_balance. */
 typedef struct outcome_instant {
-    double *rate; /* [free + driven] */
+    double *rate, *acceleration; /* [free + driven]: see harness/inertia/forms.h; one block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
