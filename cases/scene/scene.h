@@ -88,6 +88,8 @@ typedef struct scene_member {
                             misfit */
     scene_release release[2]; /* at p, q */
     int divisions;            /* 0: the mesh's -n; else this many elements always */
+    double damping; /* of motions: stresses gain damping x stiffness at rest x rates of the
+                       strains [s] */
 } scene_member;
 
 /* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of

@@ -155,6 +155,27 @@ static void mix(const model *m, const model_state *s, int index, const double de
         w.sigma[i] += more[i];
 }
 
+/* The strains' rates, of those that the linearised equations have without a motion. */
+static void damp(const model *m, const model_state *s, int index)
+{
+    const mesh_damping *d = m->damping;
+    const double eta = m->scene->member[m->element[index].member].damping;
+    const size_t n = (size_t)m->strains, first = (size_t)index * n;
+    const double *S = d->stiffness + (size_t)m->element[index].kind * n * n;
+    const model_slot w = linearise_slot(m, index);
+    double rate[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    if (eta == 0)
+        return;
+    for (size_t k = 0; k < n; k++)
+        rate[k] = d->known[first + k] +
+                  d->g * (s->e[first + k] + w.incompatibility[k] - d->from[first + k]);
+    dense_mul_vec(m->strains, m->strains, S, rate, more);
+    for (size_t k = 0; k < n; k++)
+        w.sigma[k] += eta * more[k];
+    for (size_t k = 0; k < n * n; k++)
+        w.C[k] += eta * d->g * S[k];
+}
+
 void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[])
 {
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
@@ -163,7 +184,7 @@ void chunk_evaluate(const model *m, const model_state *s, int count, chunk_eleme
         kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
         element[k].complete = 0;
     }
-    if (together && m->type->equations_many != NULL && !m->rotates) {
+    if (together && m->type->equations_many != NULL && !m->rotates && m->damping == NULL) {
         equations_together(m, s, count, element);
         return;
     }
@@ -177,4 +198,6 @@ void chunk_evaluate(const model *m, const model_state *s, int count, chunk_eleme
         stresses_one_by_one(m, s, count, element);
     for (int k = 0; k < count; k++)
         mix(m, s, element[k].index, deformed[k]);
+    for (int k = 0; k < count && m->damping != NULL; k++)
+        damp(m, s, element[k].index);
 }

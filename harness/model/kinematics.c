@@ -132,6 +132,11 @@ double kinematics_state_path(const model_state *s)
     return s->path;
 }
 
+const double *kinematics_strains(const model_state *s)
+{
+    return s->e;
+}
+
 /* With a block of so many doubles. */
 static status block_alloc(size_t size, model_state **out, fault *f)
 {

@@ -12,6 +12,7 @@ void kinematics_state_free(model_state *);
 const model_state *kinematics_rest(const model *); /* undeformed */
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);
 double kinematics_state_path(const model_state *);
+const double *kinematics_strains(const model_state *); /* [elements x strains] */
 
 /* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms:
  * what a state keeps is known in this one only. */

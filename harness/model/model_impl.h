@@ -117,6 +117,14 @@ typedef struct element_part {
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
 
+/* Stresses of a motion gain eta S0 e', eta of the member: see harness/scheme/damping.h. */
+typedef struct mesh_damping {
+    double *stiffness;          /* [kinds x strains^2] S0 */
+    double *none;               /* [elements x strains] zero */
+    double g;                   /* e' = known + g (e - from) */
+    const double *known, *from; /* [elements x strains] */
+} mesh_damping;
+
 struct model {
     const scene *scene;
     const element_type *given; /* as its file has it */
@@ -150,6 +158,7 @@ struct model {
     model_state *rest; /* undeformed */
     mesh_undeformed undeformed;
     element_rotating_frame frame; /* its velocity times the path if that is followed */
+    mesh_damping *damping;        /* of a motion; NULL: none */
     int in_time; /* the path parameter is the time: loads and drivers are functions of that */
     int rotates, rotation_follows_path;
     counters counters;

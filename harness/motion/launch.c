@@ -12,6 +12,7 @@
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/massless.h"
 #include "harness/solver/history.h"
@@ -132,6 +133,11 @@ static status settle(stage *s, int massless, double h, instant *now, instant *ro
                      .v = room->v,
                      .a = room->a};
     step_record record = {.path = now->time};
+    if (now->strain != NULL) {
+        TRY(damping_rates(m, now->state, now->v, now->strain, f));
+        memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
+        damping_follow(m, 0, now->strain, kinematics_strains(now->state));
+    }
     instant_copy(m, now, room);
     drive_at(m, now->state, now->time, inc, room->v, room->a);
     TRY(check_drivers(m, inc, f));

@@ -11,6 +11,7 @@
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"
 #include "harness/motion/stations.h"
+#include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
 #include "harness/scheme/massless.h"
@@ -27,6 +28,7 @@ typedef struct motion {
     const scene_motion *how;
     int analysis, follows;
     carried masses;
+    mesh_damping damping;
     work work;
     scheme *scheme;
     instant now, next;
@@ -167,6 +169,7 @@ static status solve(motion *w, fault *f)
     TRY(drive_check(m, f));
     TRY(kinks_check(m, w->how->path.value[w->how->path.stations - 1], f));
     TRY(carried_alloc(m, &w->masses, f));
+    TRY(damping_begin(w->c->model, &w->damping, f));
     TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     TRY(integrator_alloc(&request, &w->scheme, f));
@@ -203,5 +206,6 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     integrator_free(w.scheme);
     carried_free(&w.masses);
     work_free(&w.work);
+    damping_end(c->model, &w.damping);
     return result;
 }

@@ -10,6 +10,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/radau/radau_impl.h"
+#include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
 #include "harness/solver/history.h"
@@ -115,7 +116,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     memcpy(to->algorithm, last->a, bytes);
     to->time = record->path;
     to->work = from->work + work_of_stages(r, from, h, record);
-    to->dissipated = from->dissipated;
+    to->dissipated = from->dissipated + radau_dissipated(r, from, h, to->strain);
     return STATUS_OK;
 }
 
@@ -126,6 +127,8 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     model *m = r->of.c->model;
     *error = 0;
     r->own_work = m->work;
+    if (m->damping != NULL) /* stages add theirs by themselves */
+        damping_follow(m, 0, m->damping->none, m->damping->none);
     const status outcome = solve(r, from, h, to, error, record, f);
     m->work = r->own_work;
     return outcome;

@@ -244,5 +244,6 @@ status radau_equations(radau *r, const instant *from, double h, step_record *rec
             else
                 add_released(r, k, h, i);
     add_warps(r, h);
+    radau_damp(r, from, h);
     return STATUS_OK;
 }

@@ -25,6 +25,7 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
     drive_at(m, from->state, from->time, NULL, NULL, room->a);
     memset(still, 0, (size_t)r->all * sizeof *still);
     const inertia_relation with = {g * g, 0, still};
+    radau_damp_error(r, from, h, e, g, room->strain);
     TRY(linearise_state(m, from->state, &lin, f));
     inertia_subtract(m, r->of.masses, from->state, from->v, room->a, r->dx);
     inertia_add_tangent(m, r->of.masses, from->state, from->v, from->a, &with, &r->K);

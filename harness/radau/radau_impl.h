@@ -41,6 +41,15 @@ void radau_rates(radau *, const instant *from, double h);
 /* S and the residual of all stages in their present states. */
 status radau_equations(radau *, const instant *from, double h, step_record *, fault *);
 
+/* radau_damping.c: residual and S gain what damped members take. */
+void radau_damp(radau *, const instant *from, double h);
+/* What they lose in a step that was solved [J]; room[elements x strains]. */
+double radau_dissipated(const radau *, const instant *from, double h, double room[]);
+/* Their part in radau_error: the model's stresses, with rates of strains -sum e_i (strains
+ * gained)/h and tangent g, until damping_follow says otherwise. room likewise, as long. */
+void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
+                      double g, double room[]);
+
 /* radau_error.c: what a step that was solved adds to the error of positions, in the measure of
  * metric.h. [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with
  * g = 1/(l h), l the real eigenvalue of A, about the instant before. room: work space. */

@@ -29,7 +29,7 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
 static int fill(const model *m, const sparse *single, const int frame_of[], const double warping[],
                 stages_matrix *out, int *row)
 {
-    const int n = out->n, full = m->releases > 0; /* masses of released ends couple nodes */
+    const int n = out->n, full = m->releases > 0 || m->damping != NULL; /* both couple nodes */
     int count = 0;
     for (int k = 0; k < STAGES; k++)
         for (int c = 0; c < n; c++) {

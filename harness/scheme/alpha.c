@@ -5,6 +5,7 @@
 
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/stage.h"
 
@@ -12,6 +13,7 @@ typedef struct alpha {
     scheme base;
     stage stage;
     work *work;
+    size_t strains;                  /* of elements that are damped: elements x strains, or 0 */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
@@ -45,6 +47,35 @@ static double error_of(const alpha *s, const instant *from, const instant *to, d
     return sqrt(square);
 }
 
+/* Strains of what is damped move as positions do: what their rates are without the increment. */
+static void relate_strains(alpha *s, const instant *from, double h, instant *to)
+{
+    const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
+                 later = h * (1 - s->gamma / (2 * s->beta));
+    for (size_t i = 0; i < s->strains; i++)
+        to->strain[i] = kept * from->strain[i] + later * from->strain2[i];
+    damping_follow(s->stage.c->model, g, to->strain, kinematics_strains(from->state));
+}
+
+/* Rates at the end, and what they have lost by the trapezoidal rule. */
+static void damp(alpha *s, const instant *from, double h, instant *to)
+{
+    const double *e0 = kinematics_strains(from->state), *e1 = kinematics_strains(to->state);
+    const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
+    to->dissipated = from->dissipated;
+    if (s->strains == 0)
+        return;
+    for (size_t i = 0; i < s->strains; i++) {
+        const double gained = e1[i] - e0[i];
+        to->strain[i] += g * gained;
+        to->strain2[i] =
+            part * (gained - h * from->strain[i]) - (0.5 - s->beta) / s->beta * from->strain2[i];
+    }
+    to->dissipated += h / 2 *
+                      (damping_power(s->stage.c->model, from->strain) +
+                       damping_power(s->stage.c->model, to->strain));
+}
+
 static status step(scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
@@ -61,12 +92,13 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     relate(s, from, h, &r);
     drive_at(m, from->state, time, s->inc, to->v, to->a);
     kinematics_state_copy(m, from->state, to->state);
+    relate_strains(s, from, h, to);
     TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
     for (int i = 0; i < s->stage.all; i++)
         to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);
     to->time = time;
     to->work = from->work + work_trapezoid(s->work, from, to, s->inc);
-    to->dissipated = from->dissipated;
+    damp(s, from, h, to);
     *error = error_of(s, from, to, h);
     return STATUS_OK;
 }
@@ -92,6 +124,9 @@ status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
     *out = &s->base;
     *s = (alpha){.base = {.order = 3, .step = step, .free = release},
                  .work = request->work,
+                 .strains = damping_acts(request->c->scene)
+                                ? (size_t)size.elements * (size_t)size.strains
+                                : 0,
                  .mass = how->mass,
                  .force = how->force,
                  .gamma = gamma,

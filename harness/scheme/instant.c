@@ -4,6 +4,13 @@
 #include <string.h>
 
 #include "harness/model/kinematics.h"
+#include "harness/scheme/damping.h"
+
+static size_t strains_of(const model *m)
+{
+    const model_size size = model_sizes(m);
+    return damping_acts(m->scene) ? (size_t)size.elements * (size_t)size.strains : 0;
+}
 
 static size_t coordinates_of(const model *m)
 {
@@ -18,6 +25,12 @@ status instant_alloc(const model *m, instant *out, fault *f)
     out->v = calloc(n, sizeof *out->v);
     out->a = calloc(n, sizeof *out->a);
     out->algorithm = calloc(n, sizeof *out->algorithm);
+    if (strains_of(m) > 0) {
+        out->strain = calloc(2 * strains_of(m), sizeof *out->strain);
+        if (out->strain == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for damping");
+        out->strain2 = out->strain + strains_of(m);
+    }
     if (out->v == NULL || out->a == NULL || out->algorithm == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
     return kinematics_state_alloc(m, &out->state, f);
@@ -28,6 +41,7 @@ void instant_free(instant *i)
     free(i->v);
     free(i->a);
     free(i->algorithm);
+    free(i->strain);
     kinematics_state_free(i->state);
 }
 
@@ -40,5 +54,7 @@ void instant_copy(const model *m, const instant *from, instant *to)
     memcpy(to->v, from->v, bytes);
     memcpy(to->a, from->a, bytes);
     memcpy(to->algorithm, from->algorithm, bytes);
+    if (from->strain != NULL)
+        memcpy(to->strain, from->strain, 2 * strains_of(m) * sizeof *to->strain);
     kinematics_state_copy(m, from->state, to->state);
 }

@@ -9,6 +9,9 @@ typedef struct instant {
     model_state *state;
     double *v, *a;           /* [free + driven] rates and their derivatives: see forms.h */
     double work, dissipated; /* [J] since the begin: by what acts from outside; by damping */
+    double *strain,
+        *strain2;      /* [elements x strains] rates of the strains of what is damped, and
+                          their derivatives as generalized-alpha has them; NULL: nothing is */
     double *algorithm; /* [free + driven] of generalized-alpha: the acceleration it averages */
 } instant;
 

@@ -19,7 +19,8 @@ static const joint joints[] = {{"stiff", 0, {0}},
                                {"slide", 1, {SCENE_UY}},
                                {"sliding hinge", 3, {SCENE_RZ, SCENE_UX, SCENE_UZ}}};
 
-static double solve(const joint *of, scene_scheme scheme, double step, double *x, char *why)
+static double solve(const joint *of, double damping, scene_scheme scheme, double step, double *x,
+                    char *why)
 {
     static const double y_axis[] = {0, 1, 0}, end = 0.4;
     const section_spec spec = timed_profile(&(timed_section){
@@ -32,6 +33,7 @@ static double solve(const joint *of, scene_scheme scheme, double step, double *x
               middle = scene_add_node(&s, 0.5, 0, 0.1), tip = scene_add_node(&s, 1, 0.2, 0),
               first = scene_add_member(&s, pin, middle, profile, y_axis),
               second = scene_add_member(&s, middle, tip, profile, y_axis);
+    scene_member_at(&s, first)->damping = scene_member_at(&s, second)->damping = damping;
     scene_hold(&s, pin, SCENE_UX, SCENE_UZ);
     for (int i = 0; i < of->count; i++)
         scene_release_end(&s, second, 0, of->component[i]);
@@ -60,9 +62,9 @@ int main(void)
     for (int i = 0; i < (int)(sizeof joints / sizeof joints[0]); i++) {
         double alpha, radau, shorter;
         char why[FAULT_TEXT];
-        const double of_alpha = solve(&joints[i], SCENE_ALPHA, 0.0025, &alpha, why),
-                     of_radau = solve(&joints[i], SCENE_RADAU, 0.005, &radau, why),
-                     of_shorter = solve(&joints[i], SCENE_RADAU, 0.0025, &shorter, why);
+        const double of_alpha = solve(&joints[i], 0, SCENE_ALPHA, 0.0025, &alpha, why),
+                     of_radau = solve(&joints[i], 0, SCENE_RADAU, 0.005, &radau, why),
+                     of_shorter = solve(&joints[i], 0, SCENE_RADAU, 0.0025, &shorter, why);
         gsl_test(!(of_shorter < 2e-7 && of_radau / of_shorter > 8),
                  "%s: drift of radau of higher order (%g, %g) %s", joints[i].name, of_radau,
                  of_shorter, why);
@@ -70,6 +72,9 @@ int main(void)
         gsl_test(!(fabs(radau - shorter) < 2e-5 && fabs(alpha - shorter) < 1e-3),
                  "%s: both come to the same place (%.9g, %.9g, %.9g)", joints[i].name, alpha, radau,
                  shorter);
+        const double damped = solve(&joints[i], 0.02, SCENE_RADAU, 0.005, &radau, why);
+        gsl_test(!(damped < 2e-5 && fabs(radau - shorter) > 1e-5),
+                 "%s: damped (drift %g, at %.9g) %s", joints[i].name, damped, radau, why);
     }
     return gsl_test_summary();
 }

@@ -1,0 +1,107 @@
+#include "harness/scheme/damping.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+#include "harness/inertia/forms.h"
+
+int damping_acts(const scene *s)
+{
+    for (int i = 0; i < s->members; i++)
+        if (s->member[i].damping > 0)
+            return 1;
+    return 0;
+}
+
+status damping_begin(model *m, mesh_damping *d, fault *f)
+{
+    const size_t n = (size_t)m->strains, all = (size_t)m->elements * n;
+    memset(d, 0, sizeof *d);
+    if (!damping_acts(m->scene))
+        return STATUS_OK;
+    d->stiffness = calloc((size_t)m->kinds * n * n + 1, sizeof *d->stiffness);
+    d->none = calloc(all + 1, sizeof *d->none);
+    if (d->stiffness == NULL || d->none == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+    for (int i = 0; i < m->elements; i++) {
+        const int kind = m->element[i].kind;
+        const status outcome =
+            m->type->stress(m->kind[kind].data, m->rest->e + (size_t)i * n,
+                            m->rest->inner + (size_t)i * (size_t)m->inner,
+                            &(stress_output){.C = d->stiffness + (size_t)kind * n * n});
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
+                             m->type->name);
+    }
+    m->damping = d;
+    damping_follow(m, 0, d->none, d->none);
+    return STATUS_OK;
+}
+
+void damping_end(model *m, mesh_damping *d)
+{
+    m->damping = NULL;
+    free(d->stiffness);
+    free(d->none);
+}
+
+void damping_follow(model *m, double g, const double known[], const double from[])
+{
+    if (m->damping == NULL)
+        return;
+    m->damping->g = g;
+    m->damping->known = known;
+    m->damping->from = from;
+}
+
+/* Increments that the rates would be of an instant: those of rotations in fixed axes. */
+static void in_space(const model *m, const model_state *s, const double v[], double out[])
+{
+    memcpy(out, v, (size_t)(m->free + m->driven) * sizeof *out);
+    for (int i = 0; i < m->vertices; i++) {
+        const int *at = &m->vertex[i].coordinate[SCENE_RX];
+        double R[9], own[3], turned[3];
+        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
+            continue;
+        rotation_matrix(&s->q[4 * i], R);
+        for (int k = 0; k < 3; k++)
+            own[k] = v[at[k]];
+        mat3_mul_vec(R, own, turned);
+        for (int k = 0; k < 3; k++)
+            out[at[k]] = turned[k];
+    }
+}
+
+status damping_rates(const model *m, const model_state *s, const double v[], double rate[],
+                     fault *f)
+{
+    double *dx = calloc((size_t)(m->free + m->driven) + 1, sizeof *dx);
+    if (dx == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+    in_space(m, s, v, dx);
+    for (int i = 0; i < m->elements; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], local[ELEMENT_MAX_COORDINATES];
+        kinematics_gather(m, s, &m->element[i], x);
+        m->type->strain(m->kind[m->element[i].kind].data, x, &(strain_output){.J = J});
+        kinematics_local(m, s, &m->element[i], dx, local);
+        dense_mul_vec(m->strains, m->coordinates, J, local, rate + (size_t)i * (size_t)m->strains);
+    }
+    free(dx);
+    return STATUS_OK;
+}
+
+double damping_power(const model *m, const double rate[])
+{
+    const size_t n = (size_t)m->strains;
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++)
+        sum +=
+            m->scene->member[m->element[i].member].damping *
+            dense_quadratic(m->strains, m->damping->stiffness + (size_t)m->element[i].kind * n * n,
+                            rate + (size_t)i * n);
+    return sum;
+}
