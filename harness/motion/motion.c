@@ -35,8 +35,18 @@ typedef struct motion {
     double h, least; /* [s] next step; the shortest */
     stations stations;
     outcome_motion *out;
-    double balance[SCENE_BALANCES]; /* at `now` */
+    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
+    int looked_ahead;                                      /* 1: ahead is known */
+    double largest;                                        /* energy so far [J] */
+    int quiet; /* steps since what acts was last smooth no longer */
 } motion;
+
+static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
+{
+    TRY(balance_of(w->c->model, &w->masses, at, balance, f));
+    balance[SCENE_DRIFT] -= (w->out->steps > 0 ? w->out->step[0].balance : balance)[SCENE_ENERGY];
+    return STATUS_OK;
+}
 
 /* The present instant, where a step has ended, becomes one of the records. */
 static status record_step(motion *w, const step_record *record, double error, fault *f)
@@ -46,9 +56,13 @@ static status record_step(motion *w, const step_record *record, double error, fa
                         .error = error,
                         .iterations = record->iterations,
                         .rejected = record->rejected};
-    TRY(balance_of(w->c->model, &w->masses, &w->now, w->balance, f));
-    const double *begin = w->out->steps > 0 ? w->out->step[0].balance : w->balance;
-    w->balance[SCENE_DRIFT] -= begin[SCENE_ENERGY];
+    if (w->looked_ahead)
+        memcpy(w->balance, w->ahead, sizeof w->balance);
+    else
+        TRY(balance_at(w, &w->now, w->balance, f));
+    w->looked_ahead = 0;
+    w->largest = fmax(w->largest, w->balance[SCENE_ENERGY]);
+    w->quiet++;
     memcpy(one.balance, w->balance, sizeof one.balance);
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
@@ -73,6 +87,32 @@ static int allowed(motion *w, double step, double error)
     return error <= w->how->tolerance;
 }
 
+/* Generalized-alpha may make energy from nothing where modes are not resolved: 1 of what there is
+ * in a hundred is too much for one step. Steps that stay as they are, and the first ones behind a
+ * jump of what acts, are not looked at. */
+static status watch(motion *w, int *grows, fault *f)
+{
+    enum { FIRST = 10 };
+    const double most = 0.01;
+    *grows = 0;
+    if (w->how->scheme != SCENE_ALPHA || w->how->tolerance <= 0 || w->quiet < FIRST)
+        return STATUS_OK;
+    TRY(balance_at(w, &w->next, w->ahead, f));
+    w->looked_ahead = 1;
+    *grows = w->ahead[SCENE_DRIFT] - w->balance[SCENE_DRIFT] >
+             most * fmax(w->largest, w->ahead[SCENE_ENERGY]);
+    return STATUS_OK;
+}
+
+/* What the next step is after one that was taken. */
+static void lengthen(motion *w, double step, double whole, int rejected)
+{
+    if (w->how->tolerance > 0 && step < whole)
+        w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
+    if (w->how->tolerance <= 0 && rejected == 0)
+        w->h = fmin(w->how->step, 2 * w->h); /* back to where it was before it was halved */
+}
+
 /* One step, shorter until it succeeds. */
 static status take_step(motion *w, double target, fault *f)
 {
@@ -83,25 +123,28 @@ static status take_step(motion *w, double target, fault *f)
         step_record record = {
             .path = last ? target : w->now.time + step, .increment = step, .rejected = rejected};
         double error = 0;
-        const status outcome =
-            w->scheme->step(w->scheme, &w->now, step, &w->next, &error, &record, f);
-        if (outcome == STATUS_OK && allowed(w, step, error)) {
-            if (step < whole && w->how->tolerance > 0)
-                w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
+        int grows = 0;
+        status outcome = w->scheme->step(w->scheme, &w->now, step, &w->next, &error, &record, f);
+        const int right = outcome == STATUS_OK && allowed(w, step, error);
+        if (right)
+            outcome = watch(w, &grows, f);
+        if (right && outcome == STATUS_OK && !grows) {
+            lengthen(w, step, whole, rejected);
             w->next.time = record.path;
             return keep_step(w, &record, error, f);
         }
         history_drop_step(w->c->result, &record);
+        w->looked_ahead = 0;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED)
             return outcome;
-        if (outcome != STATUS_OK)
+        if (outcome != STATUS_OK || grows)
             w->h = step / 2;
         if (w->h < w->least)
             return outcome != STATUS_OK
                        ? outcome
                        : fault_set(f, STATUS_NOT_CONVERGED,
-                                   "at %g s no step is short enough for the tolerance",
-                                   w->now.time);
+                                   "at %g s no step is short enough for %s", w->now.time,
+                                   grows ? "the energy to stay" : "the tolerance");
         model_counters(w->c->model)->rejected_steps++;
     }
 }
@@ -116,6 +159,7 @@ static status integrate(motion *w, fault *f)
     while (w->now.time < end) {
         const double kink = kinks_next(w->c->model, w->now.time);
         TRY(take_step(w, fmin(end, kink), f));
+        w->quiet *= w->now.time != kink;
         if (w->now.time == kink)
             TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
         TRY(stations_here(&w->stations, &w->now, w->balance, f));

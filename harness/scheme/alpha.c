@@ -3,8 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/model/model_impl.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/stage.h"
@@ -76,6 +78,26 @@ static void damp(alpha *s, const instant *from, double h, instant *to)
                        damping_power(s->stage.c->model, to->strain));
 }
 
+/* Rotations beyond a radian in one step are not followed. */
+static status check_turns(const alpha *s, double time, fault *f)
+{
+    const double most = 1;
+    const model *m = s->stage.c->model;
+    for (int i = 0; i < m->vertices; i++) {
+        const int *at = &m->vertex[i].coordinate[SCENE_RX];
+        double turn[3];
+        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
+            continue;
+        for (int k = 0; k < 3; k++)
+            turn[k] = s->inc[at[k]];
+        if (vec3_norm(turn) > most)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "a node turns by %.2g rad in the step to %g s, %g are the most",
+                             vec3_norm(turn), time, most);
+    }
+    return STATUS_OK;
+}
+
 static status step(scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
@@ -94,6 +116,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     kinematics_state_copy(m, from->state, to->state);
     relate_strains(s, from, h, to);
     TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
+    TRY(check_turns(s, time, f));
     for (int i = 0; i < s->stage.all; i++)
         to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);
     to->time = time;
