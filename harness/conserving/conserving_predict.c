@@ -1,6 +1,7 @@
 /* The step to begin with, and what it is as increments of coordinates. */
 #include <string.h>
 
+#include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/conserving/conserving_impl.h"
 #include "harness/inertia/increment.h"
@@ -43,11 +44,14 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
     for (int i = m->first_release; i < m->vertices; i++) {
         const int *at = m->vertex[i].coordinate + SCENE_RX;
+        double R[9];
         if (release_of(m, i)->turns < 3)
             continue;
         vector_of(s->step, at, c);
         cayley_to_vector(c, t);
-        put_vector(t, at, inc);
+        rotation_matrix(&from->q[4 * i], R);
+        mat3_transpose_mul_vec(R, t, body);
+        put_vector(body, at, inc);
     }
 }
 

@@ -174,8 +174,15 @@ static void set_field(const model *m, const model_state *s, const scene_start *f
             start_vertex(m, s, i, field, v);
 }
 
-status launch(analysis_context *c, const carried *masses, const scene_motion *how,
-              const scene_rotating_frame *frame, instant *now, instant *room, fault *f)
+status launch(analysis_context *c, const carried *masses, const scene_motion *how, instant *now,
+              instant *room, fault *f)
+{
+    const scene_rotating_frame rest = {{0}, {0}};
+    return launch_turning(c, masses, how, &rest, now, room, f);
+}
+
+status launch_turning(analysis_context *c, const carried *masses, const scene_motion *how,
+                      const scene_rotating_frame *frame, instant *now, instant *room, fault *f)
 {
     const model *m = c->model;
     scene_start field = {.velocity = {0}};

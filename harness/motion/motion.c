@@ -212,7 +212,8 @@ static status solve(motion *w, fault *f)
     TRY(forms_check(m, f));
     TRY(drive_check(m, f));
     TRY(kinks_check(m, w->how->path.value[w->how->path.stations - 1], f));
-    TRY(carried_alloc(m, &w->masses, f));
+    TRY(w->how->scheme == SCENE_CONSERVING ? carried_alloc(m, &w->masses, f)
+                                           : carried_alloc_ends(m, &w->masses, f));
     TRY(damping_begin(w->c->model, &w->damping, f));
     TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
@@ -227,7 +228,7 @@ static status solve(motion *w, fault *f)
     TRY(stations_alloc(&w->stations, f));
     TRY(begin(w, &frame, f));
     TRY(check_massless(w, f));
-    TRY(launch(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
+    TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
     return integrate(w, f);
 }
