@@ -48,12 +48,11 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     const scheme_request asked = {.c = &f->c, .masses = &f->masses, .how = &f->how};
     TRY(conserving_alloc(&asked, &f->scheme, &f->why));
     TRY(instant_alloc(f->m, &f->now, &f->why));
-    TRY(instant_alloc(f->m, &f->next, &f->why));
-    return launch(&f->c, &f->masses, &f->how, &f->now, &f->next, &f->why);
+    return instant_alloc(f->m, &f->next, &f->why);
 }
 
-/* build: of a case without parameters. */
-static inline status flight_begin(flight *f,
+/* build: of a case without parameters. At rest, as it is built. */
+static inline status flight_ready(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)
 {
@@ -61,6 +60,15 @@ static inline status flight_begin(flight *f,
     scene_init(&f->scene, "flight");
     TRY(build(NULL, &f->scene, &f->why));
     return flight_prepare(f, with, elements);
+}
+
+/* With the start that its motion has. */
+static inline status flight_begin(flight *f,
+                                  status (*build)(const double value[], scene *, fault *),
+                                  const char *with, int elements)
+{
+    TRY(flight_ready(f, build, with, elements));
+    return launch(&f->c, &f->masses, &f->how, &f->now, &f->next, &f->why);
 }
 
 static inline void flight_end(flight *f)
