@@ -162,7 +162,7 @@ static status allocate(conserving *s, fault *f)
                  strains = (size_t)s->strains;
     s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + m->memory + 1;
     s->step = calloc(6 * all, sizeof *s->step);
-    s->W = calloc(count * (strains * strains + 1 + strains + (size_t)s->slot_size) +
+    s->W = calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
                       (size_t)(3 * SPRING_STRAINS * m->springs),
                   sizeof *s->W);
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
@@ -173,15 +173,15 @@ static status allocate(conserving *s, fault *f)
     s->row = s->column + all;
     s->dx = s->row + all;
     s->weight = s->dx + all;
-    s->energy = s->W + count * strains * strains;
+    s->C = s->W + count * strains * strains;
+    s->energy = s->C + count * strains * strains;
     s->d = s->energy + count;
     s->slot = s->d + count * strains;
     s->spring = s->slot + count * (size_t)s->slot_size;
     metric_of(m, s->weight);
     TRY(assemble_pattern(m, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
-    TRY(factor_alloc(pattern, &s->factor, f));
-    return conserving_rest(s, f);
+    return factor_alloc(pattern, &s->factor, f);
 }
 
 status conserving_alloc(const scheme_request *request, scheme **out, fault *f)

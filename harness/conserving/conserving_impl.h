@@ -22,7 +22,8 @@ typedef struct conserving {
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
     double *weight;
     int strains;    /* most of an element or a spring */
-    double *W;      /* [deformables x strains^2] P'' at rest */
+    double *W;      /* [deformables x strains^2] mean of P'' at the ends of the step */
+    double *C;      /* [deformables x strains^2] P''(e_n) */
     double *energy; /* [deformables] P(e_n) */
     double *d;      /* [deformables x strains] */
     double *spring; /* [springs x 3 x SPRING_STRAINS] e and sigma of the end, sigma_n */
@@ -36,8 +37,6 @@ typedef struct conserving {
 } conserving;
 
 /* conserving_strain.c: of all elements and springs. */
-/* Their P'' at rest. */
-status conserving_rest(conserving *, fault *);
 /* Energies of the begin, and springs as they are there; d is zero. */
 status conserving_begin(conserving *, const instant *from, fault *);
 /* Stresses of the present strains, and k; 0 as long as it is not to be trusted. */

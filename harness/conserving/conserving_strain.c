@@ -38,21 +38,6 @@ static status stress_of(model *m, int count, const int index[], const double *co
     return STATUS_OK;
 }
 
-status conserving_rest(conserving *s, fault *f)
-{
-    model *m = s->of.c->model;
-    const size_t square = (size_t)s->strains * (size_t)s->strains;
-    for (int i = 0; i < m->elements; i++) {
-        const double *e = m->rest->e + (size_t)i * (size_t)m->strains;
-        TRY(stress_of(m, 1, &i, &e, m->rest, &(stress_output){.C = s->W + (size_t)i * square}, f));
-    }
-    for (int i = 0; i < m->springs; i++)
-        memcpy(s->W + (size_t)(m->elements + i) * square,
-               m->discrete[m->discretes - m->springs + i].spring->stiffness,
-               SPRING_STRAINS * SPRING_STRAINS * sizeof *s->W);
-    return STATUS_OK;
-}
-
 static double energy_of_spring(const deformable *of)
 {
     return dense_quadratic(SPRING_STRAINS, of->W, of->e) / 2;
@@ -63,6 +48,7 @@ static void begin_spring(conserving *s, const instant *from, int i)
 {
     deformable of = deformable_at(s, from, from->state, i);
     node_state x[ELEMENT_MAX_NODES];
+    memcpy(of.W, of.spring->spring->stiffness, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.W);
     kinematics_gather(s->of.c->model, from->state, of.el, x);
     spring_strain(of.el->nodes, x, &(strain_output){.e = of.e});
     dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.sigma);
@@ -82,7 +68,8 @@ status conserving_begin(conserving *s, const instant *from, fault *f)
         for (int k = 0; k < count; k++) {
             index[k] = i + k;
             e[k] = from->state->e + (size_t)(i + k) * (size_t)m->strains;
-            out[k] = (stress_output){.energy = &s->energy[i + k]};
+            out[k] = (stress_output){.energy = &s->energy[i + k],
+                                     .C = deformable_at(s, from, from->state, i + k).C_before};
         }
         TRY(stress_of(m, count, index, e, from->state, out, f));
         i += count;
@@ -127,8 +114,11 @@ static status stress_together(conserving *s, const instant *from, model_state *n
                                  .memory = m->memory > 0 ? of[k].memory : NULL};
     }
     TRY(stress_of(m, count, index, e, now, out, f));
-    for (int k = 0; k < count; k++)
+    for (int k = 0; k < count; k++) {
+        for (int c = 0; c < m->strains * m->strains; c++)
+            of[k].W[c] = (of[k].C_before[c] + of[k].C[c]) / 2;
         take_energy(s, &of[k], energy[k], sum);
+    }
     return STATUS_OK;
 }
 

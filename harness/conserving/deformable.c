@@ -28,7 +28,8 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
     const model *m = s->of.c->model;
     const size_t at = (size_t)i, n = (size_t)s->strains, first = at * (size_t)m->strains;
     const int spring = i - m->elements;
-    deformable of = {.index = i, .W = s->W + at * n * n, .d = s->d + at * n};
+    deformable of = {
+        .index = i, .W = s->W + at * n * n, .C_before = s->C + at * n * n, .d = s->d + at * n};
     if (spring < 0) {
         of.el = &m->element[i];
         of.strains = m->strains;

@@ -16,7 +16,8 @@ typedef struct deformable {
     const mesh_discrete *spring; /* NULL: an element */
     int index;                   /* of the element */
     int strains, coordinates;    /* 7 nodes */
-    const double *W, *before;    /* P'' at rest; sigma_n */
+    const double *before;        /* sigma_n */
+    double *W, *C_before;        /* mean of P'' at the ends of the step; P''(e_n) */
     double *e, *sigma, *d;       /* of the present iteration */
     /* Kept from one iteration's evaluation to its update. */
     double *J;             /* [strains x coordinates] de/dx at the end by dr, c, da */

@@ -120,14 +120,18 @@ static double settle(flight *f)
     model *m = f->m;
     const sparse *pattern;
     sparse K;
-    factor *of;
+    factor *of = NULL;
     double correction = INFINITY;
     const size_t all = (size_t)(m->free + m->driven) + 1;
     double *residual = calloc(all, sizeof *residual);
-    gsl_test(assemble_pattern(m, 0, &pattern, &f->why) != STATUS_OK ||
-                 sparse_alloc_like(pattern, &K, &f->why) != STATUS_OK ||
-                 factor_alloc(pattern, &of, &f->why) != STATUS_OK,
-             "room");
+    memset(&K, 0, sizeof K);
+    if (residual == NULL || assemble_pattern(m, 0, &pattern, &f->why) != STATUS_OK ||
+        sparse_alloc_like(pattern, &K, &f->why) != STATUS_OK ||
+        factor_alloc(pattern, &of, &f->why) != STATUS_OK || of == NULL) {
+        free(residual);
+        sparse_free_values(&K);
+        return INFINITY;
+    }
     for (int i = 0; i < ITERATIONS && correction > 1e-15; i++) {
         model_linearisation lin = {.path = 0, .K = &K, .residual = residual};
         turn_rates(f);
