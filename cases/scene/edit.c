@@ -185,6 +185,8 @@ static status split(scene *s, double fraction, fault *f)
             l->follower = whole.follower;
             if (whole.stations > 0)
                 scene_set_factor(s, part, whole.stations, whole.path, whole.factor);
+            if (part >= 0 && function_copy(&l->function, &whole.function) < 0)
+                s->out_of_memory = 1;
         }
     for (int i = 0; i < s->quantities; i++)
         TRY(split_quantity(&s->quantity[i], fraction, second, f));

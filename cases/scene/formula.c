@@ -5,35 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/jet.h"
 #include "elements/math/pi.h"
 
 enum { MOST = 256, DEEPEST = 32 };
 
-typedef enum operation {
-    NUMBER,
-    TIME,
-    NEGATE,
-    ADD,
-    SUBTRACT,
-    MULTIPLY,
-    DIVIDE,
-    POWER,
-    SIN,
-    COS,
-    TAN,
-    ASIN,
-    ACOS,
-    ATAN,
-    SINH,
-    COSH,
-    TANH,
-    EXP,
-    LOG,
-    SQRT
-} operation;
-
 typedef struct instruction {
-    operation what;
+    jet_operation what;
     double number;
 } instruction;
 
@@ -43,23 +21,19 @@ struct formula {
     instruction step[MOST];
 };
 
-/* Value and derivatives. */
-typedef struct jet {
-    double v, d, dd;
-} jet;
-
 typedef struct reader {
     const char *text;
     int at, depth; /* depth: of the stack; nested: of parentheses */
     int nested;
     formula *to;
-    fault *f;
+    formula_mistake *mistake;
 } reader;
 
 static status wrong(const reader *r, const char *what)
 {
-    return fault_set(r->f, STATUS_REFUSED, "function of time \"%s\", character %d: %s", r->text,
-                     r->at + 1, what);
+    r->mistake->at = r->at;
+    r->mistake->what = what;
+    return STATUS_REFUSED;
 }
 
 static void skip_blanks(reader *r)
@@ -77,9 +51,32 @@ static int takes(reader *r, char sign)
     return 1;
 }
 
-/* grows: values more on the stack. */
-static status emit(reader *r, operation what, double number, int grows)
+/* What no t enters is one number: its derivatives are zero, also where those of a function are not
+ * finite. 1: done. */
+static int is_constant(reader *r, jet_operation what, int grows)
 {
+    const int values = grows < 0 ? 2 : 1, first = r->to->count - values;
+    if (grows > 0 || first < 0)
+        return 0;
+    instruction *of = &r->to->step[first];
+    if (of[0].what != JET_NUMBER || of[values - 1].what != JET_NUMBER)
+        return 0;
+    of->number = jet_of(what, (jet){of[0].number, 0, 0}, (jet){of[values - 1].number, 0, 0}).v;
+    r->to->count = first + 1;
+    r->depth += grows;
+    return 1;
+}
+
+/* grows: values more on the stack. */
+static status emit(reader *r, jet_operation what, double number, int grows)
+{
+    const instruction *last = r->to->count > 0 ? &r->to->step[r->to->count - 1] : NULL;
+    if (what == JET_DIVIDE && last != NULL && last->what == JET_NUMBER && last->number == 0)
+        return wrong(r, "division by zero; mend what stands before it");
+    if (is_constant(r, what, grows))
+        return isfinite(r->to->step[r->to->count - 1].number)
+                   ? STATUS_OK
+                   : wrong(r, "what stands before it has no finite value; mend it");
     if (r->to->count == MOST)
         return wrong(r, "too long; split it into pieces");
     r->to->step[r->to->count++] = (instruction){what, number};
@@ -93,12 +90,15 @@ static status read_sum(reader *r);
 
 static const struct {
     const char *name;
-    operation what;
-} functions[] = {{"sin", SIN},   {"cos", COS},   {"tan", TAN},   {"asin", ASIN},
-                 {"acos", ACOS}, {"atan", ATAN}, {"sinh", SINH}, {"cosh", COSH},
-                 {"tanh", TANH}, {"exp", EXP},   {"log", LOG},   {"sqrt", SQRT}};
+    jet_operation what;
+} functions[] = {{"sin", JET_SIN},   {"cos", JET_COS},   {"tan", JET_TAN},   {"asin", JET_ASIN},
+                 {"acos", JET_ACOS}, {"atan", JET_ATAN}, {"sinh", JET_SINH}, {"cosh", JET_COSH},
+                 {"tanh", JET_TANH}, {"exp", JET_EXP},   {"log", JET_LOG},   {"sqrt", JET_SQRT}};
 
-static status read_function(reader *r, operation what)
+/* Of the language of scene files, and not of time. */
+static const char *const kinked[] = {"abs", "sign", "min", "max", "floor", "ceil", "mod"};
+
+static status read_function(reader *r, jet_operation what)
 {
     if (!takes(r, '('))
         return wrong(r, "a function needs its argument in parentheses");
@@ -117,15 +117,15 @@ static status read_word(reader *r)
     const char *word = r->text + first;
     if (length == 1 && *word == 't') {
         r->at += length;
-        return emit(r, TIME, 0, 1);
+        return emit(r, JET_TIME, 0, 1);
     }
     if (length == 2 && strncmp(word, "pi", 2) == 0) {
         r->at += length;
-        return emit(r, NUMBER, PI, 1);
+        return emit(r, JET_NUMBER, PI, 1);
     }
     if (length == 3 && strncmp(word, "deg", 3) == 0) {
         r->at += length;
-        return emit(r, NUMBER, PI / 180, 1);
+        return emit(r, JET_NUMBER, PI / 180, 1);
     }
     for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++)
         if ((int)strlen(functions[i].name) == length &&
@@ -133,8 +133,28 @@ static status read_word(reader *r)
             r->at += length;
             return read_function(r, functions[i].what);
         }
+    for (size_t i = 0; i < sizeof kinked / sizeof kinked[0]; i++)
+        if ((int)strlen(kinked[i]) == length && strncmp(kinked[i], word, (size_t)length) == 0)
+            return wrong(r, "it makes kinks, where steps must end; give pieces instead");
     return wrong(r, "no such name; there are t, pi, deg, sin, cos, tan, asin, acos, atan, sinh, "
                     "cosh, tanh, exp, log, sqrt");
+}
+
+/* Decimal. */
+static status read_number(reader *r)
+{
+    const char *from = r->text + r->at;
+    char *end;
+    const double number = strtod(from, &end);
+    if (end == from || (from[0] == '0' && (from[1] == 'x' || from[1] == 'X')))
+        return wrong(r, "not a decimal number");
+    if (!isfinite(number))
+        return wrong(r, "a number that is too large; the largest is 1.8e308");
+    r->at += (int)(end - from);
+    if (isalpha((unsigned char)*end) || *end == '_')
+        return wrong(r, "a name behind a number; put * between them, values are SI without units: "
+                        "20e-3 for 20 mm, 45*deg for degrees");
+    return emit(r, JET_NUMBER, number, 1);
 }
 
 static status read_atom(reader *r)
@@ -145,13 +165,8 @@ static status read_atom(reader *r)
         TRY(read_sum(r));
         return takes(r, ')') ? STATUS_OK : wrong(r, "missing )");
     }
-    if (isdigit((unsigned char)*from) || *from == '.') {
-        char *end;
-        const double number = strtod(from, &end);
-        r->at += (int)(end - from);
-        return end > from && isfinite(number) ? emit(r, NUMBER, number, 1)
-                                              : wrong(r, "not a number");
-    }
+    if (isdigit((unsigned char)*from) || *from == '.')
+        return read_number(r);
     if (isalpha((unsigned char)*from))
         return read_word(r);
     return wrong(r, *from == 0 ? "it ends where a value is due" : "a value is due");
@@ -165,7 +180,7 @@ static status read_power(reader *r)
     if (!takes(r, '^'))
         return STATUS_OK;
     TRY(read_signed(r));
-    return emit(r, POWER, 0, -1);
+    return emit(r, JET_POWER, 0, -1);
 }
 
 /* A sign binds weaker than ^. */
@@ -176,7 +191,7 @@ static status read_signed(reader *r)
     const int minus = takes(r, '-'), plus = !minus && takes(r, '+');
     TRY(minus || plus ? read_signed(r) : read_power(r));
     r->nested--;
-    return minus ? emit(r, NEGATE, 0, 0) : STATUS_OK;
+    return minus ? emit(r, JET_NEGATE, 0, 0) : STATUS_OK;
 }
 
 static status read_product(reader *r)
@@ -187,7 +202,7 @@ static status read_product(reader *r)
         if (!times && !over)
             return STATUS_OK;
         TRY(read_signed(r));
-        TRY(emit(r, times ? MULTIPLY : DIVIDE, 0, -1));
+        TRY(emit(r, times ? JET_MULTIPLY : JET_DIVIDE, 0, -1));
     }
 }
 
@@ -199,7 +214,7 @@ static status read_sum(reader *r)
         if (!plus && !minus)
             return STATUS_OK;
         TRY(read_product(r));
-        TRY(emit(r, plus ? ADD : SUBTRACT, 0, -1));
+        TRY(emit(r, plus ? JET_ADD : JET_SUBTRACT, 0, -1));
     }
 }
 
@@ -210,12 +225,13 @@ static status read_all(reader *r)
     return r->text[r->at] == 0 ? STATUS_OK : wrong(r, "an operator is due");
 }
 
-status formula_read(const char *text, formula **out, fault *f)
+status formula_parse(const char *text, formula **out, formula_mistake *mistake)
 {
     *out = calloc(1, sizeof **out);
+    *mistake = (formula_mistake){0, "out of memory for a function of time"};
     if (*out == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a function of time");
-    reader r = {.text = text, .to = *out, .f = f};
+        return STATUS_FAULT;
+    reader r = {.text = text, .to = *out, .mistake = mistake};
     const status outcome = read_all(&r);
     if (outcome != STATUS_OK) {
         formula_free(*out);
@@ -224,73 +240,21 @@ status formula_read(const char *text, formula **out, fault *f)
     return outcome;
 }
 
+status formula_read(const char *text, formula **out, fault *f)
+{
+    formula_mistake mistake;
+    const status outcome = formula_parse(text, out, &mistake);
+    if (outcome == STATUS_FAULT)
+        return fault_set(f, outcome, "%s", mistake.what);
+    if (outcome != STATUS_OK)
+        return fault_set(f, outcome, "function of time \"%.100s\", character %d: %s", text,
+                         mistake.at + 1, mistake.what);
+    return STATUS_OK;
+}
+
 void formula_free(formula *f)
 {
     free(f);
-}
-
-/* g(x), with g' and g'' at its value. */
-static jet chain(jet x, double g, double d, double dd)
-{
-    return (jet){g, d * x.d, dd * x.d * x.d + d * x.dd};
-}
-
-static jet product(jet a, jet b)
-{
-    return (jet){a.v * b.v, a.d * b.v + a.v * b.d, a.dd * b.v + 2 * a.d * b.d + a.v * b.dd};
-}
-
-static jet power(jet a, jet b)
-{
-    if (b.d == 0 && b.dd == 0) {
-        const double n = b.v;
-        return chain(a, pow(a.v, n), n == 0 ? 0 : n * pow(a.v, n - 1),
-                     n == 0 || n == 1 ? 0 : n * (n - 1) * pow(a.v, n - 2));
-    }
-    const double v = log(a.v);
-    const jet of = product(b, chain(a, v, 1 / a.v, -1 / (a.v * a.v)));
-    return chain(of, exp(of.v), exp(of.v), exp(of.v));
-}
-
-static jet of_function(operation what, jet x)
-{
-    const double v = x.v;
-    switch (what) {
-    case SIN:
-        return chain(x, sin(v), cos(v), -sin(v));
-    case COS:
-        return chain(x, cos(v), -sin(v), -cos(v));
-    case TAN: {
-        const double g = tan(v), d = 1 + g * g;
-        return chain(x, g, d, 2 * g * d);
-    }
-    case ASIN: {
-        const double s = 1 - v * v;
-        return chain(x, asin(v), 1 / sqrt(s), v / (s * sqrt(s)));
-    }
-    case ACOS: {
-        const double s = 1 - v * v;
-        return chain(x, acos(v), -1 / sqrt(s), -v / (s * sqrt(s)));
-    }
-    case ATAN: {
-        const double s = 1 + v * v;
-        return chain(x, atan(v), 1 / s, -2 * v / (s * s));
-    }
-    case SINH:
-        return chain(x, sinh(v), cosh(v), sinh(v));
-    case COSH:
-        return chain(x, cosh(v), sinh(v), cosh(v));
-    case TANH: {
-        const double g = tanh(v), d = 1 - g * g;
-        return chain(x, g, d, -2 * g * d);
-    }
-    case EXP:
-        return chain(x, exp(v), exp(v), exp(v));
-    case LOG:
-        return chain(x, log(v), 1 / v, -1 / (v * v));
-    default: /* SQRT */
-        return chain(x, sqrt(v), 0.5 / sqrt(v), -0.25 / (v * sqrt(v)));
-    }
 }
 
 void formula_at(const formula *f, double t, double out[3])
@@ -299,31 +263,14 @@ void formula_at(const formula *f, double t, double out[3])
     int top = -1;
     for (int i = 0; i < f->count; i++) {
         const instruction *s = &f->step[i];
-        if (s->what == NUMBER || s->what == TIME) {
-            stack[++top] = s->what == TIME ? (jet){t, 1, 0} : (jet){s->number, 0, 0};
+        if (s->what == JET_NUMBER || s->what == JET_TIME) {
+            stack[++top] = s->what == JET_TIME ? (jet){t, 1, 0} : (jet){s->number, 0, 0};
             continue;
         }
-        jet *a = &stack[top];
-        if (s->what == NEGATE) {
-            *a = (jet){-a->v, -a->d, -a->dd};
-            continue;
-        }
-        if (s->what >= SIN) {
-            *a = of_function(s->what, *a);
-            continue;
-        }
-        const jet b = *a;
-        a = &stack[--top];
-        if (s->what == ADD || s->what == SUBTRACT) {
-            const double sign = s->what == ADD ? 1 : -1;
-            *a = (jet){a->v + sign * b.v, a->d + sign * b.d, a->dd + sign * b.dd};
-        } else if (s->what == MULTIPLY) {
-            *a = product(*a, b);
-        } else if (s->what == DIVIDE) {
-            *a = product(*a, chain(b, 1 / b.v, -1 / (b.v * b.v), 2 / (b.v * b.v * b.v)));
-        } else {
-            *a = power(*a, b);
-        }
+        const jet right = stack[top];
+        if (s->what >= JET_ADD && s->what <= JET_POWER)
+            top--;
+        stack[top] = jet_of(s->what, stack[top], right);
     }
     out[0] = stack[0].v;
     out[1] = stack[0].d;

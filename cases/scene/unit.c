@@ -88,9 +88,12 @@ static status scale_drivers(scene *s, double x, fault *f)
             return fault_set(f, STATUS_REFUSED,
                              "driver '%s' moves lengths and angles: it has no unit of length",
                              s->driver[i].name);
-        if (s->driver[i].value != NULL && length)
-            for (int k = 0; k < s->driver[i].stations; k++)
-                s->driver[i].value[k] *= x;
+        if (s->driver[i].value == NULL || !length)
+            continue;
+        scene_function *function = &s->driver[i].function;
+        function->scale = (function->scale != 0 ? function->scale : 1) * x;
+        for (int k = 0; k < s->driver[i].stations; k++)
+            s->driver[i].value[k] *= x;
     }
     return STATUS_OK;
 }
@@ -123,6 +126,10 @@ static void scale_analysis(scene_analysis *a, double x)
 {
     if (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION)
         scale_vector(a->of.walk.frame.centre, x);
+    if (a->kind == SCENE_MOTION) {
+        scale_vector(a->of.motion.start.velocity, x);
+        scale_vector(a->of.motion.start.centre, x);
+    }
     if (a->kind != SCENE_CONTINUATION)
         return;
     scene_continuation *c = &a->of.continuation;
@@ -165,8 +172,8 @@ static int power_of(const scene *s, const scene_quantity *q)
         return translates(scene_component_of(q)->component);
     case SCENE_STRESS:
         return -2;
-    case SCENE_BALANCE:
-        return scene_balance_in(q) >= SCENE_PX && scene_balance_in(q) <= SCENE_PZ ? 1 : 2;
+    case SCENE_BALANCE: /* N m, N s, N m s */
+        return scene_balance_in(q) < SCENE_PX || scene_balance_in(q) > SCENE_PZ;
     case SCENE_ORIENTATION:
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/validate_motion.h"
 #include "cases/scene/validate_node.h"
 #include "cases/scene/validate_release.h"
 #include "cases/scene/validate_wanted.h"
@@ -214,6 +215,7 @@ status scene_validate(const scene *s, fault *f)
                          s->drivers, s->loads,    s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
+    TRY(scene_validate_functions(s, f));
     for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
         for (int i = 0; i < count[k]; i++) {
             TRY(check[k](s, i, f));

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/validate_motion.h"
+
 static status check_continuation(const scene *s, int i, fault *f)
 {
     const scene_control *c = &scene_continuation_of(&s->analysis[i])->control;
@@ -86,6 +88,12 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "analysis %d: it follows one that does not come before it; name an earlier one", i);
+    if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
+        s->analysis[a->follows].kind == SCENE_MOTION)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: it is about a motion, whose forces are not in balance "
+                         "without those of inertia; follow a static path",
+                         i);
     if (scene_path_of(a) != NULL)
         TRY(check_path(a, i, f));
     if (scene_rotating_frame_of(a) != NULL)
@@ -95,6 +103,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         TRY(check_potential(s, i, f));
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, i, f);
+    if (a->kind == SCENE_MOTION)
+        return scene_validate_motion(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }
 
@@ -159,9 +169,32 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
     }
     case SCENE_STRESS:
         return check_stress(s, q, f);
-    case SCENE_RELATIVE:
-    case SCENE_ORIENTATION:
+    case SCENE_RELATIVE: {
+        const scene_relative *c = scene_relative_of(q);
+        if (c->node < 0 || c->node >= s->nodes || c->from < 0 || c->from >= s->nodes ||
+            c->node == c->from || !is_component(c->component))
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: no such relative coordinate; name two nodes, and UX to "
+                             "RZ",
+                             q->name);
+        break;
+    }
+    case SCENE_ORIENTATION: {
+        const scene_orientation *c = scene_orientation_of(q);
+        if (c->node < 0 || c->node >= s->nodes || c->row < 0 || c->row > 2 || c->column < 0 ||
+            c->column > 2)
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: no such entry of a rotation matrix; name a node, a row "
+                             "and a column",
+                             q->name);
+        break;
+    }
     case SCENE_BALANCE:
+        if (scene_balance_in(q) < SCENE_KINETIC || scene_balance_in(q) >= SCENE_BALANCES)
+            return fault_set(f, STATUS_REFUSED,
+                             "quantity %s: no such energy or momentum; name KINETIC to LZ",
+                             q->name);
+        break;
     case SCENE_CRITICAL_FACTOR:
     case SCENE_GROWTH:
     case SCENE_FREQUENCY:

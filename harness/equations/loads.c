@@ -25,9 +25,13 @@ static double interpolate(int stations, const double at[], const double value[],
     return value[stations - 1];
 }
 
-void loads_in_time(model *m, int in_time)
+void loads_of(model *m, int analysis)
 {
-    m->in_time = in_time;
+    const scene_analysis *a = &m->scene->analysis[analysis];
+    const scene_path *followed =
+        a->follows != SCENE_NONE ? scene_path_of(&m->scene->analysis[a->follows]) : NULL;
+    m->in_time = a->kind == SCENE_MOTION;
+    m->held_path = followed != NULL ? followed->value[followed->stations - 1] : 1;
 }
 
 double loads_path_factor(const scene_load *load, double path)
@@ -42,13 +46,13 @@ double loads_path_value(const scene_driver *d, double path)
 
 double loads_factor(const model *m, const scene_load *load, double path)
 {
-    double at[3] = {1, 0, 0};
-    if (m->in_time) {
-        if (load->function.pieces > 0)
-            function_at(&load->function, path, at);
-        return at[0];
-    }
-    return loads_path_factor(load, path);
+    double at[3];
+    if (!m->in_time)
+        return loads_path_factor(load, path);
+    if (load->function.pieces == 0)
+        return loads_path_factor(load, m->held_path);
+    function_at(&load->function, path, at);
+    return at[0];
 }
 
 /* Derivative of the factor by the path parameter; at a station: of what follows. */
@@ -77,7 +81,7 @@ void loads_driver_rates(const model *m, const scene_driver *d, double path, doub
     else if (d->function.pieces > 0)
         function_at(&d->function, path, out);
     else
-        out[0] = d->value[d->stations - 1];
+        out[0] = loads_path_value(d, m->held_path);
 }
 
 /* What one load puts on vertices is added up. */

@@ -4,10 +4,10 @@
 
 #include "harness/model/model.h"
 
-/* From here on the path parameter is the time: loads and drivers are functions of that; or it is
- * not.
- */
-void loads_in_time(model *, int in_time);
+/* From here on they are those of this analysis: in a motion the path parameter is the time, of
+ * which they are functions; what has none stays as at the end of the path that is followed, or
+ * whole. */
+void loads_of(model *, int analysis);
 /* Of a static path: what the load is times; of a known driver its value [m or rad]. */
 double loads_path_factor(const scene_load *load, double path);
 double loads_path_value(const scene_driver *d, double path);

@@ -159,7 +159,8 @@ struct model {
     mesh_undeformed undeformed;
     element_rotating_frame frame; /* its velocity times the path if that is followed */
     mesh_damping *damping;        /* of a motion; NULL: none */
-    int in_time; /* the path parameter is the time: loads and drivers are functions of that */
+    int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
+    double held_path; /* path parameter at which those stay in time that have no such function */
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;

@@ -211,7 +211,6 @@ static status solve(motion *w, fault *f)
     const model *m = w->c->model;
     TRY(forms_check(m, f));
     TRY(drive_check(m, f));
-    TRY(kinks_check(m, w->how->path.value[w->how->path.stations - 1], f));
     TRY(w->how->scheme == SCENE_CONSERVING ? carried_alloc(m, &w->masses, f)
                                            : carried_alloc_ends(m, &w->masses, f));
     TRY(damping_begin(w->c->model, &w->damping, f));

@@ -79,10 +79,17 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
+/* The analysis that this one is about; a mistake: it does not stand before it. */
+int builder_about(const fields *f, int index);
+/* A motion in time. */
+void builder_in_time(const fields *f, int index);
 /* Adds a piece to the function of time of an entry of the scene. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
-/* The function that `time` or `pieces` give; 0: there is none. */
-int builder_function(const fields *f, int index, builder_piece *add);
+/* Adds the function that `time`, `pieces` or `table` gives; values of a table are joined by lines,
+ * or by a cubic spline that begins and ends at rest. */
+void builder_function(const fields *f, int index, builder_piece *add, int spline);
+/* Is there one? */
+int builder_has_function(const fields *f);
 /* Tells that an analysis does not have the quantity `key` at `what`, and which kinds of analysis
  * do. */
 void builder_no_quantity(const fields *what, const char *analysis, const char *key,

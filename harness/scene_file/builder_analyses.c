@@ -14,8 +14,7 @@ static scene_rotating_frame frame_of(const fields *f)
     return frame;
 }
 
-/* A mistake: the analysis whose state this one is about walks no path. */
-static int about(const fields *f, int index)
+int builder_about(const fields *f, int index)
 {
     const int follows = fields_entry(f, "about", LIST_ANALYSES);
     if (follows >= index)
@@ -50,7 +49,7 @@ static void add_compliance(const fields *f, int index)
                                    .moments = (scene_moments)fields_word(
                                        f, "moments", SCENE_MOMENTS_CHOICES, SCENE_MOMENTS_SPATIAL),
                                    .released = fields_words(f, "released", fields_components)};
-    scene_add_compliance(f->b->scene, about(f, index), what);
+    scene_add_compliance(f->b->scene, builder_about(f, index), what);
 }
 
 static void add_continuation(const fields *f)
@@ -70,23 +69,6 @@ static void add_continuation(const fields *f)
         scene_set_rotating_frame(f->b->scene, added, frame_of(&spin));
 }
 
-static void add_motion(const fields *f, int index)
-{
-    double *instants, alpha[2];
-    scene_motion how = {
-        .scheme = (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA),
-        .alpha = scene_alpha_of_radius(fields_number(f, "rho", 0.9)),
-        .step = fields_number(f, "step", 1),
-        .tolerance = fields_number(f, "tolerance", 0)};
-    if (fields_vector(f, "parameters", 2, alpha))
-        how.alpha = (scene_alpha){alpha[0], alpha[1]};
-    fields_direction(f, "velocity", how.start.velocity);
-    fields_direction(f, "spin", how.start.spin);
-    fields_vector(f, "centre", 3, how.start.centre);
-    const int count = fields_values(f, "instants", &instants);
-    scene_add_motion(f->b->scene, about(f, index), count, instants, how);
-}
-
 void builder_analyses(builder *b)
 {
     for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
@@ -103,10 +85,10 @@ void builder_analyses(builder *b)
             add_static(&f);
             break;
         case SCENE_BUCKLING:
-            scene_add_buckling(b->scene, about(&f, i));
+            scene_add_buckling(b->scene, builder_about(&f, i));
             break;
         case SCENE_MODAL:
-            scene_add_modal(b->scene, about(&f, i));
+            scene_add_modal(b->scene, builder_about(&f, i));
             break;
         case SCENE_COMPLIANCE:
             add_compliance(&f, i);
@@ -115,7 +97,7 @@ void builder_analyses(builder *b)
             add_continuation(&f);
             break;
         case SCENE_MOTION:
-            add_motion(&f, i);
+            builder_in_time(&f, i);
             break;
         case SCENE_ROTATION:
             add_rotation(&f);
@@ -128,7 +110,7 @@ void builder_no_quantity(const fields *what, const char *analysis, const char *k
                          scene_analysis_kind is, scene_quantity_kind kind)
 {
     char who[128] = "";
-    for (int k = SCENE_LINEAR; k <= SCENE_ROTATION; k++)
+    for (int k = SCENE_LINEAR; k <= SCENE_MOTION; k++)
         if (scene_gives((scene_analysis_kind)k, kind)) {
             const size_t used = strlen(who);
             snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",

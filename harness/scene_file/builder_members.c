@@ -159,6 +159,18 @@ static void check_unit(const fields *f, int motion)
                          angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
 }
 
+/* Known along a path, in time, in both, or unknown. */
+static void check_given(const fields *f)
+{
+    const int known = fields_have(f, "value") || builder_has_function(f),
+              unknown = fields_have(f, "such_that");
+    if (known == unknown)
+        document_mistake(f->b->mistakes, f->place, 0,
+                         known ? "the motion has values and is unknown; leave one out"
+                               : "the motion needs 'path' and 'value', one of 'time', 'pieces' and "
+                                 "'table', or 'such_that'");
+}
+
 void builder_motions(builder *b)
 {
     for (int i = 0; i < b->list[LIST_MOTIONS].count; i++) {
@@ -167,15 +179,16 @@ void builder_motions(builder *b)
         double *path, *value;
         if (fields_have(&f, "unit"))
             check_unit(&f, i);
-        if (fields_have(&f, "time") || fields_have(&f, "pieces")) {
-            builder_function(&f, scene_add_moving_driver(b->scene, entry->name), scene_drive_piece);
-            continue;
-        }
         if (condition.map == NULL) {
             const int stations = read_stations(&f, "value", &path, &value);
-            scene_add_driver(b->scene, entry->name, stations, path, value);
+            const int driver = fields_have(&f, "value")
+                                   ? scene_add_driver(b->scene, entry->name, stations, path, value)
+                                   : scene_add_moving_driver(b->scene, entry->name);
+            builder_function(&f, driver, scene_drive_piece, 1);
+            check_given(&f);
             continue;
         }
+        check_given(&f);
         scene_add_unknown_driver(b->scene, entry->name,
                                  fields_entry(&condition, "node", LIST_NODES),
                                  fields_word(&condition, "component", fields_components, 0),
@@ -244,6 +257,6 @@ void builder_loads(builder *b)
         l->follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
         if (fields_have(&f, "path") || fields_have(&f, "factor"))
             set_factor(&f, load);
-        builder_function(&f, load, scene_load_piece);
+        builder_function(&f, load, scene_load_piece, 0);
     }
 }

@@ -63,22 +63,33 @@ static const scene_key rotation[] = {
     {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families"},
     {.name = NULL}};
 
+static const scene_key start[] = {
+    {"velocity", KEY_VECTOR, .count = 3, .unit = "m/s", .summary = "of all nodes"},
+    {"spin", KEY_VECTOR, .count = 3, .unit = "rad/s", .summary = "of the whole, about the centre"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+    {.name = NULL}};
+
 static const scene_key in_time[] = {
-    {"instants", KEY_NUMBERS, .needed = 1, .unit = "s",
-     .summary = "at which quantities are read, ascending"},
-    {"step", KEY_NUMBER, .needed = 1, .unit = "s",
-     .summary = "first step; all without a tolerance"},
-    {"tolerance", KEY_NUMBER, .summary = "of the error of a step, relative to the size; 0: none"},
+    {"stations", KEY_NUMBERS, .needed = 1, .unit = "s",
+     .summary = "instants at which quantities are read, ascending; it begins at 0"},
     {"integrator", KEY_WORD, .words = SCENE_SCHEME_CHOICES,
      .summary = "alpha where it is left out"},
+    {"step", KEY_NUMBER, .unit = "s",
+     .summary = "of the integration; with a tolerance the first one; left out: 1/1000 of the last "
+                "station"},
+    {"tolerance", KEY_NUMBER,
+     .summary = "of the error of a step, relative to the size; 0: all steps are alike; left out: 0 "
+                "where there is a step, else 1e-4"},
     {"rho", KEY_NUMBER, .group = 1,
-     .summary = "of alpha: spectral radius of what is not resolved; 0.9"},
-    {"parameters", KEY_VECTOR, .group = 1, .count = 2,
-     .summary = "of alpha: alpha_m, alpha_f; [0, 0.05] is HHT, [0, 0] the trapezoidal rule"},
-    {"about", KEY_NAME, .summary = "static analysis from whose last state; left out: undeformed"},
-    {"velocity", KEY_VECTOR, .count = 3, .unit = "m/s", .summary = "of the whole at the begin"},
-    {"spin", KEY_VECTOR, .count = 3, .unit = "rad/s", .summary = "likewise angular velocity"},
-    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+     .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved; 0.9"},
+    {"hht", KEY_NUMBER, .group = 1,
+     .summary = "of alpha: the method of Hilber, Hughes and Taylor, 0 to 1/3"},
+    {"trapezoidal", KEY_WORD, .group = 1, .words = "no|yes",
+     .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison"},
+    {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f"},
+    {"about", KEY_NAME,
+     .summary = "static analysis from whose last state; left out: undeformed, from rest"},
+    {"start", KEY_MAP, .below = start, .summary = "velocities at the begin; left out: at rest"},
     {.name = NULL}};
 
 const scene_key keys_analysis[] = {
@@ -91,7 +102,8 @@ const scene_key keys_analysis[] = {
     {"continuation", KEY_MAP, .needed = 1, .group = 1, .below = continuation,
      .summary = "path of a load factor"},
     {"rotation", KEY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary"},
-    {"motion", KEY_MAP, .needed = 1, .group = 1, .below = in_time, .summary = "in time"},
+    {"motion", KEY_MAP, .needed = 1, .group = 1, .below = in_time,
+     .summary = "in time: dynamics; needs masses"},
     {.name = NULL}};
 
 #define TAKEN                                                                                      \
@@ -180,7 +192,7 @@ static const scene_key energy[] = {
 static const scene_key momentum[] = {TAKEN,
                                      {"component", KEY_WORD, .needed = 1,
                                       .words = "px|py|pz|lx|ly|lz",
-                                      .summary = "l: angular, about the origin"},
+                                      .summary = "p: linear; l: angular, about the origin"},
                                      {.name = NULL}};
 
 static const scene_key relative[] = {

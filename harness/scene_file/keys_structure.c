@@ -185,18 +185,26 @@ static const scene_key condition[] = {
 
 static const scene_key piece[] = {
     {"until", KEY_NUMBER, .unit = "s", .summary = "where it ends; the last one does not"},
-    {"is", KEY_TEXT, .needed = 1, .summary = "expression of the time t"},
+    {"is", KEY_TEXT, .needed = 1, .summary = "expression of the time t [s]"},
+    {.name = NULL}};
+
+static const scene_key table[] = {
+    {"at", KEY_NUMBERS, .needed = 1, .unit = "s", .summary = "instants, ascending"},
+    {"value", KEY_NUMBERS, .needed = 1, .summary = "at these; the first before, the last behind"},
     {.name = NULL}};
 
 const scene_key keys_motion[] = {
     {"unit", KEY_WORD, .words = "m|rad", .summary = "of its values"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
-    {"value", KEY_NUMBERS, .group = 1, .needed = 1, .summary = "at these; linear between"},
-    {"such_that", KEY_MAP, .group = 1, .needed = 1, .below = condition, .summary = "unknown"},
+    {"value", KEY_NUMBERS, .summary = "at these, linear between; in time what it has at the end"},
+    {"such_that", KEY_MAP, .group = 1, .below = condition, .summary = "unknown"},
     {"unknown", KEY_WORD, .words = "true|yes", .summary = "for the reader of the file"},
-    {"time", KEY_TEXT, .group = 1, .needed = 1, .summary = "in a motion: expression of the time t"},
-    {"pieces", KEY_LIST, .group = 1, .needed = 1, .below = piece,
-     .summary = "likewise, one expression after the other"},
+    {"time", KEY_TEXT, .group = 1,
+     .summary = "in time: expression of the time t [s]; value in m or rad (30*deg*t)"},
+    {"pieces", KEY_LIST, .group = 1, .below = piece,
+     .summary = "likewise, one expression after the other; value and velocity do not jump"},
+    {"table", KEY_MAP, .group = 1, .below = table,
+     .summary = "likewise, a cubic spline that begins and ends at rest"},
     {.name = NULL}};
 
 const scene_key keys_load[] = {
@@ -211,9 +219,12 @@ const scene_key keys_load[] = {
     {"on", KEY_NAME, .needed = 1, .summary = "node or member"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
     {"factor", KEY_NUMBERS, .summary = "at these; left out: the path parameter itself"},
-    {"time", KEY_TEXT, .group = 2, .summary = "factor in a motion: expression of the time t; 1"},
+    {"time", KEY_TEXT, .group = 2,
+     .summary = "factor in time: expression of the time t [s]; left out: as at the end of the path "
+                "that the motion follows, or 1"},
     {"pieces", KEY_LIST, .group = 2, .below = piece,
-     .summary = "likewise, one expression after the other"},
+     .summary = "likewise, one expression after the other; it may jump between"},
+    {"table", KEY_MAP, .group = 2, .below = table, .summary = "likewise, linear between"},
     {"at", KEY_VECTOR, .count = 3, .unit = "m",
      .summary = "of forces: offset from the node or the centroids"},
     {"axes", KEY_WORD, .words = "fixed|member",

@@ -188,16 +188,16 @@ static void extracted(FILE *to, const scene *s, const scene_quantity *q)
         internal(to, s, scene_internal_of(q));
         break;
     case SCENE_RELATIVE:
-        fputs("relative", to);
+        meaning_relative(to, s, scene_relative_of(q));
         break;
     case SCENE_RATE:
-        fputs("rate", to);
+        meaning_rate(to, s, scene_component_of(q));
         break;
     case SCENE_ORIENTATION:
-        fputs("orientation", to);
+        meaning_orientation(to, s, scene_orientation_of(q));
         break;
     case SCENE_BALANCE:
-        fputs("balance", to);
+        meaning_balance(to, scene_balance_in(q));
         break;
     case SCENE_STRESS:
         stress(to, s, scene_stress_of(q));

@@ -12,6 +12,8 @@ static double speed(const scene_analysis *a)
 
 static const char *path_name(const scene_analysis *a)
 {
+    if (a->kind == SCENE_MOTION)
+        return "motion";
     return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
 }
 
@@ -38,6 +40,8 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
         fputs(", where the ", to);
         meaning_coordinate(to, s, control->node, control->component);
         fprintf(to, " is %.10g m", at);
+    } else if (a->kind == SCENE_MOTION) {
+        fprintf(to, ", %.10g s after the begin of the motion", at);
     } else if (q->reduction != SCENE_AT) {
         fputs(", at the end of the static path", to);
     } else {

@@ -70,30 +70,38 @@ static void write_continuation(writer *w, const scene_analysis *a)
     write_frame(w, &c->frame);
 }
 
+static void write_start(writer *w, const scene_start *start)
+{
+    const struct {
+        const char *key;
+        const double *value;
+    } part[] = {{"velocity", start->velocity}, {"spin", start->spin}, {"centre", start->centre}};
+    int count = 0;
+    for (int i = 0; i < 3; i++)
+        if (write_values_any(3, part[i].value)) {
+            fprintf(w->to, "%s%s: ", count++ == 0 ? ", start: {" : ", ", part[i].key);
+            write_values_numbers(w, 3, part[i].value);
+        }
+    fputs(count > 0 ? "}" : "", w->to);
+}
+
 static void write_motion(writer *w, const scene_analysis *a)
 {
     static const char *const scheme[] = {"alpha", "conserving", "radau", "explicit"};
     const scene_motion *m = scene_motion_of(a);
     const double alpha[2] = {m->alpha.mass, m->alpha.force};
-    fputs("motion: {instants: ", w->to);
+    fputs("motion: {stations: ", w->to);
     write_values_numbers(w, m->path.stations, m->path.value);
-    fputs(", step: ", w->to);
+    fprintf(w->to, ", integrator: %s, step: ", scheme[m->scheme]);
     write_values_number(w, m->step);
     write_values_if(w, "tolerance", m->tolerance, 0);
-    fprintf(w->to, ", integrator: %s, parameters: ", scheme[m->scheme]);
-    write_values_numbers(w, 2, alpha);
+    if (m->scheme == SCENE_ALPHA) {
+        fputs(", parameters: ", w->to);
+        write_values_numbers(w, 2, alpha);
+    }
     if (a->follows != SCENE_NONE)
         fprintf(w->to, ", about: analysis_%d", a->follows);
-    const struct {
-        const char *key;
-        const double *value;
-    } start[] = {
-        {"velocity", m->start.velocity}, {"spin", m->start.spin}, {"centre", m->start.centre}};
-    for (int i = 0; i < 3; i++)
-        if (write_values_any(3, start[i].value)) {
-            fprintf(w->to, ", %s: ", start[i].key);
-            write_values_numbers(w, 3, start[i].value);
-        }
+    write_start(w, &m->start);
 }
 
 void write_analyses(writer *w)

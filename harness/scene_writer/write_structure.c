@@ -154,6 +154,15 @@ void write_structure_springs(writer *w)
     }
 }
 
+static void write_scaled(writer *w, const char *text, double scale)
+{
+    if (scale == 0 || scale == 1) {
+        write_values_quoted(w, text);
+        return;
+    }
+    fprintf(w->to, "\"(%s)*%.17g\"", text, scale);
+}
+
 /* A function of time. */
 static void write_pieces(writer *w, const scene_function *f)
 {
@@ -166,10 +175,18 @@ static void write_pieces(writer *w, const scene_function *f)
             fputs(", ", w->to);
         }
         fputs("is: ", w->to);
-        write_values_quoted(w, f->piece[i].text);
+        write_scaled(w, f->piece[i].text, f->scale);
         fputc('}', w->to);
     }
     fputc(']', w->to);
+}
+
+static void write_table(writer *w, const scene_driver *d)
+{
+    fputs("path: ", w->to);
+    write_values_numbers(w, d->stations, d->path);
+    fputs(", value: ", w->to);
+    write_values_numbers(w, d->stations, d->value);
 }
 
 void write_structure_motions(writer *w)
@@ -179,14 +196,14 @@ void write_structure_motions(writer *w)
         const scene_driver *d = &w->scene->driver[i];
         fputs("  ", w->to);
         write_values_motion(w, i);
-        if (d->function.pieces > 0) {
+        if (d->value != NULL) {
+            const int table = d->function.pieces == 0 || d->stations > 1 || d->value[0] != 0;
             fputs(": {", w->to);
-            write_pieces(w, &d->function);
-        } else if (d->value != NULL) {
-            fputs(": {path: ", w->to);
-            write_values_numbers(w, d->stations, d->path);
-            fputs(", value: ", w->to);
-            write_values_numbers(w, d->stations, d->value);
+            if (table)
+                write_table(w, d);
+            fputs(table && d->function.pieces > 0 ? ", " : "", w->to);
+            if (d->function.pieces > 0)
+                write_pieces(w, &d->function);
         } else {
             fprintf(w->to,
                     ": {such_that: {node: node_%d, component: %s, motion: ", d->condition_node,

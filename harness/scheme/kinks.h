@@ -8,7 +8,5 @@
 double kinks_next(const model *, double time);
 /* Where a step that ends at a kink reads its loads: just before. */
 double kinks_before(const model *, double time);
-/* REFUSED: something is driven with a jump of its place or its velocity, which is an impact. */
-status kinks_check(const model *, double end, fault *);
 
 #endif

@@ -10,7 +10,7 @@ void context_set_frame(const analysis_context *c, int analysis)
     const scene_rotating_frame *frame =
         scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
     rotating_frame_set(c->model, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
-    loads_in_time(c->model, a->kind == SCENE_MOTION);
+    loads_of(c->model, analysis);
 }
 
 status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)

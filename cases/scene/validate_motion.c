@@ -1,0 +1,210 @@
+#include "cases/scene/validate_motion.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static status check_steps(const scene_motion *m, int i, fault *f)
+{
+    if (!(m->step > 0 && isfinite(m->step)))
+        return fault_set(f, STATUS_REFUSED, "analysis %d: a step of %g s; give a positive one", i,
+                         m->step);
+    if (!(m->tolerance >= 0 && m->tolerance < 1))
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: a tolerance of %g; give a part of the size of the "
+                         "structure, 1e-4 or so, or 0: all steps are alike",
+                         i, m->tolerance);
+    for (int k = 0; k < m->path.stations; k++)
+        if (!(m->path.value[k] >= 0 && isfinite(m->path.value[k])))
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: a station at %g s; a motion begins at 0, give instants "
+                             "behind that",
+                             i, m->path.value[k]);
+    return STATUS_OK;
+}
+
+/* Where the scheme is stable whatever the step (Chung & Hulbert 1993). */
+static status check_scheme(const scene_motion *m, int i, fault *f)
+{
+    if (m->scheme < SCENE_ALPHA || m->scheme >= SCENE_SCHEMES)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: no such integrator; name ALPHA, CONSERVING, RADAU or "
+                         "EXPLICIT",
+                         i);
+    if (m->scheme == SCENE_ALPHA &&
+        !(m->alpha.mass >= -1 && m->alpha.mass <= m->alpha.force && m->alpha.force <= 0.5))
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: alpha_m = %g, alpha_f = %g are not stable for every step; "
+                         "keep -1 <= alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
+                         i, m->alpha.mass, m->alpha.force);
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(m->start.velocity[k]) || !isfinite(m->start.spin[k]) ||
+            !isfinite(m->start.centre[k]))
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: it starts with a velocity that is not a number; give "
+                             "finite components",
+                             i);
+    return STATUS_OK;
+}
+
+static int has_mass(const scene *s)
+{
+    for (int i = 0; i < s->nodes; i++)
+        if (scene_has_body(&s->node[i]))
+            return 1;
+    for (int i = 0; i < s->members; i++) {
+        section c;
+        if (scene_constants(s, s->member[i].section, &c, NULL) != STATUS_OK || c.density > 0)
+            return 1; /* what is wrong with it is told where it is computed */
+        for (int k = 0; k < 36; k++)
+            if (c.mass[k] != 0)
+                return 1;
+    }
+    return 0;
+}
+
+static status check_follows(const scene *s, int i, fault *f)
+{
+    const int follows = s->analysis[i].follows;
+    if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: a motion starts from the end of a static path, and what it "
+                         "follows is %s; follow a static one, or nothing",
+                         i, scene_analysis_name(s->analysis[follows].kind));
+    if (!has_mass(s))
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: nothing in it has a mass; give a section a density or a "
+                         "mass, or a node a body",
+                         i);
+    return STATUS_OK;
+}
+
+/* What a table says at a value of the path parameter. */
+static double along_table(int stations, const double at[], const double value[], double path)
+{
+    int k = 0;
+    while (k < stations && at[k] < path)
+        k++;
+    if (k == 0 || k == stations)
+        return value[k == 0 ? 0 : stations - 1];
+    const double part = (path - at[k - 1]) / (at[k] - at[k - 1]);
+    return value[k - 1] + part * (value[k] - value[k - 1]);
+}
+
+/* A driver begins where it is, and moves on without a jump of its velocity. */
+static status check_driver(const scene *s, int d, int i, fault *f)
+{
+    const scene_driver *driver = &s->driver[d];
+    const scene_path *path = scene_path_of(&s->analysis[i]);
+    const double end = path->value[path->stations - 1];
+    const int follows = s->analysis[i].follows;
+    double time, at[3];
+    int derivative;
+    if (driver->value == NULL)
+        return fault_set(f, STATUS_REFUSED,
+                         "driver %s: it is unknown, and motions in time take known ones; give its "
+                         "values",
+                         driver->name);
+    const scene_path *before = follows != SCENE_NONE ? scene_path_of(&s->analysis[follows]) : NULL;
+    const double starts = before == NULL
+                              ? 0
+                              : along_table(driver->stations, driver->path, driver->value,
+                                            before->value[before->stations - 1]);
+    if (driver->function.pieces == 0) {
+        if (before == NULL && (driver->stations > 1 || driver->value[0] != 0))
+            return fault_set(
+                f, STATUS_REFUSED,
+                "driver %s: its values are over a path, and a motion follows none; give a "
+                "function of time, or a static path to follow",
+                driver->name);
+        return STATUS_OK;
+    }
+    if (!function_finite(&driver->function, end, 2, &time))
+        return fault_set(f, STATUS_REFUSED,
+                         "driver %s: at %g s its value, velocity or acceleration is not finite; "
+                         "give another function, or pieces",
+                         driver->name, time);
+    if (!function_smooth(&driver->function, end, &time, &derivative))
+        return fault_set(f, STATUS_REFUSED,
+                         "driver %s: its %s jumps at %g s, which is an impact; join its pieces "
+                         "smoothly",
+                         driver->name, derivative == 0 ? "value" : "velocity", time);
+    function_at(&driver->function, 0, at);
+    if (!(fabs(at[0] - starts) <= 1e-9 * (1 + fabs(starts))))
+        return fault_set(f, STATUS_REFUSED,
+                         "driver %s: at 0 s it is %g, and a motion starts with it at %g; begin "
+                         "there, or follow a static path that ends where it begins",
+                         driver->name, at[0], starts);
+    return STATUS_OK;
+}
+
+static status check_load(const scene *s, int l, int i, fault *f)
+{
+    const scene_load *load = &s->load[l];
+    const scene_path *path = scene_path_of(&s->analysis[i]);
+    double time;
+    if (load->function.pieces == 0) {
+        if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE)
+            return fault_set(
+                f, STATUS_REFUSED,
+                "load %d: its factors are over a path, and a motion follows none; give a "
+                "function of time, or a static path to follow",
+                l);
+        return STATUS_OK;
+    }
+    if (!function_finite(&load->function, path->value[path->stations - 1], 0, &time))
+        return fault_set(f, STATUS_REFUSED,
+                         "load %d: at %g s its factor is not finite; give another function, or "
+                         "pieces",
+                         l, time);
+    return STATUS_OK;
+}
+
+status scene_validate_motion(const scene *s, int i, fault *f)
+{
+    const scene_motion *m = scene_motion_of(&s->analysis[i]);
+    TRY(check_steps(m, i, f));
+    TRY(check_scheme(m, i, f));
+    TRY(check_follows(s, i, f));
+    for (int d = 0; d < s->drivers; d++)
+        TRY(check_driver(s, d, i, f));
+    for (int l = 0; l < s->loads; l++)
+        TRY(check_load(s, l, i, f));
+    return STATUS_OK;
+}
+
+static int moves(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION)
+            return 1;
+    return 0;
+}
+
+/* What is wrong with one; idle: no analysis is in time. */
+static status check_function(const scene_function *of, int idle, fault *f)
+{
+    if (of->pieces == 0)
+        return STATUS_OK;
+    TRY(function_check(of, f));
+    return idle ? fault_set(f, STATUS_REFUSED,
+                            "a function of time, and no analysis is in time; add a motion, or give "
+                            "values over a path")
+                : STATUS_OK;
+}
+
+status scene_validate_functions(const scene *s, fault *f)
+{
+    const int idle = !moves(s);
+    fault why = {""};
+    for (int d = 0; d < s->drivers; d++) {
+        const status outcome = check_function(&s->driver[d].function, idle, &why);
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "driver %s: %s", s->driver[d].name, why.text);
+    }
+    for (int l = 0; l < s->loads; l++) {
+        const status outcome = check_function(&s->load[l].function, idle, &why);
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "load %d: %s", l, why.text);
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,177 @@
+/* Formulas of the time: values and derivatives against differences, points without derivatives, and
+ * what is refused at which character. */
+#include "cases/scene/formula.h"
+
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+static int at(const char *text, double t, double out[3])
+{
+    formula *f = NULL;
+    fault why = {""};
+    const status read = formula_read(text, &f, &why);
+    gsl_test(read != STATUS_OK, "%s: read (%s)", text, why.text);
+    if (read != STATUS_OK)
+        return 0;
+    formula_at(f, t, out);
+    formula_free(f);
+    return 1;
+}
+
+/* Derivatives of sixth order by differences. */
+static void check_differences(const char *text, double t)
+{
+    static const double first[] = {-1. / 60, 3. / 20, -3. / 4, 0, 3. / 4, -3. / 20, 1. / 60};
+    const double h = 2e-3;
+    double here[3], d[2] = {0, 0}, beside[3];
+    if (!at(text, t, here))
+        return;
+    for (int k = 0; k < 7; k++) {
+        at(text, t + (k - 3) * h, beside);
+        for (int i = 0; i < 2; i++)
+            d[i] += first[k] * beside[i] / h;
+    }
+    for (int i = 0; i < 2; i++)
+        gsl_test_abs(here[i + 1], d[i], 1e-8 * (1 + fabs(d[i])), "%s, derivative %d at %g", text,
+                     i + 1, t);
+}
+
+static void check_derivatives(void)
+{
+    static const char *const text[] = {"t",
+                                       "3",
+                                       "-t",
+                                       "t - 2*t^3",
+                                       "(1 + t)*(2 - t)*t",
+                                       "1/(1 + t)",
+                                       "(t^2 + 1)/(3 - sin(t))",
+                                       "t/1e-200*1e-200",
+                                       "t^2.5",
+                                       "2^t",
+                                       "(1 + t)^(t - 3)",
+                                       "sin(3*t)",
+                                       "cos(t^2)",
+                                       "tan(t/2)",
+                                       "asin(t/3)",
+                                       "acos(t/3)",
+                                       "atan(2*t)",
+                                       "sinh(t)",
+                                       "cosh(2*t - 1)",
+                                       "tanh(3*t)",
+                                       "exp(-t^2)",
+                                       "log(1 + t)",
+                                       "sqrt(1 + t*t)",
+                                       "0.4*(t^2/2 + (7.5/pi)^2*(cos(2*pi*t/15) - 1))",
+                                       "exp(sin(t))*log(2 + cos(t))/sqrt(t)"};
+    static const double where[] = {0.31, 0.9, 1.7};
+    for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
+        for (int k = 0; k < 3; k++)
+            check_differences(text[i], where[k]);
+}
+
+static void check_value(const char *text, double t, double expected)
+{
+    double out[3];
+    if (at(text, t, out))
+        gsl_test_rel(out[0], expected, 1e-15, "%s at %g", text, t);
+}
+
+/* As in the other expressions of scene files. */
+static void check_binding(void)
+{
+    check_value("-2^2", 0, -4);
+    check_value("2^3^2", 0, 512);
+    check_value("-t^2", 3, -9);
+    check_value("2^-t", 1, 0.5);
+    check_value("8/4/2", 0, 1);
+    check_value("7 - 4 - 2", 0, 1);
+    check_value("2*-t", 3, -6);
+    check_value("30*deg*t", 6, 3.14159265358979323846);
+    check_value(" 1e-3 * t ", 2, 2e-3);
+    check_value("+.5", 0, 0.5);
+}
+
+/* 1: finite, 0: not, of value, velocity and acceleration. */
+static void check_edge(const char *text, double t, int value, int velocity, int acceleration)
+{
+    const int expected[3] = {value, velocity, acceleration};
+    double out[3];
+    if (at(text, t, out))
+        for (int k = 0; k < 3; k++)
+            gsl_test_int(isfinite(out[k]) != 0, expected[k], "%s at %g: derivative %d is finite",
+                         text, t, k);
+}
+
+static void check_edges(void)
+{
+    check_edge("sqrt(t)", 0, 1, 0, 0);
+    check_edge("t^0.5", 0, 1, 0, 0);
+    check_edge("t^1.5", 0, 1, 1, 0);
+    check_edge("t^2.5", 0, 1, 1, 1);
+    check_edge("t^2", 0, 1, 1, 1);
+    check_edge("t^1", 0, 1, 1, 1);
+    check_edge("t^0", 0, 1, 1, 1);
+    check_edge("1/t", 0, 0, 0, 0);
+    check_edge("log(t)", 0, 0, 0, 0);
+    check_edge("log(-t)", 0, 0, 0, 0);
+    check_edge("exp(1000*t)", 1, 0, 0, 0);
+    check_edge("asin(t)", 1, 1, 0, 0);
+    check_edge("sqrt(t - 2)", 1, 0, 0, 0);
+    /* of constants the derivatives are zero, also where those of the function are not */
+    check_edge("t*sqrt(0)", 1, 1, 1, 1);
+    check_edge("t + asin(1)", 1, 1, 1, 1);
+}
+
+/* The place counted from 1, and words of the line. */
+static void check_refused(const char *text, int character, const char *words)
+{
+    formula *f = NULL;
+    formula_mistake mistake;
+    fault why = {""};
+    gsl_test_int((int)formula_parse(text, &f, &mistake), STATUS_REFUSED, "'%s' is refused", text);
+    gsl_test_int(mistake.at + 1, character, "'%s': its place", text);
+    gsl_test(f != NULL, "'%s': nothing is left", text);
+    gsl_test_int((int)formula_read(text, &f, &why), STATUS_REFUSED, "'%s' is refused", text);
+    gsl_test(strstr(why.text, words) == NULL, "'%s': %s", text, why.text);
+}
+
+static void check_refusals(void)
+{
+    char deep[200], wide[1802];
+    check_refused("", 1, "ends where a value is due");
+    check_refused("2*", 3, "ends where a value is due");
+    check_refused("sin(t", 6, "missing )");
+    check_refused("sin t", 5, "argument in parentheses");
+    check_refused("(t", 3, "missing )");
+    check_refused("t)", 2, "an operator is due");
+    check_refused("t t", 3, "an operator is due");
+    check_refused("2 + x*t", 5, "no such name");
+    check_refused("abs(t)", 1, "give pieces");
+    check_refused("max(t, 1)", 1, "give pieces");
+    check_refused("3mm", 2, "20e-3 for 20 mm");
+    check_refused("2*t + 4t", 8, "put * between");
+    check_refused("0x10", 1, "not a decimal number");
+    check_refused(".", 1, "not a decimal number");
+    check_refused("1e999*t", 1, "too large");
+    check_refused("t + 1/0", 8, "division by zero");
+    check_refused("t + 0^-1", 9, "no finite value");
+    check_refused("sqrt(-1)*t", 9, "no finite value");
+    check_refused("t*#", 3, "a value is due");
+    memset(deep, '(', sizeof deep - 1);
+    deep[sizeof deep - 1] = '\0';
+    check_refused(deep, 33, "too deeply nested");
+    for (int i = 0; i < 1801; i++)
+        wide[i] = i % 2 ? '+' : 't';
+    wide[1801] = '\0';
+    check_refused(wide, 258, "split it into pieces");
+}
+
+int main(void)
+{
+    check_derivatives();
+    check_binding();
+    check_edges();
+    check_refusals();
+    return gsl_test_summary();
+}

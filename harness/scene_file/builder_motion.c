@@ -1,0 +1,71 @@
+/* Motions in time. */
+#include "harness/scene_file/builder.h"
+
+/* Where neither a step nor a tolerance is given; of the last station. */
+static const double usual_tolerance = 1e-4, usual_step = 1e-3;
+
+/* A number of one parameter set of alpha, between two. */
+static double between(const fields *f, const char *key, double otherwise, double least, double most,
+                      const char *range)
+{
+    const double value = fields_number(f, key, otherwise);
+    if (value >= least && value <= most)
+        return value;
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0, "%s = %g; give %s", key, value,
+                     range);
+    return otherwise;
+}
+
+static scene_alpha alpha_of(const fields *f)
+{
+    double pair[2];
+    if (fields_vector(f, "parameters", 2, pair))
+        return (scene_alpha){pair[0], pair[1]};
+    if (fields_have(f, "hht"))
+        return (scene_alpha){0, between(f, "hht", 0, 0, 1. / 3,
+                                        "alpha of Hilber, Hughes and Taylor, from 0 to 1/3")};
+    if (fields_word(f, "trapezoidal", "no|yes", 0))
+        return (scene_alpha){0, 0};
+    return scene_alpha_of_radius(between(f, "rho", 0.9, 0, 1, "a spectral radius from 0 to 1"));
+}
+
+/* Parameters of alpha that another integrator does not have. */
+static void check_parameters(const fields *f, scene_scheme scheme)
+{
+    static const char *const key[] = {"rho", "hht", "trapezoidal", "parameters"};
+    for (int i = 0; i < 4 && scheme != SCENE_ALPHA; i++)
+        if (fields_have(f, key[i]))
+            document_mistake(f->b->mistakes, document_find(f->map, key[i]), 0,
+                             "%s is of the integrator alpha; leave it out", key[i]);
+}
+
+static double last_of(int count, const double value[])
+{
+    return count > 0 && value[count - 1] > 0 ? value[count - 1] : 1;
+}
+
+static void read_steps(const fields *f, double last, scene_motion *how)
+{
+    const int steps = fields_have(f, "step");
+    how->tolerance = fields_number(f, "tolerance", steps ? 0 : usual_tolerance);
+    how->step = fields_number(f, "step", usual_step * last);
+    if (!steps && how->tolerance == 0)
+        document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,
+                         "without a tolerance all steps are alike; give 'step' [s]");
+}
+
+void builder_in_time(const fields *f, int index)
+{
+    double *stations;
+    const fields start = fields_below(f, "start");
+    const int count = fields_values(f, "stations", &stations);
+    scene_motion how = {
+        .scheme = (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA),
+        .alpha = alpha_of(f)};
+    check_parameters(f, how.scheme);
+    read_steps(f, last_of(count, stations), &how);
+    fields_vector(&start, "velocity", 3, how.start.velocity);
+    fields_vector(&start, "spin", 3, how.start.spin);
+    fields_vector(&start, "centre", 3, how.start.centre);
+    scene_add_motion(f->b->scene, builder_about(f, index), count, stations, how);
+}
