@@ -1,5 +1,6 @@
 #include "harness/study/expense.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,17 @@ static double steps_of(const scene_analysis *a, int steps)
     return scene_path_of(a)->stations + between - 1;
 }
 
+/* Steps of a motion. Those that adapt to a tolerance are about as many whatever the motion, which
+ * is posed at its own pace, and more by a power of the tolerance: measured on four motions. */
+static double motion_steps(const scene_motion *m)
+{
+    static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
+    const int high = m->scheme == SCENE_RADAU;
+    if (m->tolerance > 0 && m->scheme != SCENE_EXPLICIT)
+        return steps[high] * pow(usual / m->tolerance, power[high]);
+    return ceil(m->path.value[m->path.stations - 1] / m->step * (1 - 1e-9));
+}
+
 static void count_analysis(const scene *s, const scene_analysis *a, int steps, double times[])
 {
     switch (a->kind) {
@@ -31,7 +43,8 @@ static void count_analysis(const scene *s, const scene_analysis *a, int steps, d
         times[EXPENSE_modal]++;
         break;
     case SCENE_MOTION:
-        times[EXPENSE_continuation]++;
+        times[EXPENSE_alpha_step + (int)scene_motion_of(a)->scheme] +=
+            motion_steps(scene_motion_of(a));
         break;
     case SCENE_STATIC:
         times[EXPENSE_load_step] += steps_of(a, steps);

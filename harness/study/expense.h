@@ -18,6 +18,10 @@ typedef enum expense_kind {
     EXPENSE_continuation,
     EXPENSE_rotation_step,
     EXPENSE_rotation_station,
+    EXPENSE_alpha_step, /* of a motion in time, by its integrator */
+    EXPENSE_conserving_step,
+    EXPENSE_radau_step,
+    EXPENSE_explicit_step,
     EXPENSE_KINDS
 } expense_kind;
 

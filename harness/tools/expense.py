@@ -18,7 +18,8 @@ from scipy.optimize import nnls
 
 # As harness/study/expense.h counts them.
 WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "compliance",
-        "continuation", "rotation_step", "rotation_station")
+        "continuation", "rotation_step", "rotation_station", "alpha_step", "conserving_step",
+        "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
 DEAR = 0.75  # relative errors count by cost^(1 - DEAR): dear cells more, cheap ones too
@@ -31,6 +32,15 @@ def stations_of(analyses, body):
         ((_, body),) = analyses[body["about"]].items()
         body = body or {}
     return len(body.get("stations", [1]))
+
+
+def motion_steps(body):
+    """As harness/study/expense.c counts them."""
+    tolerance, integrator = body.get("tolerance", 0), body["integrator"]
+    if tolerance > 0 and integrator != "explicit":
+        steps, power = (40, 0.3) if integrator == "radau" else (80, 0.45)
+        return steps * (1e-4 / tolerance) ** power
+    return math.ceil(body["stations"][-1] / body["step"] * (1 - 1e-9))
 
 
 def work_of(scene):
@@ -47,6 +57,8 @@ def work_of(scene):
             times["rotation_station"] += stations
         elif kind == "compliance":
             times[kind] += stations
+        elif kind == "motion":
+            times[body["integrator"] + "_step"] += motion_steps(body)
         elif kind == "buckling":
             times["loaded_buckling" if "about" in body else kind] += 1
         else:

@@ -1,6 +1,7 @@
 /* Every cell is a task once; those of the dearest series come first, then the others in order, and
  * of a series the finest. */
 #include <gsl/gsl_test.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,6 +105,29 @@ static void counted(const char *name, expense_kind kind, double wanted)
     scene_free(&s);
 }
 
+/* Steps that adapt are counted by the tolerance: more by a power of it, each of Radau's longer. */
+static void adapts(void)
+{
+    const double instant = 3;
+    double times[EXPENSE_KINDS];
+    scene s;
+    scene_init(&s, "adapts");
+    const scene_motion how = {.step = 1e-3, .tolerance = 1e-6};
+    scene_add_motion(&s, SCENE_NONE, 1, &instant, how);
+    scene_motion *m = &s.analysis[0].of.motion;
+    expense_count(&s, 0, times);
+    gsl_test_rel(times[EXPENSE_alpha_step], 80 * pow(100, 0.45), 1e-12, "of alpha");
+    m->scheme = SCENE_RADAU;
+    expense_count(&s, 0, times);
+    gsl_test_rel(times[EXPENSE_radau_step], 40 * pow(100, 0.3), 1e-12, "of radau");
+    gsl_test_abs(times[EXPENSE_alpha_step], 0, 0, "none of alpha");
+    m->tolerance = 0;
+    m->step = 0.7;
+    expense_count(&s, 0, times);
+    gsl_test_rel(times[EXPENSE_radau_step], 5, 1e-15, "the last step is shorter");
+    scene_free(&s);
+}
+
 /* Every price is known, and some formulation has a row of its own. */
 static void prices(void)
 {
@@ -124,6 +148,8 @@ int main(void)
     counted("warping_torsion", EXPENSE_linear, 1);
     counted("tip_body", EXPENSE_modal, 1);
     counted("lee_frame", EXPENSE_continuation, 1);
+    counted("pendulum", EXPENSE_alpha_step, 100);
+    adapts();
     prices();
     return gsl_test_summary();
 }

@@ -48,6 +48,19 @@ class Fit(unittest.TestCase):
         self.assertEqual(dict(times), {"cell": 1, "load_step": 6, "compliance": 3,
                                        "loaded_buckling": 1, "buckling": 1})
 
+    def test_steps_of_motions(self):
+        """Of equal steps as many as there is room for; of those that adapt by their tolerance."""
+        swing = {"stations": [1, 3], "integrator": "alpha", "step": 0.7}
+        for more, kind, count in (({}, "alpha_step", 5),
+                                  ({"step": 0.75}, "alpha_step", 4),
+                                  ({"integrator": "radau", "tolerance": 1e-6}, "radau_step",
+                                   40 * 100 ** 0.3),
+                                  ({"integrator": "explicit", "tolerance": 1}, "explicit_step", 5)):
+            times, _ = expense.work_of({"members": {"a": {}},
+                                        "analyses": {"swing": {"motion": swing | more}}})
+            self.assertEqual(set(times), {"cell", kind})
+            self.assertAlmostEqual(times[kind], count, delta=1e-9)
+
 
 class Table(unittest.TestCase):
 
