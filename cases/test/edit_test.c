@@ -30,6 +30,8 @@ static void make(scene *s)
     l->at[1] = 0.2;
     l->at[2] = 0.3;
     scene_set_factor(s, load, 3, path, factor);
+    scene_load_piece(s, load, 1, "t");
+    scene_load_piece(s, load, 0, "1");
 }
 
 static void is_vector(const double v[3], double x, double y, double z, const char *what)
@@ -83,6 +85,9 @@ static void is_split(void)
     is_vector(l->vector, 5, 6, 7, "of that size");
     is_vector(l->at, 0.1, 0.2, 0.3, "at that place");
     gsl_test(l->stations != 3 || l->factor[1] != 3 || l->path[2] != 2, "along that path");
+    gsl_test(l->function.pieces != 2 || strcmp(l->function.piece[0].text, "t") != 0 ||
+                 l->function.piece[0].until != 1,
+             "over that time");
     scene_free(&s);
 }
 
@@ -144,8 +149,48 @@ static void stay_scenes(void)
     }
 }
 
+/* A motion in millimetres: newtons and seconds stay. */
+static void in_millimetres(void)
+{
+    static const struct {
+        scene_balance what;
+        double factor; /* from the unit of the scene to SI */
+    } balance[] = {{SCENE_KINETIC, 1e-3}, {SCENE_WORK, 1e-3}, {SCENE_DRIFT, 1e-3}, {SCENE_PX, 1},
+                   {SCENE_PZ, 1},         {SCENE_LX, 1e-3},   {SCENE_LZ, 1e-3}};
+    const double instant = 1;
+    scene s;
+    fault f = {""};
+    double at[3];
+    refuse_sound(&s);
+    scene_drive_piece(&s, 0, 0, "t^2");
+    const scene_motion how = {
+        .step = 0.1, .start = {.velocity = {1, 0, 0}, .spin = {0, 2, 0}, .centre = {0, 0, 3}}};
+    const int motion = scene_add_motion(&s, 0, 1, &instant, how), first = s.quantities;
+    for (size_t i = 0; i < sizeof balance / sizeof balance[0]; i++)
+        scene_add_quantity(&s, "balance", "", motion, scene_balance_of(balance[i].what));
+    scene_add_quantity(&s, "rate", "", motion, scene_rate(TIP, SCENE_UX));
+    scene_add_quantity(&s, "turn", "", motion, scene_rate(TIP, SCENE_RX));
+    gsl_test(scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_UNIT, 1000}, &f) != STATUS_OK, "%s",
+             f.text);
+    function_at(&s.driver[0].function, 2, at);
+    is_vector(at, 4000, 4000, 2000, "a driven length, its velocity and acceleration");
+    const scene_motion *m = scene_motion_of(&s.analysis[motion]);
+    is_vector(m->start.velocity, 1000, 0, 0, "a velocity");
+    is_vector(m->start.spin, 0, 2, 0, "an angular velocity");
+    is_vector(m->start.centre, 0, 0, 3000, "its centre");
+    gsl_test_abs(m->step, 0.1, 0, "a step");
+    const int count = sizeof balance / sizeof balance[0];
+    for (int i = 0; i < count; i++)
+        gsl_test_rel(s.quantity[first + i].factor, balance[i].factor, 1e-15, "balance %d",
+                     (int)balance[i].what);
+    gsl_test_rel(s.quantity[first + count].factor, 1e-3, 1e-15, "a velocity that is asked for");
+    gsl_test_rel(s.quantity[first + count + 1].factor, 1, 1e-15, "an angular velocity");
+    scene_free(&s);
+}
+
 int main(void)
 {
+    in_millimetres();
     reversed();
     is_split();
     refused();

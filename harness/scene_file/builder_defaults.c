@@ -70,6 +70,15 @@ static void add_states(builder *b, int analysis, int prefixed)
             add_displacements(b, analysis, i, prefixed);
 }
 
+/* Of a motion. */
+static void add_energy(builder *b, int analysis, int prefixed)
+{
+    char name[SCENE_NAME + 8];
+    snprintf(name, sizeof name, "%s%senergy",
+             prefixed ? b->list[LIST_ANALYSES].entry[analysis].name : "", prefixed ? "_" : "");
+    scene_add_quantity(b->scene, name, "J", analysis, scene_balance_of(SCENE_ENERGY));
+}
+
 static void add_quantities(builder *b)
 {
     scene *s = b->scene;
@@ -84,6 +93,8 @@ static void add_quantities(builder *b)
                                scene_critical_factor(1, 0));
             break;
         case SCENE_MOTION:
+            add_states(b, i, s->analyses > 1);
+            add_energy(b, i, s->analyses > 1);
             break;
         case SCENE_MODAL:
         case SCENE_ROTATION:

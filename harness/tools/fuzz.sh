@@ -39,6 +39,7 @@ fuzz() {
 }
 leaks=1
 fuzz words 500000 500
+fuzz formula 300000 300
 fuzz parameters 300000 500
 fuzz table 300000 3000
 fuzz scene 200000 4000

@@ -14,6 +14,8 @@ IMPORTS = ROOT / "harness" / "imports"
 WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5",
          "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default", "\1not not a b",
          "\2error=0.01,floor=1e-8,work=0.02", "\2work=1")
+FORMULAS = ("0.4*(t^2/2 + (7.5/pi)^2*(cos(2*pi*t/15) - 1))", "t^2\n2*t - 1",
+            "sqrt(exp(-t))*asin(1)/tan(30*deg)", "tanh(t)^(t - 3)\nlog(1 + t)/(1 - t)")
 COMMANDS = ("c_column\n-f\nbeamw:mass=lumped\n-n\n2,4,8\n--set\nlength=3\n--format\njson",
             "-k\nx and y\n-j\n2\n-o\nfile\n--json\na\n--junit\nb",
             "hexapod\n-fall\n-n8\n-sheight=0.1\n--keep-all\n--steps=4",
@@ -99,6 +101,7 @@ def main(program, folder):
     save(folder / "import", imports())
     save(folder / "parameters", parameters())
     save(folder / "words", WORDS)
+    save(folder / "formula", FORMULAS)
     save(folder / "command", COMMANDS)
     table = (ROOT / "harness" / "baseline.csv").read_text(encoding="utf-8").splitlines(True)
     save(folder / "table", ["".join(table[:n]) for n in (1, 2, 9)])
