@@ -65,10 +65,11 @@ static int has_mass(const scene *s)
 static status check_follows(const scene *s, int i, fault *f)
 {
     const int follows = s->analysis[i].follows;
-    if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC)
+    if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC &&
+        s->analysis[follows].kind != SCENE_ROTATION)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a motion starts from the end of a static path, and what it "
-                         "follows is %s; follow a static one, or nothing",
+                         "analysis %d: a motion starts from the last state of a static path or a "
+                         "rotation, and what it follows is %s; follow one of these, or nothing",
                          i, scene_analysis_name(s->analysis[follows].kind));
     if (!has_mass(s))
         return fault_set(f, STATUS_REFUSED,

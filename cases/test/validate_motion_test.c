@@ -259,6 +259,13 @@ static void without_alpha(scene *s)
     m->alpha = (scene_alpha){3, 2};
 }
 
+static void turns_steadily(scene *s)
+{
+    const double one = 1;
+    const scene_rotating_frame frame = {.omega = {0, 0, 1}};
+    moves_from(s, scene_add_rotation(s, 1, &one, 1, 0, frame));
+}
+
 static void weighs_at_a_node(scene *s)
 {
     moves(s);
@@ -272,6 +279,7 @@ int main(void)
     accepts(held, "what no function moves stays at the end of the path");
     accepts(goes_on, "a driver goes on where the path has left it, a load may do anything");
     accepts(without_alpha, "parameters of another integrator");
+    accepts(turns_steadily, "a start from a stationary rotation");
     accepts(weighs_at_a_node, "a mass at a node only");
     return gsl_test_summary();
 }

@@ -88,7 +88,7 @@ static const scene_key in_time[] = {
      .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison"},
     {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f"},
     {"about", KEY_NAME,
-     .summary = "static analysis from whose last state; left out: undeformed, from rest"},
+     .summary = "static analysis or rotation from whose last state; left out: undeformed"},
     {"start", KEY_MAP, .below = start, .summary = "velocities at the begin; left out: at rest"},
     {.name = NULL}};
 

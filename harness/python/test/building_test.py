@@ -43,11 +43,12 @@ class Building(ModuleTest):
 
     def test_numpy_is_written(self):
         entry = {"a": numpy.float64(0.5), "b": numpy.arange(3), "c": numpy.eye(2), "d": True,
-                 "e": range(2), "f": (1, 2.5), "g": numpy.int32(7), "from_": "x", "h": "2*pi/3"}
+                 "e": range(2), "f": (1, 2.5), "g": numpy.int32(7), "from_": "x", "h": "2*pi/3",
+                 "i": [{"is_": "t"}]}
         scene = bw.Scene()
         scene.nodes["n"] = entry
         self.assertIn("n: {a: 0.5, b: [0, 1, 2], c: [[1.0, 0.0], [0.0, 1.0]], d: yes, e: [0, 1], "
-                      'f: [1, 2.5], g: 7, from: x, h: "2*pi/3"}', written(scene))
+                      'f: [1, 2.5], g: 7, from: x, h: "2*pi/3", i: [{is: t}]}', written(scene))
 
     def test_entries_may_change(self):
         """Entries changed after a solution count in the next one; set values stay."""
