@@ -1,0 +1,125 @@
+"""Motions in time from scene files, as one who writes them meets them in every verb."""
+import math
+import re
+import unittest
+
+from harness.scene_file.test.scene_case import SceneCase, values
+from harness.test.program import ROOT
+from harness.test.scenes import LEAF
+
+# A block on a spring and a light wire, pushed by little.
+BLOCK = """\
+beamwork: 1
+parameters:
+  step: {value: 5e-3, unit: s}
+  push: {value: 1e-4, unit: N}
+sections:
+  wire: {tube: {diameter: 1e-3, thickness: 5e-4}, young: 1e6, shear_modulus: 4e5, density: 1}
+nodes:
+  base:  {at: [0, 1e-3, 0], hold: all}
+  block: {at: [0, 0, 0], mass: 0.1, hold: [uy, uz, rx, ry, rz]}
+members:
+  wire: {from: base, to: block, section: wire, y: [1, 0, 0]}
+springs:
+  coil: {to: block, stiffness: [10, 0, 0, 0, 0, 0]}
+loads:
+  push: {force: [push, 0, 0], on: block, TIME}
+analyses:
+  ANALYSES
+quantities:
+  u: {displacement: {analysis: swing, node: block, component: ux, at: 0.5}}
+needs: [shear]
+"""
+SWING = "swing: {motion: {stations: [0.25, 0.5], integrator: radau, step: step}}"
+PUSH = 1e-4
+
+
+class MotionTest(SceneCase):
+    def block(self, time, analyses=SWING):
+        text = BLOCK.replace(", TIME", f", {time}" if time else "")
+        return self.scene(text.replace("ANALYSES", analyses))
+
+    def moved(self, time, analyses=SWING, *more):
+        path = self.block(time, analyses)
+        return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
+
+    def test_readme(self):
+        """What the README prints is what it does."""
+        section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
+        text, shown = re.findall(r"```(?:yaml)?\n(.*?)```", section.partition("\n## ")[0], re.S)
+        command, *printed = shown.splitlines()
+        self.scene(text, "swing.yaml")
+        words = command.split()[1:]
+        words[words.index("swing.yaml")] = self.folder / "swing.yaml"
+        done = self.answered(*words).stdout.splitlines()
+        for line in printed:
+            like = [other for other in done if other.split()[:1] == line.split()[:1]]
+            self.assertEqual(len(like), 1, line)
+            old, new = line.split(), like[0].split()
+            if line != printed[0]:
+                self.assertAlmostEqual(float(new[1]) / float(old[1]), 1, delta=1e-3)
+                old[1] = new[1]
+            self.assertEqual(old, new)
+
+    def test_constant_push(self):
+        """Without a function the load is whole from the begin: u = F/k (1 - cos w t)."""
+        k = self.stiffness()
+        exact = PUSH * (1 - math.cos(math.sqrt(k / 0.1) * 0.5)) / k
+        self.assertAlmostEqual(self.moved("")["u"] / exact, 1, delta=1e-4)
+        doubled = self.moved("", SWING, "--set", "push=2e-4")["u"]
+        self.assertAlmostEqual(doubled / exact, 2, delta=1e-3)
+
+    def stiffness(self):
+        """Of spring and wire [N/m], by a push at rest."""
+        text = BLOCK.replace(", TIME", "").replace(", at: 0.5", "")
+        path = self.scene(text.replace("ANALYSES", "swing: {linear: {}}"))
+        got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1))
+        return PUSH / got["u"]
+
+    def test_functions(self):
+        """Expression, pieces and table of one function of time move alike."""
+        ramp = self.moved("pieces: [{until: 0.2, is: 5*t}, {is: 1}]")["u"]
+        self.assertAlmostEqual(self.moved("table: {at: [0, 0.2], value: [0, 1]}")["u"], ramp,
+                               delta=1e-9 * abs(ramp))
+        self.assertNotAlmostEqual(self.moved("time: 1")["u"] / ramp, 1, delta=1e-2)
+        self.assertEqual(self.moved("time: 1")["u"], self.moved("")["u"])
+
+    def test_release(self):
+        """Released from the end of a static path: the load is gone, and it swings back."""
+        walk = "walk: {static: {stations: [1]}}\n  "
+        about = walk + SWING.replace("radau,", "radau, about: walk,")
+        k = self.stiffness()
+        swung = self.moved("time: 0*t", about)["u"]
+        self.assertAlmostEqual(swung * k / PUSH, math.cos(math.sqrt(k / 0.1) * 0.5), delta=1e-4)
+        held = self.moved("path: [0, 1], factor: [0, 0.5]", about)["u"]
+        self.assertAlmostEqual(held * k / PUSH, 0.5, delta=1e-6)
+
+    def test_usual_choices(self):
+        """Neither step nor tolerance: they adapt; no quantities: places and energy."""
+        path = self.scene(re.sub(r"(?s)quantities:.*?needs", "needs", BLOCK.replace(
+            ", TIME", "").replace("ANALYSES", "swing: {motion: {stations: [0.5]}}")))
+        written = self.answered("scene", "--scene", path).stdout
+        self.assertIn("integrator: alpha, step: 0.0005, tolerance: 0.0001", written)
+        record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
+        self.assertEqual(set(values(record)), {"block_ux", "energy"})
+
+    def test_other_verbs(self):
+        """Steps are swept; a deck refuses a motion; written again it has the same bits."""
+        path = self.block("time: sin(20*t)")
+        self.answered("sweep", "--scene", path, "--vary", "step=1e-3..4e-3/2:log", "-f",
+                      "collocation", "-n", 1, "-o", self.folder / "steps.h5")
+        leaf = LEAF.replace("81e9", "81e9, density: 7800")
+        leaf = leaf.replace("y: [0, 1, 0]}", "y: [0, 1, 0], warping: fixed}")
+        moving = self.scene(leaf + "analyses: {swing: {motion: {stations: [1e-3]}}}\n", "leaf.yaml")
+        self.refused(2, "motion not; leave it", "export", "--scene", moving, "--to", "calculix",
+                     "-n", 2, "-o", self.folder / "deck.inp")
+        own = self.record("solve", "--scene", path, "-f", "beamw", "-n", 2)
+        again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
+        self.assertEqual(values(own),
+                         values(self.record("solve", "--scene", again, "-f", "beamw", "-n", 2)))
+        listed = self.answered("list", "--scene", path).stdout
+        self.assertIn("0.5 s after the begin of the motion", re.sub(r"\s+", " ", listed))
+
+
+if __name__ == "__main__":
+    unittest.main()
