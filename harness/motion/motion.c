@@ -204,11 +204,26 @@ static status check_massless(const motion *w, fault *f)
                      massless);
 }
 
+/* What of Newton's forms an integrator does not have. */
+static status check_newton(const motion *w, fault *f)
+{
+    const solve_newton newton = w->c->options->newton;
+    if (newton == SOLVE_DENSE)
+        return fault_set(f, STATUS_REFUSED,
+                         "motions in time need a factored tangent, which newton=dense does not "
+                         "make; give newton=mixed");
+    if (newton == SOLVE_DISPLACEMENT && w->how->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator conserving needs strains as unknowns; give newton=mixed");
+    return STATUS_OK;
+}
+
 static status solve(motion *w, fault *f)
 {
     const step_record start = {.increment = 0};
     scene_rotating_frame frame;
     const model *m = w->c->model;
+    TRY(check_newton(w, f));
     TRY(forms_check(m, f));
     TRY(drive_check(m, f));
     TRY(w->how->scheme == SCENE_CONSERVING ? carried_alloc(m, &w->masses, f)

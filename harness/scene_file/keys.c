@@ -20,7 +20,7 @@ const scene_key keys_root[] = {
     {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "ends, supports, bodies"},
     {"members", KEY_ENTRIES, .below = keys_member, .summary = "beams"},
     {"springs", KEY_ENTRIES, .below = keys_spring, .summary = "between nodes, or to the ground"},
-    {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along the path"},
+    {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along a path or in time"},
     {"loads", KEY_ENTRIES, .below = keys_load, .summary = "forces and moments"},
     {"analyses", KEY_ENTRIES, .below = keys_analysis, .summary = "what is computed"},
     {"quantities", KEY_ENTRIES, .below = keys_quantity, .summary = "what is wanted of it"},

@@ -103,6 +103,18 @@ class MotionTest(SceneCase):
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         self.assertEqual(set(values(record)), {"block_ux", "energy"})
 
+    def test_forms_of_newton(self):
+        """Displacements alone move alike; what an integrator does not have is refused."""
+        path = self.block("time: sin(20*t)")
+        where = ("solve", "--scene", path, "-n", 1, "-f")
+        mixed, alone = (values(self.record(*where, f"collocation:newton={how}"))["u"]
+                        for how in ("mixed", "displacement"))
+        self.assertAlmostEqual(alone / mixed, 1, delta=1e-6)
+        self.refused(2, "give newton=mixed", *where, "collocation:newton=dense")
+        kept = self.block("time: sin(20*t)", SWING.replace("radau", "conserving"))
+        self.refused(2, "needs strains as unknowns", "solve", "--scene", kept, "-n", 1, "-f",
+                     "collocation:newton=displacement")
+
     def test_other_verbs(self):
         """Steps are swept; a deck refuses a motion; written again it has the same bits."""
         path = self.block("time: sin(20*t)")
