@@ -11,7 +11,7 @@
 #include "harness/scene_writer/write.h"
 #include "harness/study/plan.h"
 
-enum { MOST = 128, KEY = 400, KINDS = SCENE_STRESS + 1 };
+enum { MOST = 128, KEY = 400, KINDS = SCENE_RELATIVE + 1 };
 static int seen[KINDS], asked;
 
 /* What a file says of quantity i: the extract, then the factor and the offset. */
@@ -135,8 +135,55 @@ static void check_words(void)
     scene_free(&s);
 }
 
+/* What a motion is asked for. */
+static void check_motion(void)
+{
+    static const struct {
+        scene_extract what;
+        scene_reduction reduction;
+        const char *words;
+    } row[] = {
+        {{SCENE_RATE, {.component = {1, SCENE_UX}}},
+         SCENE_LAST,
+         "velocity of node_1 (1, 0, 0) along x, 2 s after the begin of the motion"},
+        {{SCENE_RATE, {.component = {1, SCENE_RY}}},
+         SCENE_AT,
+         "angular velocity of node_1 (1, 0, 0) about its own y axis, 0.5 s after the begin of the "
+         "motion"},
+        {{SCENE_ORIENTATION, {.orientation = {1, 0, 2}}},
+         SCENE_MAX,
+         "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value along the motion"},
+        {{SCENE_RELATIVE, {.relative = {1, SCENE_UY, 0}}},
+         SCENE_MIN,
+         "displacement of node_1 (1, 0, 0) along y as seen from node_0 (0, 0, 0), least value "
+         "along the motion"},
+        {{SCENE_BALANCE, {.balance = SCENE_LZ}},
+         SCENE_LAST,
+         "angular momentum about the z axis, 2 s after the begin of the motion"},
+        {{SCENE_BALANCE, {.balance = SCENE_DISSIPATED}},
+         SCENE_LAST,
+         "energy that damping took, since the begin, 2 s after the begin of the motion"}};
+    static const double path[] = {0.5, 2};
+    scene s;
+    char text[MEANING_ROOM];
+    scene_init(&s, "motion");
+    scene_add_node(&s, 0, 0, 0);
+    scene_add_node(&s, 1, 0, 0);
+    const int motion = scene_add_motion(&s, SCENE_NONE, 2, path, (scene_motion){.step = 1});
+    for (int i = 0; i < (int)(sizeof row / sizeof row[0]); i++) {
+        scene_quantity *q = scene_add_quantity(&s, "q", "1", motion, row[i].what);
+        q->reduction = row[i].reduction;
+        q->at = 0.5;
+        meaning_of_quantity(&s, i, text, sizeof text);
+        gsl_test_str(text, row[i].words, "of a motion");
+        seen[row[i].what.kind]++;
+    }
+    scene_free(&s);
+}
+
 int main(void)
 {
+    check_motion();
     check_words();
     check_cases();
     check_examples();
