@@ -1,4 +1,5 @@
 /* Motions in time. */
+#include "harness/catalogue/choice.h"
 #include "harness/scene_file/builder.h"
 
 /* Where neither a step nor a tolerance is given; of the last station. */
@@ -29,11 +30,13 @@ static scene_alpha alpha_of(const fields *f)
     return scene_alpha_of_radius(between(f, "rho", 0.9, 0, 1, "a spectral radius from 0 to 1"));
 }
 
-/* Parameters of alpha that another integrator does not have. */
+/* Parameters of alpha that another integrator does not have, unless that is a parameter's choice.
+ */
 static void check_parameters(const fields *f, scene_scheme scheme)
 {
     static const char *const key[] = {"rho", "hht", "trapezoidal", "parameters"};
-    for (int i = 0; i < 4 && scheme != SCENE_ALPHA; i++)
+    const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
+    for (int i = 0; i < 4 && scheme != SCENE_ALPHA && !chosen; i++)
         if (fields_have(f, key[i]))
             document_mistake(f->b->mistakes, document_find(f->map, key[i]), 0,
                              "%s is of the integrator alpha; leave it out", key[i]);

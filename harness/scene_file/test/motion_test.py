@@ -103,6 +103,18 @@ class MotionTest(SceneCase):
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         self.assertEqual(set(values(record)), {"block_ux", "energy"})
 
+    def test_chosen_integrators(self):
+        """rho stays where the integrator is the choice of a parameter; all agree on the motion."""
+        swing = SWING.replace("radau, step: step", "how, step: 1e-3, rho: 0.8")
+        text = BLOCK.replace(", TIME", ", time: sin(20*t)").replace("ANALYSES", swing)
+        path = self.scene(text.replace(
+            "  step:", "  how: {value: alpha, choices: [alpha, conserving, radau]}\n  step:"))
+        got = [values(self.record("solve", "--scene", path, "-f", "beamw", "-n", 1, "--set",
+                                  f"how={how}"))["u"] for how in ("alpha", "conserving", "radau")]
+        self.assertAlmostEqual(got[0] / got[2], 1, delta=1e-2)
+        self.assertAlmostEqual(got[1] / got[2], 1, delta=1e-2)
+        self.assertNotEqual(got[0], got[1])
+
     def test_forms_of_newton(self):
         """Displacements alone move alike; what an integrator does not have is refused."""
         path = self.block("time: sin(20*t)")
