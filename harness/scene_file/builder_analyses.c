@@ -14,16 +14,6 @@ static scene_rotating_frame frame_of(const fields *f)
     return frame;
 }
 
-int builder_about(const fields *f, int index)
-{
-    const int follows = fields_entry(f, "about", LIST_ANALYSES);
-    if (follows >= index)
-        document_mistake(f->b->mistakes, document_find(f->map, "about"), 0,
-                         "'%s' does not stand before this one; move it up",
-                         fields_text(f, "about", ""));
-    return follows < index ? follows : SCENE_NONE;
-}
-
 static void add_static(const fields *f)
 {
     double *path;

@@ -1,6 +1,16 @@
-/* Motions in time. */
+/* Motions in time, and what other analyses are about. */
 #include "harness/catalogue/choice.h"
 #include "harness/scene_file/builder.h"
+
+int builder_about(const fields *f, int index)
+{
+    const int follows = fields_entry(f, "about", LIST_ANALYSES);
+    if (follows >= index)
+        document_mistake(f->b->mistakes, document_find(f->map, "about"), 0,
+                         "'%s' does not stand before this one; move it up",
+                         fields_text(f, "about", ""));
+    return follows < index ? follows : SCENE_NONE;
+}
 
 /* Where neither a step nor a tolerance is given; of the last station. */
 static const double usual_tolerance = 1e-4, usual_step = 1e-3;
