@@ -169,6 +169,7 @@ static status split(scene *s, double fraction, fault *f)
     m->warp_q = first.warp_q;
     m->release[1] = first.release[1];
     m->divisions = first.divisions;
+    m->damping = first.damping;
     m = scene_member_at(s, 0);
     m->q = middle;
     m->section_q = profile;

@@ -61,6 +61,10 @@ static status check_member(const scene *s, int i, fault *f)
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
         return fault_set(f, STATUS_REFUSED,
                          "member %d: its y axis is parallel to it; give one that points across", i);
+    if (!(m->damping >= 0 && isfinite(m->damping)))
+        return fault_set(f, STATUS_REFUSED,
+                         "member %d: a damping of %g s; give a positive one, or none", i,
+                         m->damping);
     if (m->divisions < 0)
         return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i,
                          m->divisions);

@@ -22,6 +22,7 @@ static void make(scene *s)
     scene_release_end(s, 0, 1, SCENE_RZ);
     m->warp_q = 7;
     m->divisions = 2;
+    m->damping = 0.01;
     const int load = scene_add_load(s, SCENE_DISTRIBUTED, one, 5, 6, 7);
     scene_load *l = scene_load_at(s, load);
     l->axes = SCENE_AXES_MEMBER;
@@ -80,6 +81,7 @@ static void is_split(void)
                  second->release[0].count != 0 || second->release[1].count != 1,
              "ends stay released, the cut is not");
     gsl_test_int(second->divisions, 2, "divisions");
+    gsl_test_abs(second->damping, 0.01, 0, "damping");
     const scene_load *l = scene_load_at(&s, 1);
     gsl_test(l->where != 1 || l->axes != SCENE_AXES_MEMBER || !l->follower, "its load");
     is_vector(l->vector, 5, 6, 7, "of that size");

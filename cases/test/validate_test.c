@@ -37,6 +37,11 @@ static void divisions(scene *s)
     s->member[0].divisions = -3;
 }
 
+static void damping(scene *s)
+{
+    s->member[0].damping = -1e-3;
+}
+
 static void idle_driver(scene *s)
 {
     scene_drive(s, TIP, SCENE_UY, SCENE_FREE);
@@ -159,6 +164,7 @@ static const refusal refusals[] = {
     {y_along, "member 0: ", "its y axis is parallel"},
     {no_y, "member 0: ", "its y axis is parallel"},
     {divisions, "member 0: ", "-3 elements"},
+    {damping, "member 0: ", "a damping of -0.001 s"},
     {idle_driver, "driver push: ", "it moves nothing"},
     {unknown_driver, "driver sought: ", "no condition fixes it"},
     {condition_nowhere, "driver sought: ", "no condition fixes it"},

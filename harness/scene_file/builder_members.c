@@ -126,6 +126,7 @@ void builder_members(builder *b)
         read_released(&release, "to", index, 1);
         fields_vector(&f, "curvature", 3, m->curvature);
         fields_vector(&f, "strain", 3, m->strain);
+        m->damping = fields_number(&f, "damping", 0);
         m->divisions = fields_whole(&f, "divisions", 0, 0, 10000000);
     }
 }

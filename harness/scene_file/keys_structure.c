@@ -167,7 +167,8 @@ const scene_key keys_member[] = {
     {.name = "offset", .kind = KEY_LATER},
     {"release", KEY_MAP, .below = release,
      .summary = "what its ends do not pass on: hinges, slides"},
-    {.name = "damping", .kind = KEY_LATER},
+    {"damping", KEY_NUMBER, .unit = "s",
+     .summary = "in time: rates of its strains times its stiffness at rest, times this"},
     {.name = NULL}};
 
 const scene_key keys_spring[] = {

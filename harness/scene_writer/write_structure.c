@@ -135,6 +135,7 @@ void write_structure_members(writer *w)
             write_values_numbers(w, 3, m->strain);
         }
         write_release(w, m->release);
+        write_values_if(w, "damping", m->damping, 0);
         write_values_if(w, "divisions", m->divisions, 0);
         fputs("}\n", w->to);
     }

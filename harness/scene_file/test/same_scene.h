@@ -68,7 +68,8 @@ static inline int same_member(const scene_member *a, const scene_member *b)
            a->section_q == b->section_q && same_numbers(3, a->y_axis, b->y_axis) &&
            same_warp(a->warp_p, b->warp_p) && same_warp(a->warp_q, b->warp_q) &&
            same_numbers(3, a->curvature, b->curvature) && same_numbers(3, a->strain, b->strain) &&
-           a->divisions == b->divisions && same_release(&a->release[0], &b->release[0]) &&
+           a->divisions == b->divisions && same_numbers(1, &a->damping, &b->damping) &&
+           same_release(&a->release[0], &b->release[0]) &&
            same_release(&a->release[1], &b->release[1]);
 }
 
