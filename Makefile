@@ -55,7 +55,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test tests newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test tests film newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -89,6 +89,10 @@ ifndef RESULTS
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+
+film: all needs-report ## a motion of RESULTS=FILE.h5 (of several: CASE=NAME) as one HTML file that any browser plays: build/film_FILE.html
+	@test -n "$(RESULTS)" || { echo "make film: give RESULTS=FILE.h5, of 'beamwork solve CASE --shapes -o FILE.h5'" >&2; exit 2; }
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(RESULTS)" $(TRUTHS) --film $(BUILD)/film_$(basename $(notdir $(RESULTS))).html $(if $(CASE),-k "$(CASE)")
 
 newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json

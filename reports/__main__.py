@@ -1,6 +1,7 @@
 """python -m reports RESULTS.h5 TRUTHS.h5 [--bench BENCH.h5] [--beside THEIRS.h5]
 [--sweep SWEEP.h5] -o FOLDER: the report as one self-contained folder of HTML and SVG. A sweep may
-stand in the place of results."""
+stand in the place of results. With --film FILM.html in the place of -o FOLDER: a motion as one file
+that any browser plays from disk."""
 import argparse
 import sys
 
@@ -11,7 +12,10 @@ def main():
     parser = argparse.ArgumentParser(prog="reports", description=__doc__)
     parser.add_argument("results", help="of 'beamwork verify -o', or a sweep")
     parser.add_argument("truths")
-    parser.add_argument("-o", dest="folder", required=True)
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("-o", dest="folder")
+    what.add_argument("--film", help="an HTML file: a motion that plays in any browser")
+    parser.add_argument("-k", dest="case", help="whose film, where the results hold several")
     parser.add_argument("--bench",
                         help="times of 'beamwork bench -o'; without it those of single runs")
     parser.add_argument("--beside",
@@ -21,6 +25,10 @@ def main():
     parser.add_argument("--sweep", action="append", default=[],
                         help="what 'beamwork sweep -o' stored, beside the results")
     given = parser.parse_args()
+    if given.film:
+        from reports import film
+        return film.main([given.results, "-o", given.film, *(["-k", given.case] if given.case else
+                                                              [])])
     try:
         from reports import pages
         count = pages.build(given.results, given.truths, given.folder, given.bench, given.beside,

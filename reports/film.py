@@ -102,9 +102,14 @@ def page(path, wanted=None):
 def write(text, path):
     """Appears complete or not at all."""
     part = f"{path}.part"
-    with open(part, "w", encoding="utf-8") as out:
-        out.write(text)
-    os.replace(part, path)
+    try:
+        with open(part, "w", encoding="utf-8") as out:
+            out.write(text)
+        os.replace(part, path)
+    except OSError:
+        if os.path.exists(part):
+            os.remove(part)
+        raise
 
 
 def main(arguments=None):
@@ -115,6 +120,8 @@ def main(arguments=None):
     given = parser.parse_args(arguments)
     try:
         data.read_about(given.results)
+        if os.path.exists(given.film) and os.path.samefile(given.results, given.film):
+            raise NoFilm(f"{given.film}: a film would replace the results; choose another name")
         write(page(given.results, given.case), given.film)
     except NoFilm as why:
         print(f"film: {why}", file=sys.stderr)

@@ -5,11 +5,12 @@ import contextlib
 import io
 import json
 import re
+import sys
 import unittest
 
 import numpy as np
 
-from harness.test.program import ProgramTest, run
+from harness.test.program import ROOT, TRUTHS, ProgramTest, run
 from reports import film, shapes, viewer
 from reports.test import frames
 from reports.test.browser_test import CHROMIUM, chromium, console
@@ -19,9 +20,11 @@ CASE = "spherical_joint"
 
 # Waits for the player, then does what a test asks; `out` is written into the page.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
-  const out = {{}}, place = document.querySelector("div.viewer"), q = what => place.querySelector(what);
-  const key = (name, on) => (on || q("canvas")).dispatchEvent(new KeyboardEvent("keydown", {{ key: name, bubbles: true, cancelable: true }}));
-  const time = () => q("output").textContent, wait = ms => new Promise(done => setTimeout(done, ms));
+  const out = {{}}, place = document.querySelector("div.viewer");
+  const q = what => place.querySelector(what), time = () => q("output").textContent;
+  const key = name => q("canvas").dispatchEvent(
+    new KeyboardEvent("keydown", {{ key: name, bubbles: true, cancelable: true }}));
+  const wait = ms => new Promise(done => setTimeout(done, ms));
   const look = async () => {{
     while (!place.player) await wait(50);
     {action}
@@ -103,6 +106,19 @@ class Film(ProgramTest):
         with self.assertRaisesRegex(film.NoFilm, f"no frames of 'nobody'.*{CASE}"):
             film.chosen(self.results, "nobody")
 
+    def test_results_are_not_replaced(self):
+        before = self.results.read_bytes()
+        self.assertEqual(filmed(self.results, self.results), 2)
+        self.assertEqual(self.results.read_bytes(), before)
+
+    def test_as_a_report(self):
+        """`--film` in the place of a folder gives the same file."""
+        target = self.folder / "same.html"
+        done = run("-B", "-m", "reports", self.results, TRUTHS, "--film", target, "-k", CASE,
+                   program=sys.executable, cwd=ROOT)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(target.read_text(encoding="utf-8"), self.text)
+
     def done(self, action, *options):
         """What the action put into `out`."""
         copy = self.folder / "acted.html"
@@ -121,12 +137,16 @@ class Film(ProgramTest):
         the clock: 40 pictures a second."""
         out = self.done("""
             out.label = q("button").textContent; out.live = q("output").getAttribute("aria-live");
-            q("button").click(); out.paused = q("button").textContent; out.aloud = q("output").getAttribute("aria-live");
+            q("button").click(); out.paused = q("button").textContent;
+            out.aloud = q("output").getAttribute("aria-live");
             let due = null, now = 0; window.requestAnimationFrame = next => { due = next; };
             await wait(50); key("Home"); q("select").selectedIndex = 3; q("button").click();
             out.seen = []; out.speed = Number(q("select").value);
-            for (let i = 0; i < 400; i++) { const next = due; next(now += 25); out.seen.push(parseFloat(time().slice(4))); }
-            q("button").click(); const stays = time(); due(now += 1000); out.stays = time() == stays;""")
+            for (let i = 0; i < 400; i++) {
+              const next = due; next(now += 25); out.seen.push(parseFloat(time().slice(4)));
+            }
+            q("button").click();
+            const stays = time(); due(now += 1000); out.stays = time() == stays;""")
         self.assertEqual((out["label"], out["live"]), ("Pause", "off"))
         self.assertEqual((out["paused"], out["aloud"]), ("Play", "polite"))
         self.assertTrue(out["stays"])
@@ -144,12 +164,15 @@ class Film(ProgramTest):
         """Space, single frames, ends, speed; the ends of the slider are those of the motion."""
         out = self.done("""
             key(" "); out.paused = q("button").textContent;
-            key("Home"); out.home = time(); key("."); out.next = time(); key(","); key(","); out.before = time();
+            key("Home"); out.home = time(); key("."); out.next = time();
+            key(","); key(","); out.before = time();
             key("End"); out.end = time(); key("."); out.beyond = time();
-            const slider = q("input"); slider.value = slider.max; slider.dispatchEvent(new Event("input")); out.last = time();
-            slider.value = slider.min; slider.dispatchEvent(new Event("input")); out.first = time();
+            const slider = q("input");
+            const to = value => { slider.value = value; slider.dispatchEvent(new Event("input")); };
+            to(slider.max); out.last = time(); to(slider.min); out.first = time();
             out.aloud = slider.getAttribute("aria-valuetext");
-            const speed = q("select").selectedIndex; key("<"); out.slower = q("select").selectedIndex - speed;
+            const speed = q("select").selectedIndex;
+            key("<"); out.slower = q("select").selectedIndex - speed;
             key(">"); key(">"); out.faster = q("select").selectedIndex - speed;
             key(" "); out.again = q("button").textContent;""")
         self.assertEqual((out["paused"], out["again"]), ("Play", "Pause"))

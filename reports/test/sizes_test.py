@@ -69,8 +69,9 @@ class Sizes(ProgramTest):
             self.assertLess(size / number, VALUE, case.name)
 
     def test_assets(self):
-        for name, most in (("script.js", SCRIPT), ("viewer.js", VIEWER), ("explorer.js", SCRIPT), ("player.js", SCRIPT),
-                           ("sweep.js", SCRIPT), ("sweep_own.js", SCRIPT)):
+        for name, most in (("script.js", SCRIPT), ("viewer.js", VIEWER), ("player.js", SCRIPT),
+                           ("explorer.js", SCRIPT), ("sweep.js", SCRIPT),
+                           ("sweep_own.js", SCRIPT)):
             self.assertLess((ASSETS / name).stat().st_size, most, name)
         self.assertLess((self.site / "style.css").stat().st_size, SHEET)
 
