@@ -53,9 +53,8 @@ def films(path):
     out = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
-            for point, shape in sorted(group.get("shapes", {}).items(),
-                                       key=lambda item: item[0] != "default"):
-                if shapes.FRAME.encode() in shape["kind"][()].tolist():
+            for point in sorted(group.get("shapes", {}), key=lambda name: name != "default"):
+                if shapes.kinds_of(group, point).count(shapes.FRAME) > 1:
                     out.setdefault(name, (data.text(group.attrs["summary"]), point))
     return out
 

@@ -48,7 +48,7 @@ def best_view(s, states):
                    default=0)
 
     if any(s.kind[k] == FRAME for k in states) and np.ptp(s.position[..., 2]) < FLAT * size_of(s):
-        return View(-84, 74)  # a motion in the plane of x and y: from above, x to the right
+        return View(-90, 74)  # a motion in the plane of x and y: from above, x to the right
     side, above = View(), View(elevation=52)
     return above if seen(above) > 1.25 * seen(side) else side
 

@@ -7,6 +7,7 @@ import math
 
 import h5py
 import numpy as np
+import yaml
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
@@ -49,6 +50,23 @@ def matrices(q):
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
+def motions_in(group, point):
+    """Numbers of the analyses of a case's scene that are motions in time."""
+    for row in group["scenes"][()] if "scenes" in group else ():
+        scene = row["scene"]
+        if row["point"] == point.encode() and b"motion:" in scene:
+            return [i for i, one in enumerate(yaml.safe_load(scene)["analyses"].values())
+                    if "motion" in one]
+    return []
+
+
+def kinds_of(group, point):
+    """What each state is; stations of a motion are frames of it."""
+    g, motions = group["shapes"][point], motions_in(group, point)
+    return [FRAME if kind == b"path" and analysis in motions else text(kind)
+            for kind, analysis in zip(g["kind"][()], g["analysis"][()])]
+
+
 def read(site, case):
     """Shapes of a case's defaults, or None when the results hold none."""
     return read_file(site.results, case.name)
@@ -77,7 +95,8 @@ def read_file(path, name, point="default"):
             text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()],
             g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
             g["released"][()] if "released" in g else np.zeros((len(g["members"]), 2), int), walls,
-            far, equivalent, [text(k) for k in g["kind"]], g["value"][()], g["position"][()],
+            far, equivalent, kinds_of(file[f"cases/{name}"], point), g["value"][()],
+            g["position"][()],
             matrices(g["orientation"][()]), g["nodes"][()])
 
 

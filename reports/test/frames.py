@@ -16,7 +16,8 @@ def add(path, case, times, rate=1.0):
     """Appends a frame for each time to the shapes of a case: all of it turns about z."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
-        new = {"kind": [FRAME.encode()] * len(times), "value": list(times),
+        new = {"kind": [FRAME.encode()] * len(times), "analysis": [0] * len(times),
+               "value": list(times),
                "position": [], "orientation": [], "nodes": []}
         for t in times:
             by = Rotation.from_rotvec([0, 0, rate * t])
@@ -36,7 +37,7 @@ def only(path, case, times, rate=1.0):
     """The same where nothing but the undeformed state and the frames is left."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
-        for name in ("kind", "value", "position", "orientation", "nodes"):
+        for name in ("kind", "analysis", "value", "position", "orientation", "nodes"):
             old = g[name][()][:1]
             del g[name]
             g[name] = old
