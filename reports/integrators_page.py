@@ -32,7 +32,8 @@ def maps_of(problems):
 def failures_of(problems):
     """[(problem, run)] of what has no error, and why; large steps that are to stop stand in the
     maps."""
-    return [(p, r) for p in answers.judged(problems) for r in p.runs if r.status != "ok"]
+    return [(p, r) for p in answers.judged(problems) for r in p.runs
+            if r.status != "ok" and not r.fate]
 
 
 def write(site):

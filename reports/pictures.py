@@ -192,7 +192,8 @@ def write_case(site, case):
 def caption(s):
     return (
         f"Computed with {html.escape(s.formulation)}, n = {s.n}; between the nodes a cubic through "
-        "their axes. Pale: undeformed; sand: rigid bodies; squares: held; circles: released ends. " + ("Play, or drag the slider, to see it move, at true scale." if FRAME in s.kind else
+        "their axes. Pale: undeformed; sand: rigid bodies; squares: held; circles: released ends. "
+        + ("Play, or drag the slider, to see it move, at true scale." if s.kind.count(FRAME) > 1 else
            "Modes: largest displacement a tenth of the size, or largest turn half a radian."))
 
 

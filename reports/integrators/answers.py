@@ -69,7 +69,8 @@ def profile(problems, level):
     cases = {}
     for problem in problems:
         cases.setdefault(problem.case, []).append(answer(problem, level))
-    out = {s: [0.0] * len(FACTORS) for s in ordered({r.scheme for p in problems for r in p.runs})}
+    told = ordered({r.scheme for p in problems for r in p.runs if r.known})
+    out = {s: [0.0] * len(FACTORS) for s in told}
     for found in cases.values():
         for one in found:
             for way in one.ways:

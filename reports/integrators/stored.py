@@ -67,7 +67,6 @@ class Problem:
     formulation: str
     elements: int
     stiffening: float
-    alone_from: float
     reference: str  # why there is none; empty: there is one
     uncertainty: float
     runs: list
@@ -109,9 +108,9 @@ def number(row, name, other=math.nan):
 
 def run_of(row):
     return Run(row["integrator"], number(row, "step"), number(row, "tolerance", 0),
-               number(row, "error"), number(row, "cost"), number(row, "iterations"),
+               number(row, "error"), number(row, "cost"), number(row, "iterations_per_step"),
                int(number(row, "rejected", 0)), number(row, "energy_drift"),
-               number(row, "momentum_drift"), row["fate"], row["status"], row["reason"])
+               number(row, "momentum_drift"), row["outcome"], row["status"], row["reason"])
 
 
 def ways_of(rows, runs):
@@ -124,14 +123,31 @@ def ways_of(rows, runs):
     return {error: sorted(ways, key=lambda w: w.cost) for error, ways in out.items()}
 
 
-def problem_of(row):
-    runs, reference = [run_of(r) for r in row["runs"]], row["reference"] or {}
+def stiffening_in(parameters):
+    """How many times as stiff elongation is, from `name=value;...`."""
+    said = dict(p.strip().split("=", 1) for p in parameters.split(";") if p.strip())
+    return float(said.get(STIFFENING, 1))
+
+
+def problem_of(row, parameters):
+    """What a case, formulation and mesh has of one set of parameters; runs of which errors are
+    wanted, and of which only the fate is."""
+    def own(name):
+        return [one for one in row[name] if one["parameters"] == parameters]
+
+    runs = [run_of(r) for r in own("runs") + own("stability")]
+    reference = (own("references") or [{"reason": "none is wanted"}])[0]
     ladders = [Ladder(o["integrator"], o["nominal"], number(o, "order"), o["verdict"])
-               for o in row["orders"]]
-    return Problem(row["case"], row["parameters"], row["formulation"], int(row["elements"]),
-                   float(row["values"].get(STIFFENING, 1)), number(row, "alone_from"),
-                   reference.get("reason", "none is wanted"), number(reference, "uncertainty"),
-                   runs, ladders, ways_of(row["reached"], runs))
+               for o in own("orders")]
+    return Problem(row["case"], parameters, row["formulation"], int(row["elements"]),
+                   stiffening_in(parameters), reference["reason"], number(reference, "uncertainty"),
+                   runs, ladders, ways_of(own("reached"), runs))
+
+
+def problems_of(row):
+    """A Problem for each set of parameters."""
+    places = dict.fromkeys(one["parameters"] for one in row["runs"] + row["stability"])
+    return [problem_of(row, parameters) for parameters in places]
 
 
 @dataclass
@@ -148,7 +164,8 @@ def read(path):
         return None
     with open(path, encoding="utf-8") as file:
         found = json.load(file)
-    return Record([problem_of(row) for row in found["cases"]], found["verdicts"])
+    problems = [one for row in found["cases"] for one in problems_of(row)]
+    return Record(problems, found["verdicts"])
 
 
 def beside(results):

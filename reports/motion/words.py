@@ -51,7 +51,7 @@ def sentence(motion, how):
     by = f" with a tolerance of {how['tolerance']:g} a step" if how.get("tolerance") else ""
     return (f"{name[0].upper()}{name[1:]}{by} takes {steps(motion)}{tries} to "
             f"{motion.time[-1]:.4g} s, {motion.columns['iterations'][1:].mean():.1f} iterations "
-            f"each; energy drifts by {drift:.0e} of its most{momenta(motion)}.")
+            f"each; energy drifts by at most {drift:.0e} of its largest value{momenta(motion)}.")
 
 
 def spread(motions):

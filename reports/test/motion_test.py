@@ -41,7 +41,7 @@ class Words(unittest.TestCase):
         text = words.sentence(motion(), {"integrator": "radau", "tolerance": 1e-6})
         self.assertIn("Radau with a tolerance of 1e-06 a step takes 400 steps of 0.005 s to 2 s",
                       text)
-        self.assertIn("3.0 iterations each; energy drifts by 1e-05 of its most.", text)
+        self.assertIn("3.0 iterations each; energy drifts by at most 1e-05 of its largest value.", text)
 
     def test_momenta_that_stay(self):
         self.assertIn("momentum and angular momentum by 0e+00",
