@@ -29,6 +29,11 @@ def maps_of(problems):
              words.stability(own)) for own in found]
 
 
+def unmeasured(problems):
+    """Those of which errors were wanted and cannot be told."""
+    return [p for p in problems if p.reference and p.reference != stored.NONE_WANTED]
+
+
 def failures_of(problems):
     """[(problem, run)] of what has no error, and why; large steps that are to stop stand in the
     maps."""
@@ -59,6 +64,7 @@ def write(site):
                stiffenings=[(s, stability.short(s)) for s in stiffenings],
                ladders=[(p, one) for p in answers.judged(problems) for one in p.ladders],
                verdicts=record.verdicts, judged=words.verdicts(record.verdicts),
+               unmeasured=unmeasured(problems),
                failures=failures_of(problems))
 
 

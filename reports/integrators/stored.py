@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 FILE = "motion.json"
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
+NONE_WANTED = "none is wanted"  # of a reference
 STIFFENING = "stiffening"  # parameter of cases that says how many times as stiff elongation is
 
 
@@ -136,7 +137,7 @@ def problem_of(row, parameters):
         return [one for one in row[name] if one["parameters"] == parameters]
 
     runs = [run_of(r) for r in own("runs") + own("stability")]
-    reference = (own("references") or [{"reason": "none is wanted"}])[0]
+    reference = (own("references") or [{"reason": NONE_WANTED}])[0]
     ladders = [Ladder(o["integrator"], o["nominal"], number(o, "order"), o["verdict"])
                for o in own("orders")]
     return Problem(row["case"], parameters, row["formulation"], int(row["elements"]),

@@ -75,6 +75,15 @@ class Answers(unittest.TestCase):
         self.assertEqual(rows[self.one.name, "alpha", 0.4], {1: 3.0, 1e3: 3.0, 1e6: 3.0})
         self.assertNotIn((self.one.name, "radau", 0.2), rows)
 
+    def test_without_a_reference(self):
+        """It is told, and counts nowhere."""
+        found = motions.record()
+        found["cases"][0]["references"][0]["reason"] = "no result after 120 s"
+        every = problems(found)
+        self.assertEqual(len(answers.judged(every)), 3)
+        self.assertEqual([p.reference for p in integrators_page.unmeasured(every)],
+                         ["no result after 120 s"])
+
     def test_structures(self):
         """All stiffenings of a mesh together, the name without them."""
         found = answers.structures(problems())
