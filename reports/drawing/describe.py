@@ -28,8 +28,9 @@ def support(scene, node):
 
 
 def motion(name, reach):
-    return f"{name}: unknown" if reach is None else \
-        f"{name}: from {number(reach[0])} to {number(reach[1])}"
+    if not reach:
+        return f"{name}: unknown" if reach is None else f"{name}: a function of time"
+    return f"{name}: from {number(reach[0])} to {number(reach[1])}"
 
 
 def load(one):

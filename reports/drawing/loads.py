@@ -121,6 +121,8 @@ def motion_words(scene, motion, turn):
     reach = scene.motions[motion]
     if reach is None:
         return f"{motion}, unknown"
+    if not reach:
+        return f"{motion}, in time"
     if turn:
         return f"{motion}: {number(reach[0])} to {number(reach[1])} rad"
     small = max(map(abs, reach)) < 0.5

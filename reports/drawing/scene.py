@@ -78,7 +78,7 @@ class Scene:
     members: dict
     loads: list
     springs: list
-    motions: dict  # name -> (least, largest value), or None where it is unknown
+    motions: dict  # name -> (least, largest value), () of time, or None where it is unknown
     spin: Spin = None
     asked: set = field(default_factory=set)  # nodes that quantities are of
 
@@ -111,6 +111,7 @@ def read_member(name, said):
                   (tuple(release.get("from", ())), tuple(release.get("to", ()))))
 
 
+IN_TIME = ("time", "pieces", "table")  # how a motion that is a function of time is said
 KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 
 
@@ -130,7 +131,7 @@ def read_spring(name, said):
 
 def read_motion(said):
     if "value" not in said:
-        return None
+        return () if any(word in said for word in IN_TIME) else None
     values = numbers(said["value"])
     return values.min(), values.max()
 

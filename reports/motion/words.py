@@ -14,10 +14,10 @@ def scheme(how):
     if how.get("trapezoidal"):
         return "the trapezoidal rule"
     if "hht" in how:
-        return f"HHT ({how['hht']:g})"
+        return f"HHT ({float(how['hht']):g})"
     if "parameters" not in how:
-        return f"alpha (rho {how.get('rho', 0.9):g})"
-    alpha_m, alpha_f = how["parameters"]
+        return f"alpha (rho {float(how.get('rho', 0.9)):g})"
+    alpha_m, alpha_f = map(float, how["parameters"])
     if not alpha_m:
         return f"HHT ({alpha_f:g})" if alpha_f else "the trapezoidal rule"
     rho = alpha_f / (1 - alpha_f) if alpha_f != 1 else math.inf
@@ -48,7 +48,8 @@ def sentence(motion, how):
     tries = f" ({rejected} longer ones tried in vain)" if rejected else ""
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
-    by = f" with a tolerance of {how['tolerance']:g} a step" if how.get("tolerance") else ""
+    tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a text
+    by = f" with a tolerance of {tolerance:g} a step" if tolerance else ""
     return (f"{name[0].upper()}{name[1:]}{by} takes {steps(motion)}{tries} to "
             f"{motion.time[-1]:.4g} s, {motion.columns['iterations'][1:].mean():.1f} iterations "
             f"each; energy drifts by at most {drift:.0e} of its largest value{momenta(motion)}.")

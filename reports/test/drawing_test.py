@@ -27,6 +27,15 @@ class Drawings(unittest.TestCase):
     def test_all_of_them(self):
         self.assertGreaterEqual(len(self.scenes), 49)
 
+    def test_motions_in_time(self):
+        """They are drawn and told as such; one that is solved for stays unknown."""
+        one = self.scenes["spin_up"]
+        self.assertEqual(one.motions, {"turn": ()})
+        self.assertEqual(loads.motion_words(one, "turn", True), "turn, in time")
+        self.assertEqual(describe.motion("turn", ()), "turn: a function of time")
+        self.assertEqual(describe.motion("turn", None), "turn: unknown")
+        self.assertIsNone(scene.read_motion({"such_that": {}}))
+
     def test_everything_is_on_the_drawing(self):
         for name, one in self.scenes.items():
             figure = draw.draw(one)

@@ -38,7 +38,7 @@ class Words(unittest.TestCase):
 
     def test_sentence(self):
         """Its numbers are those of the rows."""
-        text = words.sentence(motion(), {"integrator": "radau", "tolerance": 1e-6})
+        text = words.sentence(motion(), {"integrator": "radau", "tolerance": "1e-06"})
         self.assertIn("Radau with a tolerance of 1e-06 a step takes 400 steps of 0.005 s to 2 s",
                       text)
         self.assertIn("3.0 iterations each; energy drifts by at most 1e-05 of its largest value.", text)
