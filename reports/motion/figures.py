@@ -6,6 +6,7 @@ import numpy as np
 from reports import tally
 from reports.chart import Chart
 from reports.motion import stored
+from reports.motion.units import fitting
 from reports.style import COLOURS
 
 WIDE, HALF = (640, 200), (300, 170)
@@ -31,13 +32,13 @@ def largest(x, y, most=MOST_POINTS):
     return x[at], y[at]
 
 
-def line(site, panel, name, look, x, y, unit):
-    """A curve that is no formulation's."""
+def line(site, panel, name, look, x, y, unit, size):
+    """A curve that is no formulation's; size: of the unit that the axis has."""
     index, dash = look
     marks = thinned(x, 9)
     told = site.points(name, ("time", f"value [{unit}]"),
                        [(f"{x[i]:.4g} s", float(y[i])) for i in marks])
-    panel.plot(x, y, label=name, marks=marks,
+    panel.plot(x, y / size, label=name, marks=marks,
                **{**told, "color": COLOURS[index][0], "marker": "osDv^PX"[index % 7],
                   "linestyle": dash, "markersize": 3})
 
@@ -45,13 +46,15 @@ def line(site, panel, name, look, x, y, unit):
 def energies(site, motion, name):
     """Kinetic, strain, work and what was dissipated."""
     chart = Chart(1, WIDE)
-    panel = chart.panel("", "time [s]", "energy [J]", xlog=False, ylog=False)
-    at = thinned(motion.time)
     values = {**motion.columns, "energy": motion.energy}
+    size, unit = fitting(motion.scale, "J")
+    panel = chart.panel("", "time [s]", f"energy [{unit}]", xlog=False, ylog=False)
+    at = thinned(motion.time)
     for column, (words, index, dash) in ENERGIES.items():
         y = values[column]
         if column in ("kinetic", "strain", "energy") or np.abs(y).max() > 1e-12 * motion.scale:
-            line(site, panel, words, (index, dash), motion.time[at], y[at], "J")
+            line(site, panel, words, (index, dash), motion.time[at], y[at], "J",
+                 size)
     return chart.image(site, name)
 
 
@@ -59,11 +62,12 @@ def momenta(site, motion, name):
     """Momentum and angular momentum, a panel each."""
     chart = Chart(2, HALF, gap=(76, 52))
     at = thinned(motion.time)
-    for which, words in (("P", "momentum [kg m/s]"), ("L", "angular momentum [kg m²/s]")):
-        panel = chart.panel(words, "time [s]", "", xlog=False, ylog=False)
-        found, unit = motion.momentum(which), words.partition("[")[2].rstrip("]")
+    for which, words, unit in (("P", "momentum", "kg m/s"), ("L", "angular momentum", "kg m²/s")):
+        found = motion.momentum(which)
+        size, shown = fitting(found, unit)
+        panel = chart.panel(f"{words} [{shown}]", "time [s]", "", xlog=False, ylog=False)
         for i, (axis, look) in enumerate(AXES.items()):
-            line(site, panel, axis, look, motion.time[at], found[at, i], unit)
+            line(site, panel, axis, look, motion.time[at], found[at, i], unit, size)
     return chart.image(site, name)
 
 
@@ -152,7 +156,8 @@ def quantity(site, case, name, image):
         return None
     unit = case.points[0].units.get(name, "")
     chart = Chart(1, WIDE)
-    panel = chart.panel("", "time [s]", f"{name} [{unit}]", xlog=False, ylog=False)
+    size, shown = fitting(np.concatenate([y for _, y, _, _ in found.values()]), unit)
+    panel = chart.panel("", "time [s]", f"{name} [{shown}]", xlog=False, ylog=False)
     keys = sorted(found, key=lambda k: (tally.corrected(k) is not None, ":" in k))[:MOST_CURVES]
     for key in keys:
         x, y, n, whole = found[key]
@@ -161,11 +166,11 @@ def quantity(site, case, name, image):
         look = site.points(key, ("time", f"{name} [{unit}]"),
                            [(f"{x[at][i]:.4g} s", float(y[at][i])) for i in marks], f"n = {n}")
         look = {**look, "markersize": 3, **({} if whole else {"linestyle": "none"})}
-        panel.plot(x[at], y[at], label=f"{key}, n = {n}", marks=marks, **look)
+        panel.plot(x[at], y[at] / size, label=f"{key}, n = {n}", marks=marks, **look)
     if truths:
         look = site.points("truth", ("time", f"{name} [{unit}]"),
                            [(f"{t.time:g} s", t.value) for t in truths])
-        panel.plot([t.time for t in truths], [t.value for t in truths], label="truth",
+        panel.plot([t.time for t in truths], [t.value / size for t in truths], label="truth",
                    **{**look, "color": COLOURS[6][0], "marker": "x", "markersize": 8,
                       "linestyle": "none"})
     return chart.image(site, image)

@@ -9,7 +9,7 @@ import numpy as np
 
 from harness.test.program import TRUTHS, ProgramTest, report, run
 from reports import motion_page
-from reports.motion import figures, stored, words
+from reports.motion import figures, stored, units, words
 from reports.test import balances, frames
 from reports.test.browser_test import CHROMIUM, chromium, console
 
@@ -73,6 +73,16 @@ class Curves(unittest.TestCase):
         at = figures.thinned(np.arange(1000))
         self.assertEqual((at[0], at[-1], len(at)), (0, 999, figures.MOST_POINTS))
         self.assertEqual(figures.thinned(np.arange(3)).tolist(), [0, 1, 2])
+
+    def test_units(self):
+        """Numbers of an axis stay short; units that are no names take a power of ten."""
+        for values, unit, wanted in (([0, -2e-3], "m", (1e-3, "mm")), ([0.5, 3], "J", (1, "J")),
+                                     ([0.02], "m", (1, "m")), ([5e-6], "N m", (1e-6, "µN m")),
+                                     ([2e4], "J", (1e3, "kJ")), ([2e4], "m", (1e3, "10³ m")),
+                                     ([1e-3], "kg m/s", (1e-3, "10⁻³ kg m/s")),
+                                     ([], "m", (1, "m")),
+                                     ([4e-4], "1", (1e-3, "10⁻³")), ([0, 0], "m", (1, "m"))):
+            self.assertEqual(units.fitting(values, unit), wanted)
 
     def test_scale(self):
         """Drifts are parts of the most energy or work."""
