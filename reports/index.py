@@ -14,6 +14,8 @@ PLACES = (  # where to go next, as far as this site has it
     ("profiles.html#trust", "trust in full"),
     ("formulations.html", "formulations"),
     ("stability.html", "stability"),
+    ("motions.html", "motions in time"),
+    ("integrators.html", "integrators"),
     ("errata.html", "errata"),
     ("ledger.html", "causes"),
     ("glossary.html", "glossary"),

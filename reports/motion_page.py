@@ -2,6 +2,8 @@
 each case that has one (table `motion` of the results)."""
 import functools
 
+from markupsafe import Markup, escape
+
 from reports import pictures, shapes
 from reports.motion import figures, stored, words
 
@@ -44,6 +46,16 @@ def found_in(site):
     """[(case, [Motion])]"""
     found = ((case, stored.motions_of(site.results, case.name)) for case in site.cases)
     return [(case, motions) for case, motions in found if motions]
+
+
+def section(site, case):
+    """What the page of a case says of its motion."""
+    motions = stored.motions_of(site.results, case.name)
+    if not motions:
+        return []
+    told = escape(words.sentence(leader(motions), stored.how(case.points[0])))
+    link = f'<a href="{file_of(case)}">Energies, momenta, steps and quantities over time</a>'
+    return [("In time", Markup(f"<p>{told} {link}.</p>"))]
 
 
 def write(site):

@@ -138,6 +138,13 @@ class Page(ProgramTest):
         self.assertNotIn('data-f="work"', self.text)
         self.assertIn('data-f="strain"', self.text)
 
+    def test_case_leads_to_it(self):
+        """The page of a case with a motion, and of no other; the first page leads to all."""
+        for page, name, there in (("elastica", "motion_elastica", True), ("index", "motions", True),
+                                  ("roll_up", "motion_", False)):
+            text = (self.site / f"{page}.html").read_text(encoding="utf-8")
+            self.assertEqual(f'href="{name}' in text.partition("<main")[2], there, page)
+
     def test_it_can_be_seen(self):
         """The viewer with its frames stands on the page, and in the bar it is found."""
         self.assertIn('data-shape="elastica"', self.text)
