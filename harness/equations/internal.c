@@ -134,10 +134,11 @@ static status recover(model *m, const internal_state *s, int i, const span_grid 
     span_problem problem = {
         .request = &request, .linear = s->x != NULL, .context = &loads, .load = NULL};
     if (s->moving != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: in a motion resultants are those of its ends (at: 0 or 1); "
-                         "divide it where others are wanted",
-                         m->element[i].member);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "member %d: in a motion there are resultants at its two ends and no stresses; "
+            "divide it where others are wanted",
+            m->element[i].member);
     TRY(features_of_section(m, kind->section, &request.features, f));
     memcpy(request.curvature, kind->curvature, sizeof request.curvature);
     memcpy(request.strain, kind->strain, sizeof request.strain);
