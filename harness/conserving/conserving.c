@@ -110,6 +110,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     model *m = s->of.c->model;
     double *inc = to->algorithm;
     *error = 0;
+    s->h = h;
     kinematics_state_copy(m, from->state, to->state);
     conserving_predict(s, from, h);
     conserving_increment(s, from->state, inc);

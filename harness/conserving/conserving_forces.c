@@ -10,7 +10,8 @@
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
-/* What is known before strains are asked: (sigma_n + P'(e))/2 + k W d. */
+/* What is known before strains are asked: (sigma_n + P'(e))/2 + k W d, and of damping eta S0 d/h.
+ */
 static void middle_of(const conserving *s, evaluation *v)
 {
     const deformable *of = &v->of;
@@ -18,6 +19,11 @@ static void middle_of(const conserving *s, evaluation *v)
     dense_mul_vec(of->strains, of->strains, of->W, of->d, Wd);
     for (int k = 0; k < of->strains; k++)
         v->middle[k] = (of->before[k] + of->present[k]) / 2 + s->k * Wd[k];
+    if (of->S == NULL)
+        return;
+    dense_mul_vec(of->strains, of->strains, of->S, of->d, Wd);
+    for (int k = 0; k < of->strains; k++)
+        v->middle[k] += of->damping / s->h * Wd[k];
 }
 
 /* Gaps, and sigma_m with what they add. */
@@ -35,6 +41,11 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
     dense_mul_vec(of->strains, of->strains, of->W, of->gap_d, W_d);
     for (int k = 0; k < of->strains; k++)
         sigma[k] = v->middle[k] + C_e[k] / 2 + s->k * W_d[k];
+    if (of->S != NULL) {
+        dense_mul_vec(of->strains, of->strains, of->S, of->gap_d, W_d);
+        for (int k = 0; k < of->strains; k++)
+            sigma[k] += of->damping / s->h * W_d[k];
+    }
     return largest;
 }
 
@@ -115,7 +126,8 @@ static double equations(conserving *s, const instant *from, const model_state *n
         J[k] = (v->J[0][k] + v->J[1][k]) / DEFORMABLE_POINTS;
     const double incompatibility = gaps_of(s, J, v, sigma);
     for (int k = 0; k < strains * strains; k++)
-        tangent[k] = of->C[k] / 2 + s->k * of->W[k];
+        tangent[k] =
+            of->C[k] / 2 + s->k * of->W[k] + (of->S != NULL ? of->damping / s->h * of->S[k] : 0);
     dense_mul(strains, strains, n, tangent, of->J, inside);
     memset(v->K, 0, (size_t)(n * n) * sizeof *v->K);
     dense_add_transpose_mul(n, strains, n, J, inside, v->K);

@@ -30,6 +30,7 @@ typedef struct conserving {
     double *slot;   /* [deformables x slot_size] what one keeps from its evaluation to update */
     int slot_size;
     evaluation *evaluation;         /* [CHUNK_MOST] work space */
+    double h;                       /* [s] of the step */
     double k, denominator, missing; /* missing: of sum k_e . gap_e + k_d . gap_d */
     double largest, change;         /* stresses */
     arrival arrival;
@@ -64,7 +65,7 @@ void conserving_loads(conserving *, const instant *from, const model_state *now,
 void conserving_predict(conserving *, const instant *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
-/* conserving_work.c: what the work of `to` has become. */
+/* conserving_work.c: what work and dissipation of `to` have become. */
 status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
 
 #endif

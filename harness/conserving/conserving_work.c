@@ -2,7 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/conserving/conserving_impl.h"
+#include "elements/math/dense.h"
+#include "harness/conserving/deformable.h"
 #include "harness/model/release.h"
 
 /* dr and c of the coordinates; of single angles 2 tan(d angle/2). */
@@ -33,6 +34,18 @@ static int moves_by_drivers(const conserving *s)
     return 0;
 }
 
+/* eta d . S0 d/h, what the damping stresses of the step take. */
+static double dissipated(const conserving *s, const instant *from, model_state *now)
+{
+    double sum = 0;
+    for (int i = 0; i < s->of.c->model->elements && s->of.c->model->damping != NULL; i++) {
+        const deformable of = deformable_at(s, from, now, i);
+        if (of.S != NULL)
+            sum += of.damping / s->h * dense_quadratic(of.strains, of.S, of.d);
+    }
+    return sum;
+}
+
 status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
@@ -53,6 +66,6 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
     } else {
         to->work += worked_on(s, s->residual);
     }
-    to->dissipated = from->dissipated;
+    to->dissipated = from->dissipated + dissipated(s, from, to->state);
     return STATUS_OK;
 }

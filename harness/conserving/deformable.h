@@ -24,6 +24,8 @@ typedef struct deformable {
     double *C, *memory;    /* P''(e) [strains x strains]; of stress */
     double *present;       /* [strains] P'(e) */
     double *gap_e, *gap_d; /* [strains] D(x_1) - e, A (dr, c, da) - d */
+    const double *S;       /* S0 of a damped member, else NULL */
+    double damping;        /* eta [s] of it */
     double length;         /* [m] that incompatibilities are relative to */
 } deformable;
 

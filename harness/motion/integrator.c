@@ -8,12 +8,10 @@
 
 status integrator_alloc(const scheme_request *r, scheme **out, fault *f)
 {
-    const int explicit = r->how->scheme == SCENE_EXPLICIT;
     *out = NULL;
-    if ((explicit || r->how->scheme == SCENE_CONSERVING) && damping_acts(r->c->scene))
+    if (r->how->scheme == SCENE_EXPLICIT && damping_acts(r->c->scene))
         return fault_set(f, STATUS_REFUSED,
-                         "integrator %s takes no members with damping: take alpha or radau",
-                         explicit ? "explicit" : "conserving");
+                         "integrator explicit takes no members with damping: take another");
     switch (r->how->scheme) {
     case SCENE_ALPHA:
         return alpha_alloc(r, out, f);

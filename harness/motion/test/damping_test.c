@@ -98,11 +98,17 @@ int main(void)
 {
     decay(SCENE_ALPHA, 0.01, 0.02);
     decay(SCENE_RADAU, 0.02, 1e-3);
+    decay(SCENE_CONSERVING, 0.01, 1e-12);
     for (int stiff = 0; stiff < 2; stiff++) {
         const double eta = stiff ? 10 : 0.01, first = turn(SCENE_ALPHA, eta, 0.01),
                      second = turn(SCENE_ALPHA, eta, 0.005);
         gsl_test(!(second < 2e-5 && fabs(first / second - 4) < 0.6),
                  "damping %g s: drift of alpha of second order (%g, %g)", eta, first, second);
+    }
+    for (int stiff = 0; stiff < 2; stiff++) {
+        const double eta = stiff ? 10 : 0.01, exact = turn(SCENE_CONSERVING, eta, 0.01);
+        gsl_test(!(exact < 1e-12), "damping %g s: no drift of the conserving scheme (%g)", eta,
+                 exact);
     }
     const double radau = turn(SCENE_RADAU, 0.01, 0.01), shorter = turn(SCENE_RADAU, 0.01, 0.005);
     gsl_test(!(shorter < 5e-9 && radau / shorter > 12), "drift of radau of high order (%g, %g)",
