@@ -163,9 +163,10 @@ static status allocate(conserving *s, fault *f)
                  strains = (size_t)s->strains;
     s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + m->memory + 1;
     s->step = calloc(6 * all, sizeof *s->step);
-    s->W = calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
-                      (size_t)(3 * SPRING_STRAINS * m->springs),
-                  sizeof *s->W);
+    s->W =
+        calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
+                   (size_t)(3 * SPRING_STRAINS * m->springs) + (size_t)(9 * s->of.masses->masses),
+               sizeof *s->W);
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
     if (s->step == NULL || s->W == NULL || s->evaluation == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
@@ -179,6 +180,8 @@ static status allocate(conserving *s, fault *f)
     s->d = s->energy + count;
     s->slot = s->d + count * strains;
     s->spring = s->slot + count * (size_t)s->slot_size;
+    s->massless = s->spring + (size_t)(3 * SPRING_STRAINS * m->springs);
+    TRY(conserving_massless(s, f));
     metric_of(m, s->weight);
     TRY(assemble_pattern(m, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));

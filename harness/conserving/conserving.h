@@ -15,7 +15,8 @@
 
 #include "harness/scheme/scheme.h"
 
-/* REFUSED: several angles of a node in sequence. */
+/* REFUSED: several angles of a node in sequence; no rotation has inertia. Rates of what has none
+ * are those of the mean of a step. */
 status conserving_alloc(const scheme_request *, scheme **, fault *);
 
 #endif

@@ -21,13 +21,14 @@ typedef struct conserving {
                      ends keep to themselves the increments, of balls c */
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
     double *weight;
-    int strains;    /* most of an element or a spring */
-    double *W;      /* [deformables x strains^2] mean of P'' at the ends of the step */
-    double *C;      /* [deformables x strains^2] P''(e_n) */
-    double *energy; /* [deformables] P(e_n) */
-    double *d;      /* [deformables x strains] */
-    double *spring; /* [springs x 3 x SPRING_STRAINS] e and sigma of the end, sigma_n */
-    double *slot;   /* [deformables x slot_size] what one keeps from its evaluation to update */
+    int strains;      /* most of an element or a spring */
+    double *W;        /* [deformables x strains^2] mean of P'' at the ends of the step */
+    double *C;        /* [deformables x strains^2] P''(e_n) */
+    double *energy;   /* [deformables] P(e_n) */
+    double *d;        /* [deformables x strains] */
+    double *massless; /* [masses x 9] onto turns without inertia, in the frames' axes */
+    double *spring;   /* [springs x 3 x SPRING_STRAINS] e and sigma of the end, sigma_n */
+    double *slot;     /* [deformables x slot_size] what one keeps from its evaluation to update */
     int slot_size;
     evaluation *evaluation;         /* [CHUNK_MOST] work space */
     double h;                       /* [s] of the step */
@@ -52,6 +53,10 @@ void conserving_forces(conserving *, const instant *from, model_state *now,
 
 /* conserving_inertia.c: residual -= forces of inertia, S += theirs. */
 void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
+
+/* conserving_rates.c */
+/* What turns without inertia; REFUSED: all that turns does. */
+status conserving_massless(conserving *, fault *);
 /* Work of what takes driven masses from the rates of the step to the prescribed ones at its end. */
 double conserving_impulses(const conserving *, const instant *from, double h, const instant *to);
 /* Rates at the end. */

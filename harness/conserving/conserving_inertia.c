@@ -2,20 +2,12 @@
  * centres' mean places. */
 #include <string.h>
 
-#include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+#include "harness/conserving/carried_step.h"
 #include "harness/conserving/place.h"
-#include "harness/model/kinematics.h"
 
-/* One frame with its mass over a step. */
-typedef struct carried_step {
-    double Rn[9], R1[9], before[3], after[3], mean[3]; /* centre from the frame */
-    double J[9];                                       /* about the centre, in the frame's axes */
-    double v0[3], v1[3], W0[3], W1[3];                 /* of the centre; in the frame's axes */
-    double c[3];
-} carried_step;
-
-static void about_centre(const carried_mass *one, double centre[3], double J[9])
+void carried_step_centre(const carried_mass *one, double centre[3], double J[9])
 {
     const double mass = one->mass > 0 ? one->mass : 1;
     for (int i = 0; i < 3; i++)
@@ -27,13 +19,13 @@ static void about_centre(const carried_mass *one, double centre[3], double J[9])
                 one->inertia[3 * i + j] - ((i == j ? square : 0) - one->moment[i] * centre[j]);
 }
 
-static void step_of(const conserving *s, const instant *from, const model_state *now, double h,
-                    const carried_mass *one, carried_step *out)
+void carried_step_of(const conserving *s, const instant *from, const model_state *now, double h,
+                     const carried_mass *one, carried_step *out)
 {
     const model *m = s->of.c->model;
     double centre[3], dr[3], swept[3], body[3], turned[3];
     frame_rates r;
-    about_centre(one, centre, out->J);
+    carried_step_centre(one, centre, out->J);
     forms_rates(m, from->state, one->frame, from->v, NULL, &r);
     memcpy(out->Rn, r.R, sizeof r.R);
     rotation_matrix(&now->q[4 * one->frame], out->R1);
@@ -102,42 +94,6 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
         }
 }
 
-static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],
-                        const double W[3])
-{
-    return (one->mass * vec3_dot(v, v) + dense_quadratic(3, p->J, W)) / 2;
-}
-
-static int is_driven(const model *m, int vertex)
-{
-    for (int c = 0; c < 6; c++)
-        if (m->vertex[vertex].coordinate[c] >= m->free)
-            return 1;
-    return 0;
-}
-
-double conserving_impulses(const conserving *s, const instant *from, double h, const instant *to)
-{
-    const model *m = s->of.c->model;
-    double sum = 0;
-    for (int k = 0; k < s->of.masses->masses && s->all > s->free; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
-        carried_step p;
-        frame_rates r;
-        double v[3], W[3], turned[3];
-        if (!is_driven(m, one->frame))
-            continue;
-        step_of(s, from, to->state, h, one, &p);
-        forms_rates(m, to->state, one->frame, to->v, NULL, &r);
-        vec3_cross(r.w, p.after, turned);
-        mat3_transpose_mul_vec(r.R, r.w, W);
-        for (int i = 0; i < 3; i++)
-            v[i] = r.v[i] + turned[i];
-        sum += energy_of(one, &p, v, W) - energy_of(one, &p, p.v1, p.W1);
-    }
-    return sum;
-}
-
 void conserving_inertia(conserving *s, const instant *from, const model_state *now, double h)
 {
     const model *m = s->of.c->model;
@@ -146,7 +102,7 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
         const carried_mass *one = &all->mass[k];
         carried_step p;
         double F[6], K[36];
-        step_of(s, from, now, h, one, &p);
+        carried_step_of(s, from, now, h, one, &p);
         forces_of(one, &p, h, F);
         tangent_of(one, &p, h, F, K);
         for (int i = 0; i < 6; i++)
@@ -159,61 +115,4 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
         s->residual[c] -= mass * (2 * s->step[c] / h - 2 * from->v[c]) / h;
         assemble_subtract(&s->S, c, c, -2 * mass / (h * h));
     }
-}
-
-/* Of an angle about an axis: the angular velocity along that. */
-static void angle_rate(const model *m, int vertex, instant *to, const double w[3])
-{
-    const int at = m->vertex[vertex].coordinate[SCENE_RX];
-    double b[3][3];
-    if (m->vertex[vertex].angles == 0 || at == NONE || at >= m->free)
-        return;
-    kinematics_axes(m, to->state, vertex, b);
-    to->v[at] = vec3_dot(b[0], w);
-}
-
-/* What released ends keep to themselves has no inertia: means of the step. */
-static void released_rates(const conserving *s, double h, instant *to)
-{
-    const model *m = s->of.c->model;
-    for (int i = m->first_release; i < m->vertices; i++)
-        for (int c = 0; c < 6; c++)
-            if (m->vertex[i].coordinate[c] != NONE)
-                to->v[m->vertex[i].coordinate[c]] = s->step[m->vertex[i].coordinate[c]] / h;
-}
-
-/* Of frames with a mass by their centres, of the others by themselves. */
-void conserving_rates(conserving *s, const instant *from, double h, instant *to)
-{
-    const model *m = s->of.c->model;
-    const carried *all = s->of.masses;
-    for (int i = 0, k = 0; i < m->first_release; i++) {
-        const carried_mass plain = {.frame = i};
-        const int *at = m->vertex[i].coordinate;
-        while (k < all->masses && all->mass[k].frame < i)
-            k++;
-        const carried_mass *one =
-            k < all->masses && all->mass[k].frame == i ? &all->mass[k] : &plain;
-        if (m->vertex[i].body != i)
-            continue;
-        carried_step p;
-        double w[3], turned[3];
-        step_of(s, from, to->state, h, one, &p);
-        mat3_mul_vec(p.R1, p.W1, w);
-        vec3_cross(w, p.after, turned);
-        for (int c = 0; c < 3; c++) {
-            if (at[c] != NONE && at[c] < m->free)
-                to->v[at[c]] = p.v1[c] - turned[c];
-            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free && m->vertex[i].angles == 0)
-                to->v[at[SCENE_RX + c]] = p.W1[c];
-        }
-        angle_rate(m, i, to, w);
-    }
-    for (int i = 0; i < m->warps; i++) {
-        const int c = m->warp[i].coordinate;
-        to->v[c] = 2 * s->step[c] / h - from->v[c];
-    }
-    released_rates(s, h, to);
-    for (int c = 0; c < s->free; c++)
-        to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
 }

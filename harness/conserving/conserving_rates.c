@@ -1,0 +1,165 @@
+/* Rates at the end of a step, of what has inertia and of what has none. */
+#include <lapacke.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/conserving/carried_step.h"
+#include "harness/model/kinematics.h"
+
+/* N: onto the axes about which J[9] is zero; how many they are. */
+static int null_space(const double J[9], double N[9])
+{
+    const double nothing = 1e-12;
+    double A[9], value[3];
+    int count = 0;
+    memset(N, 0, 9 * sizeof *N);
+    memcpy(A, J, sizeof A);
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3, value); /* ascending; fails only for NAN */
+    for (int k = 0; k < 3; k++) {
+        if (value[k] > nothing * value[2])
+            continue;
+        count++;
+        for (int i = 0; i < 9; i++)
+            N[i] += A[3 * (i / 3) + k] * A[3 * (i % 3) + k];
+    }
+    return count;
+}
+
+static int turns_freely(const model *m, int vertex)
+{
+    int free = 0;
+    for (int c = SCENE_RX; c <= SCENE_RZ; c++)
+        free +=
+            m->vertex[vertex].coordinate[c] != NONE && m->vertex[vertex].coordinate[c] < m->free;
+    return free > 0;
+}
+
+status conserving_massless(conserving *s, fault *f)
+{
+    const model *m = s->of.c->model;
+    int heavy = 0, turning = 0;
+    for (int k = 0; k < s->of.masses->masses; k++) {
+        const carried_mass *one = &s->of.masses->mass[k];
+        double centre[3], J[9];
+        carried_step_centre(one, centre, J);
+        heavy += null_space(J, s->massless + (size_t)(9 * k)) < 3;
+        turning += turns_freely(m, one->frame);
+    }
+    return heavy > 0 || turning == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "no rotation has inertia, which the conserving scheme cannot do "
+                           "without: take alpha or radau, or give the sections rotary inertia");
+}
+
+static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],
+                        const double W[3])
+{
+    return (one->mass * vec3_dot(v, v) + dense_quadratic(3, p->J, W)) / 2;
+}
+
+static int is_driven(const model *m, int vertex)
+{
+    for (int c = 0; c < 6; c++)
+        if (m->vertex[vertex].coordinate[c] >= m->free)
+            return 1;
+    return 0;
+}
+
+double conserving_impulses(const conserving *s, const instant *from, double h, const instant *to)
+{
+    const model *m = s->of.c->model;
+    double sum = 0;
+    for (int k = 0; k < s->of.masses->masses && s->all > s->free; k++) {
+        const carried_mass *one = &s->of.masses->mass[k];
+        carried_step p;
+        frame_rates r;
+        double v[3], W[3], turned[3];
+        if (!is_driven(m, one->frame))
+            continue;
+        carried_step_of(s, from, to->state, h, one, &p);
+        forms_rates(m, to->state, one->frame, to->v, NULL, &r);
+        vec3_cross(r.w, p.after, turned);
+        mat3_transpose_mul_vec(r.R, r.w, W);
+        for (int i = 0; i < 3; i++)
+            v[i] = r.v[i] + turned[i];
+        sum += energy_of(one, &p, v, W) - energy_of(one, &p, p.v1, p.W1);
+    }
+    return sum;
+}
+
+/* Of an angle about an axis: the angular velocity along that. */
+static void angle_rate(const model *m, int vertex, instant *to, const double w[3])
+{
+    const int at = m->vertex[vertex].coordinate[SCENE_RX];
+    double b[3][3];
+    if (m->vertex[vertex].angles == 0 || at == NONE || at >= m->free)
+        return;
+    kinematics_axes(m, to->state, vertex, b);
+    to->v[at] = vec3_dot(b[0], w);
+}
+
+/* What released ends keep to themselves has no inertia: means of the step. */
+static void released_rates(const conserving *s, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    for (int i = m->first_release; i < m->vertices; i++)
+        for (int c = 0; c < 6; c++)
+            if (m->vertex[i].coordinate[c] != NONE)
+                to->v[m->vertex[i].coordinate[c]] = s->step[m->vertex[i].coordinate[c]] / h;
+}
+
+/* Rates without inertia would change their signs with every step: they become those of the mean.
+ * N[9] projects turns onto those; NULL: there is no mass either. */
+static void without_inertia(const carried_mass *one, const double N[9], carried_step *p)
+{
+    double mean[3], back[3];
+    for (int i = 0; i < 3; i++) {
+        mean[i] = (p->W0[i] + p->W1[i]) / 2 - p->W1[i];
+        p->v1[i] = one->mass > 0 ? p->v1[i] : (p->v0[i] + p->v1[i]) / 2;
+    }
+    if (N != NULL)
+        mat3_mul_vec(N, mean, back);
+    else
+        memcpy(back, mean, sizeof back);
+    for (int i = 0; i < 3; i++)
+        p->W1[i] += back[i];
+}
+
+/* Of frames with a mass by their centres, of the others by themselves. */
+void conserving_rates(conserving *s, const instant *from, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    const carried *all = s->of.masses;
+    for (int i = 0, k = 0; i < m->first_release; i++) {
+        const carried_mass plain = {.frame = i};
+        const int *at = m->vertex[i].coordinate;
+        while (k < all->masses && all->mass[k].frame < i)
+            k++;
+        const carried_mass *one =
+            k < all->masses && all->mass[k].frame == i ? &all->mass[k] : &plain;
+        if (m->vertex[i].body != i)
+            continue;
+        carried_step p;
+        double w[3], turned[3];
+        carried_step_of(s, from, to->state, h, one, &p);
+        without_inertia(one, one == &plain ? NULL : s->massless + (size_t)(9 * k), &p);
+        mat3_mul_vec(p.R1, p.W1, w);
+        vec3_cross(w, p.after, turned);
+        for (int c = 0; c < 3; c++) {
+            if (at[c] != NONE && at[c] < m->free)
+                to->v[at[c]] = p.v1[c] - turned[c];
+            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free && m->vertex[i].angles == 0)
+                to->v[at[SCENE_RX + c]] = p.W1[c];
+        }
+        angle_rate(m, i, to, w);
+    }
+    for (int i = 0; i < m->warps; i++) {
+        const int c = m->warp[i].coordinate;
+        const double mean = s->step[c] / h;
+        to->v[c] = all->warping[c] > 0 ? 2 * mean - from->v[c] : mean;
+    }
+    released_rates(s, h, to);
+    for (int c = 0; c < s->free; c++)
+        to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
+}
