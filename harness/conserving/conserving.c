@@ -91,7 +91,11 @@ static status iterate(conserving *s, const instant *from, double h, instant *to,
                                       .incompatibility = record->incompatibility};
         TRY(history_add_iteration(s->of.c->result, record, &one, NAN, f));
         if (arrival_reached(&s->arrival) && iteration > 2)
-            return STATUS_OK;
+            return s->wild ? fault_set(f, STATUS_NOT_CONVERGED,
+                                       "strains change too much in the step to %g s to keep "
+                                       "energy: take a shorter one",
+                                       time)
+                           : STATUS_OK;
         if (!isfinite(correction) || correction > 4 * wild || (iteration > 3 && correction > wild))
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "Newton diverged at %g s: correction %.1e in iteration %d", time,

@@ -75,7 +75,7 @@ static void add_scalar(conserving *s, const double J[], evaluation *v)
     double Wd[M], Cd[M], k_e[M], k_d[M];
     memset(v->column, 0, sizeof v->column);
     memset(v->row, 0, sizeof v->row);
-    if (s->k == 0 || s->denominator <= 0)
+    if (s->k == 0)
         return;
     dense_mul_vec(strains, strains, of->W, of->d, Wd);
     dense_mul_vec(strains, strains, of->C, of->d, Cd);

@@ -133,11 +133,22 @@ static status stress_spring(conserving *s, const instant *from, model_state *now
     return STATUS_OK;
 }
 
+/* At the begin [J]. */
+static double size_of_energy(const conserving *s, const instant *from)
+{
+    inertia_balance moving;
+    inertia_of(s->of.c->model, s->of.masses, from->state, from->v, &moving);
+    double sum = moving.kinetic;
+    for (int i = 0; i < deformable_count(s); i++)
+        sum += fabs(s->energy[i]);
+    return sum;
+}
+
 status conserving_stresses(conserving *s, const instant *from, model_state *now, int iteration,
                            fault *f)
 {
     const model *m = s->of.c->model;
-    const double wild = 0.3, nothing = 1e-16;
+    const double wild = 0.3, nothing = 1e-16, rounding = 1e-12;
     scalar_parts sum = {0, 0, 0};
     s->largest = 0;
     for (int i = 0; i < m->elements;) {
@@ -148,8 +159,12 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
     for (int i = m->elements; i < deformable_count(s); i++)
         TRY(stress_spring(s, from, now, i, &sum, f));
     s->denominator = sum.square;
-    s->k = sum.square > nothing * sum.size && iteration > 2 ? sum.lacking / sum.square : 0;
-    if (fabs(s->k) > wild)
+    const int moves = fabs(sum.square) > nothing * fabs(sum.size);
+    s->k = moves && iteration > 2 ? sum.lacking / sum.square : 0;
+    s->wild = 0;
+    if (fabs(s->k) > wild) {
+        s->wild = fabs(sum.lacking) > rounding * size_of_energy(s, from);
         s->k = 0;
+    }
     return STATUS_OK;
 }
