@@ -22,11 +22,7 @@ typedef struct look {
 static const look looks[] = {
     {.name = "sheet", .kind = SECTION_RECTANGLE, .h = 1e-3, .speed = 2, .spin = 32},
     {.name = "channel", .kind = SECTION_WALLS, .h = 2e-4, .speed = 2, .spin = 32},
-    {.name = "arc",
-     .kind = SECTION_RECTANGLE,
-     .curvature = {0, 0, 1.1},
-     .h = 2.5e-4,
-     .speed = 0.3},
+    {.name = "arc", .kind = SECTION_RECTANGLE, .curvature = {0, 0, 1.1}, .h = 2.5e-4, .speed = 0.3},
     {.name = "two sections",
      .kind = SECTION_RECTANGLE,
      .tapers = 1,

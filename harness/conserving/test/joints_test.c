@@ -1,5 +1,6 @@
-/* Two bars joined in every way that a scene knows, thrown and then left alone: energy stays, and
- * so do both momenta where nothing is held. */
+/* Two bars joined in every way that a scene knows, thrown by a force that follows and a moment that
+ * does not, and then left alone: energy is the work of these, and stays, and so do both momenta
+ * where nothing is held. */
 #include <stdio.h>
 
 #include "cases/shared/timed.h"
@@ -56,6 +57,8 @@ static void add_motion(scene *s, int loaded)
         .scheme = SCENE_CONSERVING, .alpha = scene_alpha_of_radius(0.9), .step = 0.05};
     const int loads[] = {scene_add_load(s, SCENE_FORCE, loaded, 0.1, 0.02, 0),
                          scene_add_load(s, SCENE_MOMENT, loaded, 0, 1, 0.5)};
+    scene_load_at(s, loads[0])->follower = 1;
+    scene_load_at(s, loads[0])->at[1] = 0.4;
     for (int i = 0; i < 2; i++) {
         scene_load_piece(s, loads[i], 0.5, "80*t");
         scene_load_piece(s, loads[i], 1, "80 - 80*t");
@@ -123,11 +126,13 @@ static void fly(const char *with, double h)
 {
     flight f;
     changes most = {0, 0, 0};
-    double energy = 0;
+    double energy = 0, gained = 0;
     inertia_balance before = {0};
     status outcome = flight_begin(&f, build, with, 2);
+    const double begin = outcome == STATUS_OK ? flight_energy(&f) : 0;
     for (int i = 0; i < 100 && outcome == STATUS_OK; i++) {
         outcome = flight_step(&f, h);
+        gained = fmax(gained, fabs(flight_energy(&f) - begin - f.now.work));
         if (i * h <= 1.001) {
             energy = flight_energy(&f);
             before = flight_inertia(&f);
@@ -139,6 +144,8 @@ static void fly(const char *with, double h)
              f.why.text);
     gsl_test(!(most.energy < 1e-12), "%s, %s, EA x %g: energy stays: %.1e", present->name, with,
              stiffening, most.energy);
+    gsl_test(!(gained < 1e-12 * energy), "%s, %s, EA x %g: energy is work, but for %.1e of %g J",
+             present->name, with, stiffening, gained, energy);
     if (!present->ground && !present->hinge)
         gsl_test(!(most.angular < 1e-12 && most.momentum < 1e-12),
                  "%s, %s, EA x %g: momenta stay: %.1e %.1e", present->name, with, stiffening,
