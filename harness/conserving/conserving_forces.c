@@ -37,10 +37,13 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
         of->gap_d[k] = d[k] - of->d[k];
         largest = fmax(largest, fabs(of->gap_e[k]) / of->length);
     }
+    memcpy(sigma, v->middle, (size_t)of->strains * sizeof *sigma);
+    if (s->settled)
+        return largest;
     dense_mul_vec(of->strains, of->strains, of->C, of->gap_e, C_e);
     dense_mul_vec(of->strains, of->strains, of->W, of->gap_d, W_d);
     for (int k = 0; k < of->strains; k++)
-        sigma[k] = v->middle[k] + C_e[k] / 2 + s->k * W_d[k];
+        sigma[k] += C_e[k] / 2 + s->k * W_d[k];
     if (of->S != NULL) {
         dense_mul_vec(of->strains, of->strains, of->S, of->gap_d, W_d);
         for (int k = 0; k < of->strains; k++)

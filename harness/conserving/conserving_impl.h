@@ -33,6 +33,7 @@ typedef struct conserving {
     evaluation *evaluation;         /* [CHUNK_MOST] work space */
     double h;                       /* [s] of the step */
     double k, denominator, missing; /* missing: of sum k_e . gap_e + k_d . gap_d */
+    int settled;                    /* 1: what is left of gaps is rounding, no stresses */
     int wild;                       /* 1: k was too large to be used */
     double largest, change;         /* stresses */
     arrival arrival;

@@ -58,7 +58,9 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
         double *held = s->dx;
         memcpy(held, s->residual, bytes);
         TRY(conserving_stresses(s, from, to->state, behind, f));
+        s->settled = 1;
         conserving_forces(s, from, to->state, &ignored);
+        s->settled = 0;
         conserving_inertia(s, from, to->state, h);
         for (int c = s->free; c < s->all; c++)
             held[c] -= s->residual[c];

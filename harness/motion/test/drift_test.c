@@ -30,7 +30,7 @@ static const struct {
     const case_type *type;
     double step, end, conserving;
 } motion[] = {{&case_free_flight_space, 0.05, 6, 1e-13},
-              {&case_spin_up, 0.05, 4, 1e-12},
+              {&case_spin_up, 0.05, 4, 1e-13},
               {&case_elbow, 0.125, 5, 1e-13},
               {&case_pendulum, 0.005, 0.5, 1e-13}};
 
