@@ -88,6 +88,7 @@ void place_add(conserving *s, const model_state *from, const model_state *now, i
             continue;
         out[index[i]] += forces[i];
         for (int j = 0; j < n; j++)
-            assemble_subtract(&s->S, index[i], index[j], -all[i * n + j]);
+            if (all[i * n + j] != 0)
+                assemble_subtract(&s->S, index[i], index[j], -all[i * n + j]);
     }
 }
