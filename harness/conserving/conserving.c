@@ -120,7 +120,9 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     conserving_increment(s, from->state, inc);
     increment_apply(m, from->state, inc, record->path, to->state);
     TRY(conserving_begin(s, from, f));
+    instant_recall(from, &s->arrival);
     TRY(iterate(s, from, h, to, inc, record, f));
+    instant_remember(&s->arrival, to);
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
     drive_at(m, from->state, record->path, NULL, to->v, to->a);

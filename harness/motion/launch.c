@@ -141,11 +141,13 @@ static status settle(stage *s, int massless, double h, instant *now, instant *ro
     instant_copy(m, now, room);
     drive_at(m, now->state, now->time, inc, room->v, room->a);
     TRY(check_drivers(m, inc, f));
+    instant_recall(now, &s->arrival);
     TRY(stage_solve(s, now->state, now->time, &r, room->state, &record, f));
     history_drop_step(s->c->result, &record);
     if (massless == 0) /* nothing moves but by what was given way */
         kinematics_state_copy(m, now->state, room->state);
     memcpy(room->algorithm, room->a, (size_t)s->all * sizeof *room->a);
+    instant_remember(&s->arrival, room);
     instant_copy(m, room, now);
     return STATUS_OK;
 }

@@ -106,7 +106,9 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
         increment_apply(m, from->state, one->inc, time, one->state);
     }
     radau_rates(r, from, h);
+    instant_recall(from, &r->arrival);
     TRY(iterate(r, from, h, record, f));
+    instant_remember(&r->arrival, to);
     const radau_stage *last = &r->stage[STAGES - 1];
     if (r->of.estimate)
         TRY(radau_error(r, from, h, to, error, f));

@@ -115,7 +115,9 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     drive_at(m, from->state, time, s->inc, to->v, to->a);
     kinematics_state_copy(m, from->state, to->state);
     relate_strains(s, from, h, to);
+    instant_recall(from, &s->stage.arrival);
     TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
+    instant_remember(&s->stage.arrival, to);
     TRY(check_turns(s, time, f));
     for (int i = 0; i < s->stage.all; i++)
         to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);

@@ -1,5 +1,6 @@
 #include "harness/scheme/instant.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ status instant_alloc(const model *m, instant *out, fault *f)
 {
     const size_t n = coordinates_of(m) + 1;
     memset(out, 0, sizeof *out);
+    out->contraction = NAN;
     out->v = calloc(n, sizeof *out->v);
     out->a = calloc(n, sizeof *out->a);
     out->algorithm = calloc(n, sizeof *out->algorithm);
@@ -51,10 +53,24 @@ void instant_copy(const model *m, const instant *from, instant *to)
     to->time = from->time;
     to->work = from->work;
     to->dissipated = from->dissipated;
+    to->stress = from->stress;
+    to->contraction = from->contraction;
     memcpy(to->v, from->v, bytes);
     memcpy(to->a, from->a, bytes);
     memcpy(to->algorithm, from->algorithm, bytes);
     if (from->strain != NULL)
         memcpy(to->strain, from->strain, 2 * strains_of(m) * sizeof *to->strain);
     kinematics_state_copy(m, from->state, to->state);
+}
+
+void instant_recall(const instant *from, arrival *a)
+{
+    a->stress = from->stress;
+    a->contraction = from->contraction;
+}
+
+void instant_remember(const arrival *a, instant *to)
+{
+    to->stress = a->stress;
+    to->contraction = a->contraction;
 }

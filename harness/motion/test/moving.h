@@ -25,14 +25,14 @@ static inline void moving_case(const case_type *type, const char *parameters, sc
 }
 
 /* A motion to `end` [s] with stations at equal distances. */
-static inline int moving_add(scene *s, scene_scheme scheme, double step, double end)
+static inline int moving_add(scene *s, scene_scheme by, double step, double end)
 {
     double path[MOVING_STATIONS];
     for (int i = 0; i < MOVING_STATIONS; i++)
         path[i] = end * (i + 1) / MOVING_STATIONS;
     return scene_add_motion(
         s, SCENE_NONE, MOVING_STATIONS, path,
-        (scene_motion){.scheme = scheme, .alpha = scene_alpha_of_radius(0.9), .step = step});
+        (scene_motion){.scheme = by, .alpha = scene_alpha_of_radius(0.9), .step = step});
 }
 
 /* NAME_max and NAME_min of the stations. */
