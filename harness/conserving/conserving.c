@@ -189,7 +189,7 @@ static status allocate(conserving *s, fault *f)
     s->massless = s->spring + (size_t)(3 * SPRING_STRAINS * m->springs);
     TRY(conserving_massless(s, f));
     metric_of(m, s->weight);
-    TRY(assemble_pattern(m, 0, &pattern, f));
+    TRY(assemble_pattern_in_time(m, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
 }

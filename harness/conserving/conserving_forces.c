@@ -157,7 +157,7 @@ static void add(conserving *s, evaluation *v)
     if (v->of.spring != NULL)
         assemble_discrete(el, v->K, &s->S);
     else
-        assemble_matrix(&m->pattern[0], v->of.index, v->K, &s->S);
+        assemble_matrix(assemble_of(m, &s->S), v->of.index, v->K, &s->S);
     for (int k = 0; k < el->columns; k++)
         v->force[k] = -v->force[k];
     assemble_vector(el, v->force, s->residual);

@@ -13,9 +13,9 @@
 #include "harness/equations/linear_springs.h"
 #include "harness/equations/undeformed.h"
 
-static mesh_pattern *pattern_of(model *m, const sparse *a)
+static const mesh_pattern *pattern_of(model *m, const sparse *a)
 {
-    return &m->pattern[a->row == m->pattern[1].matrix.row];
+    return assemble_of(m, a);
 }
 
 static status stiffness_elements(model *m, sparse *K, fault *f)

@@ -236,15 +236,14 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
 {
     element_part own;
     const int window = window_of(m);
-    shared_loop loop = {
-        .m = m,
-        .s = s,
-        .lin = lin,
-        .pattern = lin->K == NULL ? NULL : &m->pattern[lin->K->row == m->pattern[1].matrix.row],
-        .tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
-        .window = window > 0 ? window : 1,
-        .part = window > 0 ? m->part : &own,
-        .f = f};
+    shared_loop loop = {.m = m,
+                        .s = s,
+                        .lin = lin,
+                        .pattern = lin->K == NULL ? NULL : assemble_of(m, lin->K),
+                        .tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
+                        .window = window > 0 ? window : 1,
+                        .part = window > 0 ? m->part : &own,
+                        .f = f};
     /* inertia counts its evaluations */
     team *together = window > 0 && !m->rotates ? m->team : NULL;
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);

@@ -50,7 +50,7 @@ status rotating_frame_inertia(model *m, const model_state *state, double path, s
                               fault *f)
 {
     const model_state *s = state != NULL ? state : m->rest;
-    const mesh_pattern *p = &m->pattern[M->row == m->pattern[1].matrix.row];
+    const mesh_pattern *p = assemble_of(m, M);
     double mass[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
         gyroscopic[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
     sparse_zero(M);

@@ -29,7 +29,7 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
 
 status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)
 {
-    const mesh_pattern *p = &m->pattern[G->row == m->pattern[1].matrix.row];
+    const mesh_pattern *p = assemble_of(m, G);
     status outcome = STATUS_OK;
     sparse_zero(G);
     ahead_strains(m, s, AHEAD_H, s->sigma);

@@ -11,16 +11,14 @@
  * loads that follow and of some formulations are not. */
 int assemble_symmetric(const model *m)
 {
-    int moments = 0, nonlinear = 0, moves = 0;
+    int moments = 0, nonlinear = 0;
     for (int i = 0; i < m->scene->loads; i++)
         moments |= scene_load_unsymmetric(&m->scene->load[i]);
     for (int i = 0; i < m->scene->analyses; i++)
         nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC ||
                      m->scene->analysis[i].kind == SCENE_CONTINUATION ||
                      m->scene->analysis[i].kind == SCENE_ROTATION;
-    for (int i = 0; i < m->scene->analyses; i++)
-        moves |= m->scene->analysis[i].kind == SCENE_MOTION;
-    return !moves && !(nonlinear && moments);
+    return !(nonlinear && moments);
 }
 
 /* Is the pair stored, and at which row and column? */
@@ -225,19 +223,39 @@ static status fill_pattern(const model *m, mesh_pattern *p, fault *f)
     return find_places(m, p, f);
 }
 
-status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
+enum { FREE, WITH_DRIVEN, IN_TIME };
+
+static status make(model *m, int which, int symmetric, const sparse **out, fault *f)
 {
-    mesh_pattern *p = &m->pattern[with_driven];
+    mesh_pattern *p = &m->pattern[which];
     *out = &p->matrix;
     if (p->made)
         return STATUS_OK;
-    p->matrix.n = with_driven ? m->free + m->driven : m->free;
-    p->matrix.symmetric = assemble_symmetric(m);
+    p->matrix.n = which == WITH_DRIVEN ? m->free + m->driven : m->free;
+    p->matrix.symmetric = symmetric;
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
         assemble_pattern_free(p); /* the next analysis tries again */
     return outcome;
+}
+
+status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
+{
+    return make(m, with_driven ? WITH_DRIVEN : FREE, assemble_symmetric(m), out, f);
+}
+
+status assemble_pattern_in_time(model *m, const sparse **out, fault *f)
+{
+    return make(m, IN_TIME, 0, out, f);
+}
+
+const mesh_pattern *assemble_of(const model *m, const sparse *a)
+{
+    for (int i = WITH_DRIVEN; i <= IN_TIME; i++)
+        if (m->pattern[i].made && m->pattern[i].matrix.row == a->row)
+            return &m->pattern[i];
+    return &m->pattern[FREE];
 }
 
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out)

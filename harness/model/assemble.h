@@ -9,5 +9,7 @@
  * loads' tangent is not. */
 int assemble_symmetric(const model *);
 status assemble_pattern(model *, int with_driven, const sparse **out, fault *f);
+/* Free x free and never symmetric: of motions, whose turning masses are not. */
+status assemble_pattern_in_time(model *, const sparse **out, fault *f);
 
 #endif

@@ -150,8 +150,8 @@ struct model {
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
-    double size; /* length of the longest member [m] */
-    mesh_pattern pattern[2];
+    double size;             /* length of the longest member [m] */
+    mesh_pattern pattern[3]; /* free; with driven; free, of motions: assemble.h */
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
     int work_size;
@@ -229,6 +229,8 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
 
 /* assemble.c */
 void assemble_pattern_free(mesh_pattern *p);
+/* That on which a matrix was made. */
+const mesh_pattern *assemble_of(const model *m, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
 /* The same of a discrete element, whose places are looked for. */
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out);

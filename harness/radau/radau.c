@@ -180,7 +180,7 @@ static status allocate(radau *r, fault *f)
     metric_of(r->of.c->model, r->weight);
     for (int i = 0; i < STAGES; i++)
         TRY(allocate_stage(r, &r->stage[i], f));
-    TRY(assemble_pattern(r->of.c->model, 0, &pattern, f));
+    TRY(assemble_pattern_in_time(r->of.c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &r->K, f));
     TRY(stages_alloc(r->of.c->model, r->of.masses, pattern, &r->S, f));
     TRY(factor_alloc(&r->S.whole, &r->factor, f));

@@ -31,7 +31,7 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     s->dx = calloc(all, sizeof *s->dx);
     if (s->residual == NULL || s->dx == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
-    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern_in_time(c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
 }
