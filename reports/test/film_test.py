@@ -199,5 +199,24 @@ class Film(ProgramTest):
         self.assertIn("<svg", ran.stdout)
 
 
+class Genuine(ProgramTest):
+    """Films of motions that are solved here."""
+
+    def test_examples(self):
+        """Frames run from its first to its last instant, and the structure moves."""
+        for name in ("slider_crank", "released_guide", "robot_arm"):
+            results, target = self.folder / f"{name}.h5", self.folder / f"{name}.html"
+            self.answered("solve", "--scene", ROOT / "cases" / "examples" / f"{name}.yaml", "-f",
+                          "collocation", "-n", 1, "--shapes", "-o", results)
+            self.assertEqual(filmed(results, target), 0)
+            s = shapes.read_file(results, name)
+            times = s.value[viewer.frames_of(s)]
+            self.assertGreater(len(times), 15)
+            self.assertTrue((np.diff(times) > 0).all())
+            self.assertIn(f" to {times[-1]:.4g} s", target.read_text(encoding="utf-8"))
+            moved = np.ptp(s.nodes[viewer.frames_of(s)], axis=0).max()
+            self.assertGreater(moved, 0.01 * shapes.size_of(s))
+
+
 if __name__ == "__main__":
     unittest.main()
