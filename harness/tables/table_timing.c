@@ -101,14 +101,29 @@ static void parts_of(FILE *to, const series *one, int mesh)
                 dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
 }
 
+/* Is any part of the iterations known apart from the rest? */
+static int is_parted(const series *one, int mesh)
+{
+    double sum = 0;
+    for (int k = 0; k < PHASE_REST; k++)
+        sum += one->timing[mesh].phase[k];
+    return sum > 0;
+}
+
 static void parts(FILE *to, const sweep *s, int at)
 {
-    int iterative = 0;
+    int iterative = 0, parted = 0;
     for (int i = 0; i < s->seriess; i++)
-        for (int k = 0; k < meshes_run(&s->series[i], at); k++)
+        for (int k = 0; k < meshes_run(&s->series[i], at); k++) {
             iterative |= s->series[i].cell[k].counters.iterations > 0;
+            parted |= is_parted(&s->series[i], k);
+        }
     if (!iterative)
         return;
+    if (!parted) {
+        fputs("  steps of motions are not divided into elements, assembly and factors\n", to);
+        return;
+    }
     fprintf(to, "  %-*s%5s", NAME, "[us] in an iteration", "n");
     for (int k = 0; k < PHASES; k++)
         fprintf(to, " %13s", phase_name((phase)k));

@@ -141,6 +141,8 @@ class MotionTest(SceneCase):
         again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
         self.assertEqual(values(own),
                          values(self.record("solve", "--scene", again, "-f", "beamw", "-n", 2)))
+        timed = self.answered("bench", "--scene", path, "-f", "beamw", "-n", 1).stdout
+        self.assertIn("steps of motions are not divided", timed)
         listed = self.answered("list", "--scene", path).stdout
         self.assertIn("0.5 s after the begin of the motion", re.sub(r"\s+", " ", listed))
 
