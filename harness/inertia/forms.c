@@ -24,6 +24,15 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
+/* Do held turns that are kept as rows leave one axis at most? */
+static int keeps_axis(const model *m, int vertex)
+{
+    int moving = 0;
+    for (int k = 0; k < 3; k++)
+        moving += m->scene->node[vertex].angle[k] != SCENE_HELD;
+    return moving <= 1;
+}
+
 status forms_check(const model *m, fault *f)
 {
     for (int i = 0; i < m->first_release; i++) {
@@ -34,7 +43,8 @@ status forms_check(const model *m, fault *f)
         for (int c = SCENE_RX; c <= SCENE_RZ; c++)
             driven += v->coordinate[c] >= m->free;
         const int turns = turns_of(m, i);
-        if (turns == 2 || (turns == 3 && driven > 0 && v->vector_driver[0] == NONE))
+        const int loose = turns == 3 && driven > 0 && v->vector_driver[0] == NONE;
+        if (turns == 2 || (loose && !keeps_axis(m, i)))
             return fault_set(f, STATUS_REFUSED,
                              "node %d: a motion in time has no angular velocity for %s about fixed "
                              "axes; give its rotation as a sequence of angles or as a vector",
