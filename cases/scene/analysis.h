@@ -99,7 +99,8 @@ typedef struct scene_start {
     double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
 } scene_start;
 
-/* In time, from rest or with `start`; about the last state of the path it follows. */
+/* In time, from rest or with `start`; about the last state of the path it follows, of a motion with
+ * its rates and at its time. */
 typedef struct scene_motion {
     scene_path path; /* instants at which quantities are read [s] */
     scene_scheme scheme;

@@ -112,6 +112,21 @@ void scene_set_at(scene_quantity *q, double at)
     q->at = at;
 }
 
+void scene_set_passing(scene_quantity *q, scene_reduction reduction, scene_passing what)
+{
+    q->reduction = reduction;
+    q->passing = what;
+}
+
+int scene_is_passed(const scene_quantity *q, scene_analysis_kind analysis)
+{
+    const scene_quantity_kind kind = q->what.kind;
+    return analysis == SCENE_MOTION &&
+           (q->reduction > SCENE_CURVE || q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) &&
+           (kind == SCENE_COORDINATE || kind == SCENE_RATE || kind == SCENE_RELATIVE ||
+            kind == SCENE_ORIENTATION || kind == SCENE_DRIVER_VALUE);
+}
+
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant)
 {
     return (scene_extract){SCENE_INTERNAL,

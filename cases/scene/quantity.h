@@ -44,8 +44,29 @@ typedef enum scene_reduction {
     SCENE_MAX,
     SCENE_MIN,
     SCENE_AT,
-    SCENE_CURVE
+    SCENE_CURVE,
+    /* of a motion, wherever its stations lie: places and rates only */
+    SCENE_MAX_TIME,   /* when the largest value is met [s] */
+    SCENE_MIN_TIME,   /* when the least one is [s] */
+    SCENE_CROSSING,   /* when a level is passed [s] */
+    SCENE_PERIOD,     /* from one crossing to the next of its direction, mean of all [s] */
+    SCENE_PER_SECOND, /* one by that [Hz] */
+    SCENE_MEAN,       /* over time */
+    SCENE_REDUCTIONS
 } scene_reduction;
+
+/* Which way a level is passed. */
+typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
+#define SCENE_DIRECTION_CHOICES "rising|falling|either"
+#define SCENE_TAKE_CHOICES      "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean"
+
+/* What of a motion a value is taken of. */
+typedef struct scene_passing {
+    double level; /* as extracted, in SI units */
+    scene_direction direction;
+    int order;          /* among the crossings of that direction, from 0 */
+    double from, until; /* [s] window; until 0: to the end */
+} scene_passing;
 
 typedef struct scene_component {
     int node, component; /* SCENE_UX .. SCENE_RZ */
@@ -213,6 +234,7 @@ typedef struct scene_quantity {
     scene_extract what;
     scene_reduction reduction; /* of the stations of a path */
     double at;                 /* path parameter or control coordinate, of SCENE_AT */
+    scene_passing passing;     /* of a motion */
     scene_abscissa x;          /* of a curve */
     double factor, offset;     /* reported value = factor * extracted value + offset */
     double near_zero;   /* absolute scale for relative errors of values near zero; 0: |value| */
@@ -231,6 +253,10 @@ void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, 
                      double offset);
 /* At one value of the path parameter or the control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
+/* Of a motion, of its whole time: SCENE_MAX_TIME to SCENE_MEAN, SCENE_MAX, SCENE_MIN. */
+void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
+/* Is it read between the stations of a motion? */
+int scene_is_passed(const scene_quantity *q, scene_analysis_kind);
 
 const scene_component *scene_component_of(const scene_quantity *q);
 const scene_entry *scene_entry_of(const scene_quantity *q);

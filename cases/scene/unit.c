@@ -186,7 +186,9 @@ static int power_of(const scene *s, const scene_quantity *q)
 
 static void scale_quantity(const scene *s, scene_quantity *q, double x)
 {
-    q->factor *= pow(x, -power_of(s, q));
+    const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
+    q->factor *= times ? 1 : pow(x, -power_of(s, q));
+    q->passing.level *= pow(x, power_of(s, q));
     if (q->analysis >= 0 && q->analysis < s->analyses &&
         s->analysis[q->analysis].kind == SCENE_CONTINUATION)
         q->at *= x;

@@ -62,15 +62,37 @@ static int has_mass(const scene *s)
     return 0;
 }
 
+/* What goes on from a motion has its clock and its rates. */
+static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    const scene_path *before = scene_path_of(&s->analysis[a->follows]);
+    const scene_start *start = &scene_motion_of(a)->start;
+    for (int k = 0; k < 3; k++)
+        if (start->velocity[k] != 0 || start->spin[k] != 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "analysis %d: it goes on from a motion, with the velocities of that; "
+                             "leave its start out",
+                             i);
+    if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: it goes on from a motion that ends at %g s, and time goes "
+                         "on, too; let its first instant be there or later",
+                         i, before->value[before->stations - 1]);
+    return STATUS_OK;
+}
+
 static status check_follows(const scene *s, int i, fault *f)
 {
     const int follows = s->analysis[i].follows;
     if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC &&
-        s->analysis[follows].kind != SCENE_ROTATION)
+        s->analysis[follows].kind != SCENE_ROTATION && s->analysis[follows].kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a motion starts from the last state of a static path or a "
-                         "rotation, and what it follows is %s; follow one of these, or nothing",
+                         "analysis %d: a motion starts from the last state of a static path, a "
+                         "rotation or a motion, and what it follows is %s; follow one of these, "
+                         "or nothing",
                          i, scene_analysis_name(s->analysis[follows].kind));
+    if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
+        TRY(check_resumed(s, &s->analysis[i], i, f));
     if (!has_mass(s))
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: nothing in it has a mass; give a section a density or a "

@@ -205,6 +205,36 @@ static status check_extract(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
+/* Only places and rates are followed between the stations of a motion. */
+static status check_passing(const scene *s, const scene_quantity *q, fault *f)
+{
+    const scene_analysis *a = &s->analysis[q->analysis];
+    const scene_passing *p = &q->passing;
+    if (q->reduction < SCENE_LAST || q->reduction >= SCENE_REDUCTIONS)
+        return fault_set(f, STATUS_REFUSED, "quantity %s: no such reduction", q->name);
+    if (q->reduction > SCENE_CURVE && a->kind != SCENE_MOTION)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: times, crossings and means are those of a motion in time; "
+                         "name one, or ask for a station or a curve",
+                         q->name);
+    if (q->reduction > SCENE_CURVE && !scene_is_passed(q, a->kind))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: only places and rates are followed between stations; ask "
+                         "for its largest or least value at stations, or for a curve",
+                         q->name);
+    if (!scene_is_passed(q, a->kind))
+        return STATUS_OK;
+    if (!isfinite(p->level) || p->order < 0 || p->direction < SCENE_RISING ||
+        p->direction > SCENE_EITHER || !(p->from >= 0) || !isfinite(p->until) ||
+        (p->until != 0 && !(p->until > p->from)))
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its window from %g to %g s, or its crossing, is none; give "
+                         "a finite level, rising, falling or either, and a window that begins at "
+                         "0 s or later and ends behind that",
+                         q->name, p->from, p->until);
+    return STATUS_OK;
+}
+
 status scene_validate_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];
@@ -219,5 +249,6 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: an analysis of this kind does not have it; name another one",
                          q->name);
+    TRY(check_passing(s, q, f));
     return check_extract(s, q, f);
 }

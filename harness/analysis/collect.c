@@ -17,6 +17,8 @@ static int least(int a, int b)
 /* States of one analysis that are kept; most: of a path. */
 static int count_of(const analysis_outcome *o, int most)
 {
+    if (o->kind == SCENE_MOTION)
+        return outcome_motion_of(o)->frames.reached;
     if (outcome_has_path(o))
         return outcome_path_of(o)->state != NULL ? least(outcome_path_of(o)->reached, most) : 0;
     if (!outcome_has_spectrum(o))
@@ -44,6 +46,13 @@ static void keep_path(const analysis_context *c, int analysis, int most, shapes 
         const int at = count > 1 ? (int)((long)i * (o->reached - 1) / (count - 1)) : o->reached - 1;
         keep(c, s, &(shape_state){SHAPE_PATH, analysis, o->value[at], 1}, o->state[at]);
     }
+}
+
+static void keep_motion(const analysis_context *c, int analysis, shapes *s)
+{
+    const outcome_path *o = &outcome_motion_of(&c->outcomes[analysis])->frames;
+    for (int i = 0; i < o->reached; i++)
+        keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
 /* x[free + driven]; the state the analysis is about is the last of the path it follows. */
@@ -124,7 +133,9 @@ static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
     keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(c->model));
     for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
-        if (outcome_has_path(o)) {
+        if (o->kind == SCENE_MOTION) {
+            keep_motion(c, i, s);
+        } else if (outcome_has_path(o)) {
             keep_path(c, i, most, s);
         } else if (outcome_has_spectrum(o)) {
             TRY(keep_modes(c, i, &outcome_spectrum_of(o)->positive, s, f));

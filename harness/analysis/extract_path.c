@@ -221,9 +221,34 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
+/* Of a motion, between its stations. A crossing stays what it is though the motion stops later. */
+static void extract_passing(const analysis_context *c, const scene_quantity *q,
+                            const analysis_outcome *o, quantity_result *r)
+{
+    const outcome_motion *m = outcome_motion_of(o);
+    const outcome_passing *found = m->passing != NULL ? &m->passing[q - c->scene->quantity] : NULL;
+    const int known = found != NULL && found->known;
+    if (o->status != STATUS_OK && !(known && q->reduction == SCENE_CROSSING)) {
+        path_ends(c, q, o, r);
+    } else if (!known) {
+        quantity_no_value(r, STATUS_NO_VALUE,
+                          q->reduction >= SCENE_CROSSING && q->reduction <= SCENE_PER_SECOND
+                              ? "the motion does not cross the level so often in that time"
+                              : "no part of the motion lies in that time");
+    } else {
+        r->value = quantity_scaled(q, found->value);
+        r->x = quantity_abscissa(q, found->time);
+        r->rounding = r->value != 0 ? fabs(q->factor * found->error / r->value) : 0;
+    }
+}
+
 void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                   quantity_result *r)
 {
+    if (scene_is_passed(q, o->kind)) {
+        extract_passing(c, q, o, r);
+        return;
+    }
     const outcome_path *p = outcome_path_of(o);
     const int complete = p->reached == p->stations;
     int chosen = -1;

@@ -35,7 +35,9 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, threshold)},
     {"shapes", 'P', "STATES",
      "store centre lines, sections and resultants of at most so many states of a path (solve: all, "
-     "and -o FILE becomes HDF5 for ParaView; verify: 5)",
+     "and -o FILE becomes HDF5 for ParaView; verify: 5), and as many frames of a motion, evenly "
+     "over "
+     "its time (60 where it is left out or at most 5)",
      0},
     {"follow", 'V', "NAME=A..B/N",
      "modes over a parameter, in N equal parts or smaller ones: matched by their shapes, so that "

@@ -8,9 +8,12 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/balance.h"
+#include "harness/motion/frames.h"
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"
+#include "harness/motion/resume.h"
 #include "harness/motion/stations.h"
+#include "harness/motion/watches.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
@@ -34,6 +37,8 @@ typedef struct motion {
     instant now, next;
     double h, least; /* [s] next step; the shortest */
     stations stations;
+    watches watches;
+    frames frames;
     outcome_motion *out;
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
     int looked_ahead;                                      /* 1: ahead is known */
@@ -41,10 +46,18 @@ typedef struct motion {
     int quiet; /* steps since what acts was last smooth no longer */
 } motion;
 
+/* Does it go on from where another motion stopped? */
+static int goes_on(const motion *w)
+{
+    return w->follows != SCENE_NONE && w->c->scene->analysis[w->follows].kind == SCENE_MOTION;
+}
+
 static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
 {
     TRY(balance_of(w->c->model, &w->masses, at, balance, f));
-    balance[SCENE_DRIFT] -= (w->out->steps > 0 ? w->out->step[0].balance : balance)[SCENE_ENERGY];
+    if (w->out->steps == 0 && !goes_on(w))
+        w->out->origin = balance[SCENE_ENERGY];
+    balance[SCENE_DRIFT] -= w->out->origin;
     return STATUS_OK;
 }
 
@@ -62,7 +75,7 @@ static status record_step(motion *w, const step_record *record, double error, fa
         TRY(balance_at(w, &w->now, w->balance, f));
     w->looked_ahead = 0;
     w->largest = fmax(w->largest, w->balance[SCENE_ENERGY]);
-    w->quiet++;
+    w->quiet += w->out->steps > 0 || !goes_on(w);
     memcpy(one.balance, w->balance, sizeof one.balance);
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
@@ -72,6 +85,8 @@ static status keep_step(motion *w, const step_record *record, double error, faul
     TRY(history_add_step(w->c->result, record, f));
     model_counters(w->c->model)->steps++;
     TRY(stations_inside(&w->stations, &w->now, &w->next, f));
+    TRY(watches_step(&w->watches, &w->now, &w->next, f));
+    TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
     instant_copy(w->c->model, &w->next, &w->now);
     return record_step(w, record, error, f);
 }
@@ -153,9 +168,9 @@ static status integrate(motion *w, fault *f)
 {
     const scene_path *path = &w->how->path;
     const double end = path->value[path->stations - 1];
-    w->h = w->how->step;
     w->least = w->how->step / (w->c->options->whole_steps ? 1 : 1 << MAX_HALVINGS);
     TRY(stations_here(&w->stations, &w->now, w->balance, f));
+    TRY(frames_begin(&w->frames, &w->now, f));
     while (w->now.time < end) {
         const double kink = kinks_next(w->c->model, w->now.time);
         TRY(take_step(w, fmin(end, kink), f));
@@ -164,7 +179,24 @@ static status integrate(motion *w, fault *f)
             TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
         TRY(stations_here(&w->stations, &w->now, w->balance, f));
     }
-    return STATUS_OK;
+    return resume_keep(w->c, w->analysis, &w->now, &(resume_control){w->h, w->largest, w->quiet},
+                       w->out, f);
+}
+
+/* Where the motion before it stopped. */
+static status go_on(motion *w, fault *f)
+{
+    const scene_motion *former = scene_motion_of(&w->c->scene->analysis[w->follows]);
+    resume_control control;
+    TRY(resume_take(w->c, w->follows, &w->now, &control, f));
+    w->out->origin = outcome_motion_of(&w->c->outcomes[w->follows])->origin;
+    if (former->step == w->how->step && former->tolerance == w->how->tolerance)
+        w->h = control.step;
+    w->largest = control.largest;
+    w->quiet = control.quiet;
+    return former->scheme != w->how->scheme
+               ? launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f)
+               : STATUS_OK;
 }
 
 /* The state that the motion starts from, at time 0, and how the axes turn that it is at rest in. */
@@ -172,8 +204,9 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
     memset(frame, 0, sizeof *frame);
-    if (follows == SCENE_NONE)
-        return STATUS_OK;
+    w->h = w->how->step;
+    if (follows == SCENE_NONE || goes_on(w))
+        return follows == SCENE_NONE ? STATUS_OK : go_on(w, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
     if (before->status != STATUS_OK || path->reached < path->stations)
@@ -239,10 +272,18 @@ static status solve(motion *w, fault *f)
                              .masses = &w->masses,
                              .scheme = w->scheme,
                              .out = w->out};
+    w->watches = (watches){.c = w->c, .analysis = w->analysis, .scheme = w->scheme, .out = w->out};
     TRY(stations_alloc(&w->stations, f));
+    TRY(watches_alloc(&w->watches, f));
     TRY(begin(w, &frame, f));
+    w->frames = (frames){.m = m,
+                         .to = &w->out->frames,
+                         .begin = w->now.time,
+                         .end = w->how->path.value[w->how->path.stations - 1]};
+    TRY(frames_alloc(&w->frames, shapes_frames(w->c->options->shapes), f));
     TRY(check_massless(w, f));
-    TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
+    if (!goes_on(w))
+        TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
     return integrate(w, f);
 }
@@ -261,7 +302,10 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
         result = STATUS_FAULT;
     instant_free(&w.now);
     instant_free(&w.next);
+    watches_end(&w.watches);
     stations_free(&w.stations);
+    watches_free(&w.watches);
+    frames_free(&w.frames);
     integrator_free(w.scheme);
     carried_free(&w.masses);
     work_free(&w.work);

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "harness/model/kinematics.h"
+#include "harness/motion/aside.h"
 #include "harness/motion/balance.h"
-#include "harness/solver/history.h"
 
 /* Of a step: nearer than that to its end is at its end. */
 static const double same_instant = 1e-9;
@@ -73,15 +73,10 @@ static int reads_forces(const stations *s, double time)
 /* A step of its own from where the motion's began. */
 static status step_to(stations *s, const instant *from, double time, fault *f)
 {
-    double balance[SCENE_BALANCES], error = 0;
-    step_record record = {.path = time, .increment = time - from->time};
-    const status outcome =
-        s->scheme->step(s->scheme, from, time - from->time, &s->at, &error, &record, f);
-    history_drop_step(s->c->result, &record);
-    TRY(outcome);
-    s->at.time = time;
+    double balance[SCENE_BALANCES];
+    TRY(aside_step(s->c, s->scheme, from, time, &s->at, f));
     TRY(balance_of(s->c->model, s->masses, &s->at, balance, f));
-    balance[SCENE_DRIFT] -= s->out->step[0].balance[SCENE_ENERGY];
+    balance[SCENE_DRIFT] -= s->out->origin;
     return keep(s, &s->at, balance, f);
 }
 

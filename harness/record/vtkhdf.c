@@ -40,15 +40,19 @@ static void count(grid *g)
     }
 }
 
-/* A path is a history; without one, solutions and modes are its steps. */
+/* A motion is a history, or else a path; without one, solutions and modes are its steps. */
 static void choose_states(grid *g)
 {
-    int paths = 0;
-    for (int i = 0; i < g->shapes->states; i++)
+    int paths = 0, frames = 0;
+    for (int i = 0; i < g->shapes->states; i++) {
         paths += g->shapes->state[i].kind == SHAPE_PATH;
+        frames += g->shapes->state[i].kind == SHAPE_MOTION;
+    }
     for (int i = 0; i < g->shapes->states; i++) {
         const shape_kind kind = g->shapes->state[i].kind;
-        if (paths == 0 || kind == SHAPE_PATH || (kind == SHAPE_UNDEFORMED && paths > 1))
+        if (frames > 0
+                ? kind == SHAPE_MOTION
+                : paths == 0 || kind == SHAPE_PATH || (kind == SHAPE_UNDEFORMED && paths > 1))
             g->state[g->states++] = i;
     }
 }
@@ -196,7 +200,8 @@ static void put_steps(record *r, hid_t at, const grid *g)
     const hsize_t size = (hsize_t)g->states;
     double *value = calloc((size_t)g->states + 1, sizeof *value);
     r->bad |= value == NULL;
-    const int path = g->shapes->state[g->state[g->states - 1]].kind == SHAPE_PATH;
+    const shape_kind kind = g->shapes->state[g->state[g->states - 1]].kind;
+    const int path = kind == SHAPE_PATH || kind == SHAPE_MOTION;
     if (value != NULL)
         for (int i = 0; i < g->states; i++)
             value[i] = path ? g->shapes->state[g->state[i]].value : i;

@@ -202,6 +202,10 @@ enum { KINDS = sizeof kinds / sizeof kinds[0] };
 /* Unit of a value where the file gives none. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
+    if (q->reduction == SCENE_PER_SECOND)
+        return "Hz";
+    if (q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN)
+        return "s";
     switch (q->what.kind) {
     case SCENE_COORDINATE:
         return scene_component_of(q)->component <= SCENE_UZ ? "m" : "rad";
@@ -267,8 +271,10 @@ static void read_abscissa(const fields *f, scene_quantity *q)
 /* Which stations: `at` a value, or last, max, min, curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
-    static const scene_reduction taken[] = {SCENE_LAST, SCENE_MAX, SCENE_MIN, SCENE_CURVE};
-    q->reduction = taken[fields_word(what, "take", "last|max|min|curve", 0)];
+    static const scene_reduction taken[] = {
+        SCENE_LAST,     SCENE_MAX,      SCENE_MIN,    SCENE_CURVE,      SCENE_MAX_TIME,
+        SCENE_MIN_TIME, SCENE_CROSSING, SCENE_PERIOD, SCENE_PER_SECOND, SCENE_MEAN};
+    q->reduction = taken[fields_word(what, "take", SCENE_TAKE_CHOICES, 0)];
     if (fields_have(what, "at"))
         scene_set_at(q, fields_number(what, "at", 0));
     if (q->reduction == SCENE_CURVE)
@@ -276,6 +282,20 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
     else if (fields_have(entry, "x"))
         document_mistake(entry->b->mistakes, document_find(entry->map, "x"), 0,
                          "an abscissa is of a curve; add take: curve, or leave it out");
+}
+
+/* Which crossing of a motion, and in which window. */
+static void read_passing(const fields *entry, scene_quantity *q)
+{
+    const fields f = fields_below(entry, "when");
+    if (f.map == NULL)
+        return;
+    q->passing = (scene_passing){
+        .level = fields_number(&f, "level", 0),
+        .direction = (scene_direction)fields_word(&f, "direction", SCENE_DIRECTION_CHOICES, 0),
+        .order = fields_whole(&f, "which", 0, 0, MOST_ORDER),
+        .from = fields_number(&f, "from", 0),
+        .until = fields_number(&f, "until", 0)};
 }
 
 /* The prediction's source stays when the scene is built anew: as it stands in the file. */
@@ -335,8 +355,9 @@ void builder_quantities(builder *b)
             builder_no_quantity(&what, b->list[LIST_ANALYSES].entry[analysis].name, kinds[k].key,
                                 b->scene->analysis[analysis].kind, extract.kind);
         scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", analysis, extract);
-        read_unit(&f, q);
         read_stations(&f, &what, q);
+        read_passing(&f, q);
+        read_unit(&f, q);
         q->factor = fields_number(&f, "factor", 1);
         q->offset = fields_number(&f, "offset", 0);
         q->near_zero = fields_number(&f, "near_zero", 0);

@@ -88,7 +88,9 @@ static const scene_key in_time[] = {
      .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison"},
     {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f"},
     {"about", KEY_NAME,
-     .summary = "static analysis or rotation from whose last state; left out: undeformed"},
+     .summary =
+         "static analysis or rotation from whose last state, or motion that goes on, with its "
+         "rates and its time; left out: undeformed"},
     {"start", KEY_MAP, .below = start, .summary = "velocities at the begin; left out: at rest"},
     {.name = NULL}};
 
@@ -110,7 +112,7 @@ const scene_key keys_analysis[] = {
     {"analysis", KEY_NAME, .needed = 1, .summary = "analysis"},                                    \
         {"at", KEY_NUMBER, .group = 1, .summary = "station"},                                      \
     {                                                                                              \
-        "take", KEY_WORD, .group = 1, .words = "last|max|min|curve",                               \
+        "take", KEY_WORD, .group = 1, .words = SCENE_TAKE_CHOICES,                                 \
                           .summary = "of all stations; last where it is left out"                  \
     }
 
@@ -215,6 +217,14 @@ static const scene_key abscissa[] = {{"name", KEY_TEXT, .summary = "of the absci
                                      {"offset", KEY_NUMBER, .summary = "added to it"},
                                      {.name = NULL}};
 
+static const scene_key when[] = {
+    {"level", KEY_NUMBER, .summary = "that is crossed, in SI units before factor and offset; 0"},
+    {"direction", KEY_WORD, .words = SCENE_DIRECTION_CHOICES, .summary = "of the crossing"},
+    {"which", KEY_NUMBER, .summary = "crossing, counted from 0"},
+    {"from", KEY_NUMBER, .summary = "begin of the window [s]; 0"},
+    {"until", KEY_NUMBER, .summary = "its end [s]; left out: that of the motion"},
+    {.name = NULL}};
+
 static const scene_key prediction[] = {
     {"value", KEY_NUMBER, .needed = 1, .summary = "of a model with an error of its own"},
     {"source", KEY_TEXT, .needed = 1, .summary = "of the model"},
@@ -260,6 +270,7 @@ const scene_key keys_quantity[] = {
     {"factor", KEY_NUMBER, .summary = "reported value = factor value + offset"},
     {"offset", KEY_NUMBER, .summary = "in the same unit"},
     {"x", KEY_MAP, .below = abscissa, .summary = "abscissa of a curve"},
+    {"when", KEY_MAP, .below = when, .summary = "of a motion: which crossing, and its window"},
     {"prediction", KEY_MAP, .below = prediction, .summary = "shown, never judged"},
     {.name = NULL}};
 

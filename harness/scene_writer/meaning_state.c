@@ -49,6 +49,28 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
+/* Of a motion, between its stations. */
+static void passing(FILE *to, const scene_quantity *q)
+{
+    static const char *const way[] = {"rises through", "falls through", "passes"};
+    const scene_passing *p = &q->passing;
+    if (q->reduction == SCENE_MEAN)
+        fputs(", mean over time", to);
+    else if (q->reduction == SCENE_MAX_TIME || q->reduction == SCENE_MIN_TIME)
+        fprintf(to, ", time at which it is %s",
+                q->reduction == SCENE_MAX_TIME ? "largest" : "least");
+    else if (q->reduction == SCENE_CROSSING)
+        fprintf(to, ", time at which it %s %.10g, number %d", way[p->direction], p->level,
+                p->order + 1);
+    else
+        fprintf(to, ", %s at which it %s %.10g",
+                q->reduction == SCENE_PERIOD ? "period" : "frequency", way[p->direction], p->level);
+    if (p->from > 0 || p->until > 0)
+        fprintf(to, ", from %.10g s on", p->from);
+    if (p->until > 0)
+        fprintf(to, " until %.10g s", p->until);
+}
+
 static void along_path(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
     const char *name = a->kind == SCENE_ROTATION ? "speeds at which the axes turn" : path_name(a);
@@ -65,6 +87,15 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
         break;
     case SCENE_CURVE:
         fprintf(to, ", along the %s, over %s [%s]", name, q->x.name, q->x.unit);
+        break;
+    case SCENE_MAX_TIME:
+    case SCENE_MIN_TIME:
+    case SCENE_CROSSING:
+    case SCENE_PERIOD:
+    case SCENE_PER_SECOND:
+    case SCENE_MEAN:
+    case SCENE_REDUCTIONS:
+        passing(to, q);
         break;
     }
 }

@@ -278,7 +278,43 @@ static void write_reduction(writer *w, const scene_quantity *q)
         fputs(", at: ", w->to);
         write_values_number(w, q->at);
         break;
+    case SCENE_MAX_TIME:
+        fputs(", take: max_time", w->to);
+        break;
+    case SCENE_MIN_TIME:
+        fputs(", take: min_time", w->to);
+        break;
+    case SCENE_CROSSING:
+        fputs(", take: crossing", w->to);
+        break;
+    case SCENE_PERIOD:
+        fputs(", take: period", w->to);
+        break;
+    case SCENE_PER_SECOND:
+        fputs(", take: per_second", w->to);
+        break;
+    case SCENE_MEAN:
+        fputs(", take: mean", w->to);
+        break;
+    case SCENE_REDUCTIONS:
+        break;
     }
+    fputc('}', w->to);
+}
+
+/* What of a motion, as far as it is not usual. */
+static void write_passing(writer *w, const scene_quantity *q)
+{
+    static const char *const way[] = {"rising", "falling", "either"};
+    const scene_passing *p = &q->passing;
+    if (p->level == 0 && p->direction == SCENE_RISING && p->order == 0 && p->from == 0 &&
+        p->until == 0)
+        return;
+    fprintf(w->to, ", when: {direction: %s", way[p->direction]);
+    write_values_if(w, "level", p->level, 0);
+    write_values_if(w, "which", p->order, 0);
+    write_values_if(w, "from", p->from, 0);
+    write_values_if(w, "until", p->until, 0);
     fputc('}', w->to);
 }
 
@@ -302,6 +338,7 @@ static void write_rest(writer *w, const scene_quantity *q)
         write_values_if(w, "offset", q->x.offset, 0);
         fputc('}', w->to);
     }
+    write_passing(w, q);
     if (q->prediction.source != NULL) {
         fputs(", prediction: {value: ", w->to);
         write_values_number(w, q->prediction.value);

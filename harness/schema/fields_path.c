@@ -54,7 +54,9 @@ static const schema_field fields_of_quantity[] = {
     {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model",
      .get = get_model_error},
     {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
-    {"rounding", "1", FIELD_DOUBLE, "estimate of its round-off, by the value; 0: none was made",
+    {"rounding", "1", FIELD_DOUBLE,
+     "estimate of its round-off, or of what reading a motion between its steps adds, by the value; "
+     "0: none was made",
      VALUE(rounding)},
     {"near_zero", OWN_UNIT, FIELD_DOUBLE, "values below it count as zero",
      OF(QUANTITY, scene_quantity, near_zero)},

@@ -190,7 +190,7 @@ static void blend_elements(const between *b, double s, model_state *at)
     blend(inner, s, from->inner, to->inner, at->inner);
 }
 
-void between_at(const between *b, double time, instant *at)
+void between_places(const between *b, double time, instant *at)
 {
     const model *m = b->m;
     const int all = m->free + m->driven;
@@ -212,6 +212,11 @@ void between_at(const between *b, double time, instant *at)
     drive_at(m, b->from->state, time, inc, at->v, at->a);
     memcpy(at->algorithm, at->a, (size_t)all * sizeof *at->a);
     increment_apply(m, b->from->state, inc, time, at->state);
-    blend_elements(b, s, at->state);
     at->time = time;
+}
+
+void between_at(const between *b, double time, instant *at)
+{
+    between_places(b, time, at);
+    blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }

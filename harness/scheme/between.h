@@ -24,7 +24,9 @@ status between_alloc(const model *, between *, fault *);
 void between_free(between *);
 /* Of the step; both instants stay as they are as long as it is read. */
 void between_take(between *, between_degree, const instant *from, const instant *to);
-/* Places and rates at a time of the step, or next to it [s]. Strains, stresses and inner unknowns
+/* Places and rates at a time of the step, or next to it [s]. */
+void between_places(const between *, double time, instant *at);
+/* With all of a state. Strains, stresses and inner unknowns
  * run linearly from end to end: fit for pictures, not for forces. */
 void between_at(const between *, double time, instant *at);
 

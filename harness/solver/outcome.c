@@ -138,8 +138,11 @@ void outcome_free(analysis_outcome *o)
         for (int i = 0; o->left.motion.instant != NULL && i < o->left.motion.path.stations; i++)
             free(o->left.motion.instant[i].rate);
         free(o->left.motion.instant);
+        free(o->left.motion.passing);
         free(o->left.motion.step);
         free_path(&o->left.motion.path);
+        free_path(&o->left.motion.frames);
+        free(o->left.motion.end.v);
         break;
     case SCENE_STATIC:
         free_path(&o->left.path);

@@ -61,6 +61,14 @@ typedef struct outcome_instant {
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
+/* What a motion passed through, wherever its stations lie, of one quantity. */
+typedef struct outcome_passing {
+    int known;
+    double value; /* as extracted, or a time [s], or how often in a second */
+    double time;  /* [s] of a largest or least value */
+    double error; /* estimate of what reading it between the ends of steps adds to the value */
+} outcome_passing;
+
 /* Of a motion where a step ended that was accepted; the first one: of the begin. */
 typedef struct outcome_step {
     double time, step;        /* [s] its end and length; of the begin 0 */
@@ -70,11 +78,25 @@ typedef struct outcome_step {
     double balance[SCENE_BALANCES];
 } outcome_step;
 
+/* Where a motion stopped, for one that goes on from there; its state is that of the last station.
+ */
+typedef struct outcome_end {
+    double *v;                        /* [3 x (free + driven)] rates, their derivatives, and what
+                                         generalized-alpha has of these; NULL: nothing follows */
+    double time, step;                /* [s] the next step */
+    double work, dissipated, largest; /* [J] largest: energy so far */
+    int quiet;                        /* steps since what acts was last smooth no longer */
+} outcome_end;
+
 typedef struct outcome_motion {
     outcome_path path;
     outcome_instant *instant; /* [stations] */
     int steps;                /* with the begin */
     outcome_step *step;       /* [steps] */
+    outcome_passing *passing; /* [quantities of the scene] */
+    outcome_path frames;      /* for pictures, evenly over the time */
+    double origin;            /* [J] energy at the begin, of the first of motions that go on */
+    outcome_end end;
 } outcome_motion;
 
 typedef struct outcome_continuation {

@@ -43,8 +43,8 @@ typedef struct quantity_result {
     status status;   /* OK: value is a number */
     double value;    /* NAN where it does not exist */
     double x;        /* abscissa where a maximum or minimum was found */
-    double rounding; /* critical loads, frequencies: estimate of |error| by round-off, in parts of
-                        the value; else 0 */
+    double rounding; /* critical loads, frequencies: estimate of |error| by round-off; of a motion
+                        what reading it between its steps adds; in parts of the value; else 0 */
     curve curve;     /* of SCENE_CURVE, else 0 points */
     char reason[FAULT_TEXT]; /* why there is no value */
 } quantity_result;

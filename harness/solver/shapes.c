@@ -26,6 +26,14 @@ void shapes_free(shapes *s)
 
 const char *shapes_kind_name(shape_kind kind)
 {
-    static const char *const name[] = {"undeformed", "path", "linear", "buckling", "mode"};
+    static const char *const name[] = {"undeformed", "path", "linear",
+                                       "buckling",   "mode", "motion"};
     return name[kind];
+}
+
+int shapes_frames(int most)
+{
+    if (most <= 0)
+        return 0;
+    return most <= SHAPES_FEW || most >= SHAPES_ALL ? SHAPES_FRAMES : most;
 }

@@ -197,12 +197,15 @@ static inline int same_quantity(const scene_quantity *a, const scene_quantity *b
                         a->least_order, a->x.factor, a->x.offset,  a->prediction.value},
                  y[] = {b->factor,      b->offset,   b->near_zero, b->tolerance,
                         b->least_order, b->x.factor, b->x.offset,  b->prediction.value};
+    const scene_passing *p = &a->passing, *r = &b->passing;
     const char *one = a->prediction.source, *two = b->prediction.source;
     return strcmp(a->name, b->name) == 0 && strcmp(a->unit, b->unit) == 0 &&
            a->analysis == b->analysis && same_extract(a, b) && a->reduction == b->reduction &&
-           a->at == b->at && strcmp(a->x.name, b->x.name) == 0 &&
-           strcmp(a->x.unit, b->x.unit) == 0 && same_numbers(8, x, y) &&
-           (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
+           p->level == r->level && p->direction == r->direction && p->order == r->order &&
+           p->from == r->from && p->until == r->until && a->at == b->at &&
+           strcmp(a->x.name, b->x.name) == 0 && strcmp(a->x.unit, b->x.unit) == 0 &&
+           same_numbers(8, x, y) && (one == NULL) == (two == NULL) &&
+           (one == NULL || strcmp(one, two) == 0);
 }
 
 /* What differs first, with its index; NULL: nothing. */
