@@ -57,9 +57,18 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
+/* The steps of a motion go on with the factors of their first iterations. */
+static long most_stale(const cell_result *cell, const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION)
+            return cell->counters.iterations - cell->counters.steps;
+    return 0;
+}
+
 /* The first count that is less than the iterations need, or in a plain cell another one; NULL:
  * none. */
-static const char *wrong_count(const cell_result *cell, long reused, int plain)
+static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
 {
     const counters *c = &cell->counters;
     const long linearised = c->iterations - reused, evaluations = linearised * cell->size.elements;
@@ -68,7 +77,7 @@ static const char *wrong_count(const cell_result *cell, long reused, int plain)
         long counted, needed;
     } row[] = {{"strain evaluations", c->strain_evaluations, evaluations},
                {"stress evaluations", c->stress_evaluations, evaluations},
-               {"factorisations", c->factorisations, linearised}};
+               {"factorisations", c->factorisations, linearised - stale}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
         if (row[i].counted < row[i].needed || (plain && row[i].counted != row[i].needed))
             return row[i].name;
@@ -84,7 +93,8 @@ int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, cha
     const double promised = promised_correction * fmax(1, cell->size.elements / many_elements);
     const int iterations = iterations_of_steps(r), early = unfinished_step(r, promised);
     const long rejected = rejected_before_steps(r);
-    const char *count = wrong_count(cell, most_reused(cell, s), is_plain(cell, s, newton));
+    const char *count =
+        wrong_count(cell, most_reused(cell, s), most_stale(cell, s), is_plain(cell, s, newton));
     if (c->steps != r->steps)
         snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
     else if (c->rejected_steps != rejected)

@@ -13,11 +13,12 @@
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
+#include "harness/scheme/stage.h"
 #include "harness/solver/history.h"
 
 enum { MAX_ITERATIONS = 15 };
 
-static void count_work(radau *r)
+static void count_work(radau *r, int fresh)
 {
     counters *count = model_counters(r->of.c->model);
     const factor_counts counts = factor_count(r->factor);
@@ -25,7 +26,7 @@ static void count_work(radau *r)
     r->counted = counts.factorisations;
     count->solutions++;
     count->factor_entries = counts.entries;
-    count->factor_flops += counts.flops;
+    count->factor_flops += fresh ? counts.flops : 0;
 }
 
 static double advance(radau *r, const instant *from, double h, const step_record *record,
@@ -54,10 +55,12 @@ static status iterate(radau *r, const instant *from, double h, step_record *reco
     const double wild = 4;
     for (int iteration = 1;; iteration++) {
         advance_stress stress;
-        TRY(radau_equations(r, from, h, record, f));
-        TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
+        const int fresh = iteration == 1 || !stage_stands(&r->arrival);
+        TRY(radau_equations(r, fresh, from, h, record, f));
+        if (fresh)
+            TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
         factor_solve(r->factor, r->residual);
-        count_work(r);
+        count_work(r, fresh);
         const double correction = advance(r, from, h, record, &stress);
         radau_rates(r, from, h);
         model_counters(r->of.c->model)->iterations++;

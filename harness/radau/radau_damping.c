@@ -76,7 +76,7 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-void radau_damp(radau *r, const instant *from, double h)
+void radau_damp(radau *r, int fresh, const instant *from, double h)
 {
     const model *m = r->of.c->model;
     const size_t n = (size_t)m->strains;
@@ -90,7 +90,8 @@ void radau_damp(radau *r, const instant *from, double h)
             take(r, from, stage, i, &all[stage]);
         for (int stage = 0; stage < STAGES; stage++)
             add_stress(r, all, h, eta, S, stage, i);
-        add_blocks(r, all, h, eta, S, i);
+        if (fresh)
+            add_blocks(r, all, h, eta, S, i);
     }
 }
 

@@ -217,15 +217,17 @@ static void add_warps(radau *r, double h)
     }
 }
 
-status radau_equations(radau *r, const instant *from, double h, step_record *record, fault *f)
+status radau_equations(radau *r, int fresh, const instant *from, double h, step_record *record,
+                       fault *f)
 {
     model *m = r->of.c->model;
-    stages_zero(&r->S);
+    if (fresh)
+        stages_zero(&r->S);
     record->incompatibility = 0;
     for (int i = 0; i < STAGES; i++) {
         radau_stage *one = &r->stage[i];
         model_linearisation lin = {.path = kinks_before(m, radau_time(r, from, h, i, record)),
-                                   .K = &r->K,
+                                   .K = fresh ? &r->K : NULL,
                                    .residual = r->dx};
         m->work = one->work;
         if (r->of.c->options->newton == SOLVE_DISPLACEMENT)
@@ -234,9 +236,13 @@ status radau_equations(radau *r, const instant *from, double h, step_record *rec
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);
         memcpy(r->residual + (size_t)i * (size_t)r->free, r->dx,
                (size_t)r->free * sizeof *r->residual);
-        stages_put(&r->S, i, &r->K);
+        if (fresh)
+            stages_put(&r->S, i, &r->K);
         record->incompatibility = fmax(record->incompatibility, lin.incompatibility);
     }
+    radau_damp(r, fresh, from, h);
+    if (!fresh)
+        return STATUS_OK;
     for (int i = 0; i < STAGES; i++)
         for (int k = 0; k < r->of.masses->masses; k++)
             if (r->of.masses->mass[k].frame < r->of.c->model->first_release)
@@ -244,6 +250,5 @@ status radau_equations(radau *r, const instant *from, double h, step_record *rec
             else
                 add_released(r, k, h, i);
     add_warps(r, h);
-    radau_damp(r, from, h);
     return STATUS_OK;
 }

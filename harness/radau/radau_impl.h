@@ -38,11 +38,11 @@ void radau_coefficients(radau *);
 double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
 /* v and a of all stages, from their increments. */
 void radau_rates(radau *, const instant *from, double h);
-/* S and the residual of all stages in their present states. */
-status radau_equations(radau *, const instant *from, double h, step_record *, fault *);
+/* The residual of all stages in their present states, and fresh 1: S. */
+status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
 
-/* radau_damping.c: residual and S gain what damped members take. */
-void radau_damp(radau *, const instant *from, double h);
+/* radau_damping.c: residual and, fresh 1, S gain what damped members take. */
+void radau_damp(radau *, int fresh, const instant *from, double h);
 /* What they lose in a step that was solved [J]; room[elements x strains]. */
 double radau_dissipated(const radau *, const instant *from, double h, double room[]);
 /* Their part in radau_error: the model's stresses, with rates of strains -sum e_i (strains

@@ -10,6 +10,10 @@
 #include "harness/solver/arrival.h"
 #include "harness/solver/context.h"
 
+/* Do the factors of the last equations serve for the next ones? What they lack is the product of
+ * both corrections; those of the stresses (arrival.h) tell where members are stiff. */
+int stage_stands(const arrival *);
+
 typedef struct stage {
     analysis_context *c;
     const carried *masses;

@@ -4,6 +4,7 @@
 
 #include <gsl/gsl_test.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/catalogue/parameters.h"
@@ -21,7 +22,21 @@ static inline void moving_case(const case_type *type, const char *parameters, sc
         gsl_test(1, "%s", f.text);
     scene_init(s, type->name);
     gsl_test(case_build(type, value, s, &f) != STATUS_OK, "%s: built (%s)", type->name, f.text);
+    for (int i = 0; i < s->analyses; i++)
+        if (scene_path_of(&s->analysis[i]) != NULL)
+            free(scene_path_of(&s->analysis[i])->value);
     s->analyses = s->quantities = 0;
+}
+
+/* Without its loads. */
+static inline void moving_unload(scene *s)
+{
+    for (int i = 0; i < s->loads; i++) {
+        free(s->load[i].path);
+        free(s->load[i].factor);
+        function_free(&s->load[i].function);
+    }
+    s->loads = 0;
 }
 
 /* A motion to `end` [s] with stations at equal distances. */

@@ -19,7 +19,7 @@ static void throw_rod(scene *s, scene_scheme by, const scene_alpha *alpha)
     const int motion = moving_add(s, by, 0.05, 1);
     if (alpha != NULL) {
         s->analysis[motion].of.motion.alpha = *alpha;
-        s->loads = 0;
+        moving_unload(s);
         scene_member_at(s, 0)->damping = 0;
         s->analysis[motion].of.motion.start = (scene_start){.spin = {0.3, 1, 2}};
     }
