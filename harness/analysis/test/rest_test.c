@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/analysis/test/moves.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/missing.h"
 #include "harness/study/plan.h"
@@ -184,7 +185,7 @@ int main(void)
         return gsl_test_summary();
     }
     for (int i = 0; i < plan.points; i++) {
-        if (plan.point[i].status != STATUS_OK)
+        if (plan.point[i].status != STATUS_OK || moves_only(&plan.point[i].scene))
             continue;
         t.points++;
         every_formulation(&plan.point[i], &t);

@@ -6,6 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/test/sections.h"
+#include "harness/analysis/test/moves.h"
 #include "harness/catalogue/case_find.h"
 #include "harness/catalogue/formulation.h"
 #include "harness/catalogue/parameters.h"
@@ -143,15 +144,6 @@ static status run(const char *case_name, const char *formulation_text, int eleme
     return cell_run(&request, out, f);
 }
 
-/* What only moves in time need not be held. */
-static int only_moves(const scene *s)
-{
-    for (int i = 0; i < s->analyses; i++)
-        if (s->analysis[i].kind != SCENE_MOTION)
-            return 0;
-    return s->analyses > 0;
-}
-
 /* Every case is held: round-off is never called a missing support. */
 static void all_cases_are_held(void)
 {
@@ -168,7 +160,7 @@ static void all_cases_are_held(void)
             const model_request what = {&s, registry_formulations[k], NULL, 2, 0};
             tried = model_alloc(&what, &m, &f) == STATUS_OK;
         }
-        gsl_test(!tried || (supports_loose_part(m, &node, motion) && !only_moves(&s)),
+        gsl_test(!tried || (supports_loose_part(m, &node, motion) && !moves_only(&s)),
                  "%s is held (node %d)", s.name, node);
         model_free(m);
         scene_free(&s);

@@ -46,7 +46,7 @@ class MotionTest(SceneCase):
     def test_readme(self):
         """What the README prints is what it does."""
         section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
-        text, shown = re.findall(r"```(?:yaml)?\n(.*?)```", section.partition("\n## ")[0], re.S)
+        text, shown, *_ = re.findall(r"```(?:yaml)?\n(.*?)```", section.partition("\n## ")[0], re.S)
         command, *printed = shown.splitlines()
         self.scene(text, "swing.yaml")
         words = command.split()[1:]
