@@ -37,14 +37,14 @@ class Frames(ProgramTest):
         with self.solved("places.h5", "--shapes=9", "--set", "time=2") as file:
             nodes, first = self.shapes(file)["nodes"][()], self.shapes(file)["nodes"][0]
             np.testing.assert_array_equal(nodes[1], first)
-            for frame in (2, 5, 9):
+            for frame in (6, 7, 8):
                 time = 2 * (frame - 1) / 8
                 record = json.loads(self.answered(*MOTION, "--set", f"time={time}", "--format",
                                                   "json").stdout)
                 value = {q["quantity"]: q["value"] for q in record["quantities"]}
                 moved = [value[f"tip_{axis}"] for axis in "xyz"]
                 np.testing.assert_allclose(nodes[frame][2] - first[2], moved, atol=2e-3)
-                self.assertGreater(abs(moved[2]), 5e-3 if frame > 2 else 1e-6)
+                self.assertGreater(abs(moved[2]), 0.1)
 
     def test_resultants(self):
         """Stresses run between the ends of steps: the root's moment does not jump."""
