@@ -54,7 +54,7 @@ def films(path):
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
             for point in sorted(group.get("shapes", {}), key=lambda name: name != "default"):
-                if shapes.kinds_of(group, point).count(shapes.FRAME) > 1:
+                if shapes.frames_in(group["shapes"][point]) > 1:
                     out.setdefault(name, (data.text(group.attrs["summary"]), point))
     return out
 

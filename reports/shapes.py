@@ -7,7 +7,6 @@ import math
 
 import h5py
 import numpy as np
-import yaml
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
@@ -50,21 +49,9 @@ def matrices(q):
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
-def motions_in(group, point):
-    """Numbers of the analyses of a case's scene that are motions in time."""
-    for row in group["scenes"][()] if "scenes" in group else ():
-        scene = row["scene"]
-        if row["point"] == point.encode() and b"motion:" in scene:
-            return [i for i, one in enumerate(yaml.safe_load(scene)["analyses"].values())
-                    if "motion" in one]
-    return []
-
-
-def kinds_of(group, point):
-    """What each state is; stations of a motion are frames of it."""
-    g, motions = group["shapes"][point], motions_in(group, point)
-    return [FRAME if kind == b"path" and analysis in motions else text(kind)
-            for kind, analysis in zip(g["kind"][()], g["analysis"][()])]
+def frames_in(shapes):
+    """How many of the states of a group `shapes` are frames of a motion."""
+    return int((shapes["kind"][()] == FRAME.encode()).sum())
 
 
 def read(site, case):
@@ -95,7 +82,7 @@ def read_file(path, name, point="default"):
             text(g.attrs["formulation"]), int(g.attrs["elements"]), g["members"][()],
             g["first_point"][()], g["bodies"][:, 0], g["bodies"][:, 1],
             g["released"][()] if "released" in g else np.zeros((len(g["members"]), 2), int), walls,
-            far, equivalent, kinds_of(file[f"cases/{name}"], point), g["value"][()],
+            far, equivalent, [text(kind) for kind in g["kind"][()]], g["value"][()],
             g["position"][()],
             matrices(g["orientation"][()]), g["nodes"][()])
 

@@ -51,17 +51,6 @@ class Geometry(unittest.TestCase):
         self.assertEqual(list(pictures.hinges(ends)), [12, 13])
 
 
-    def test_stations_of_a_motion(self):
-        """They are frames of it; those of a static path, and of other points, are not."""
-        scene = b"analyses:\n  push: {static: {stations: [1]}}\n  run: {motion: {stations: [1]}}\n"
-        rows = np.array([(b"default", scene), (b"other", scene.replace(b"motion", b"rotation"))],
-                        [("point", "S9"), ("scene", "S99")])
-        states = {"kind": np.array([b"undeformed", b"path", b"path"]),
-                  "analysis": np.array([-1, 0, 1])}
-        group = {"scenes": rows, "shapes": {"default": states, "other": states}}
-        self.assertEqual(shapes.kinds_of(group, "default"), ["undeformed", "path", shapes.FRAME])
-        self.assertEqual(shapes.kinds_of(group, "other"), ["undeformed", "path", "path"])
-
     def test_view_of_a_plane(self):
         """A motion in the plane of x and y is looked at from above, x to the right; in space not."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
