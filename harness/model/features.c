@@ -49,12 +49,23 @@ static unsigned needs_of_quantities(const scene *s)
     return needs;
 }
 
-static unsigned needs_of_matrices(const section *c, unsigned needs)
+/* Do formulations give their own inertia? A motion in time has that of the section, lumped, with
+ * all of them alike. */
+static int elements_have_mass(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MODAL || s->analysis[i].kind == SCENE_ROTATION ||
+            scene_rotates(&s->analysis[i]))
+            return 1;
+    return 0;
+}
+
+static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs)
 {
     if (!c->matrices)
         return 0;
-    const int coupled = section_matrices_couple(c, (needs & FEATURE_MASS) != 0,
-                                                (needs & FEATURE_ROTARY_INERTIA) != 0);
+    const int coupled =
+        section_matrices_couple(c, elements_have_mass(s), (needs & FEATURE_ROTARY_INERTIA) != 0);
     return FEATURE_SHEAR | (coupled ? FEATURE_COUPLED : 0);
 }
 
@@ -68,7 +79,7 @@ unsigned features_needed(const scene *s)
         if (scene_constants(s, i, &c, NULL) != STATUS_OK)
             continue; /* model_alloc says why */
         needs |= c.Iw > 0 ? FEATURE_WARPING : 0;
-        needs |= needs_of_matrices(&c, needs);
+        needs |= needs_of_matrices(s, &c, needs);
         needs |= features_eccentric(&c) ? FEATURE_ECCENTRIC : 0;
     }
     return needs;

@@ -159,6 +159,7 @@ status launch_again(analysis_context *c, const carried *masses, const scene_moti
     int massless;
     TRY(massless_count(c->model, masses, now->state, &massless, f));
     TRY(stage_alloc(c, masses, &s, f));
+    s.begins = 1;
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
     drive_at(c->model, now->state, now->time, NULL, now->v, now->a);
     const status outcome = inc != NULL

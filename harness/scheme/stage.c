@@ -65,8 +65,9 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
 {
     model *m = s->c->model;
     counters *count = model_counters(m);
-    model_linearisation lin = {
-        .path = kinks_before(m, time), .K = fresh ? &s->S : NULL, .residual = s->residual};
+    model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
+                               .K = fresh ? &s->S : NULL,
+                               .residual = s->residual};
     const inertia_relation with = {r->b, r->g, r->inc};
     if (s->c->options->newton == SOLVE_DISPLACEMENT)
         TRY(linearise_make_compatible(m, (model_state *)now, f));
