@@ -1,12 +1,11 @@
 /* A right-angled cantilever whose elbow is pushed out of its plane and let go. */
 #include <stddef.h>
-#include <stdio.h>
 
 #include "cases/shared/timed.h"
 
 static const parameter_type parameters[] = {
-    [TIMED_TIME] = {"time", "s", 5, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.05, "twenty for each second"),
+    [TIMED_TIME] = {"time", "s", 1, 0, 100, NULL, "when it is looked at"},
+    TIMED_HOW(0.05, "twenty for each second", 1e-4),
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -27,12 +26,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_load_piece(s, force, 2, "100 - 50*t");
     scene_load_piece(s, force, 0, "0");
     const int motion = timed_add(s, value, SCENE_NONE);
-    timed_wanted(s, "tip_x", motion, tip, SCENE_UX);
-    timed_wanted(s, "tip_y", motion, tip, SCENE_UY);
-    timed_wanted(s, "tip_z", motion, tip, SCENE_UZ);
-    timed_wanted(s, "elbow_x", motion, elbow, SCENE_UX);
-    timed_wanted(s, "elbow_y", motion, elbow, SCENE_UY);
-    timed_wanted(s, "elbow_z", motion, elbow, SCENE_UZ);
+    timed_places(s, motion, tip, 1, (const char *const[]){"tip_x", "tip_y", "tip_z"});
+    timed_places(s, motion, elbow, 1, (const char *const[]){"elbow_x", "elbow_y", "elbow_z"});
     scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
     return STATUS_OK;
 }

@@ -1,14 +1,13 @@
 /* A rubber rod that swings about a pin under its weight, released from rest. */
 #include <stddef.h>
-#include <stdio.h>
 
 #include "cases/shared/timed.h"
 
 enum { STIFFENING = TIMED_PARAMETERS };
 
 static const parameter_type parameters[] = {
-    [TIMED_TIME] = {"time", "s", 0.5, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.005, "a hundredth of a swing"),
+    [TIMED_TIME] = {"time", "s", 0.125, 0, 100, NULL, "when it is looked at"},
+    TIMED_HOW(0.005, "a hundredth of a swing", 1e-4),
     [STIFFENING] = {"stiffening", "1", 1, 1, 1e6, NULL, "of elongation and shear"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
@@ -32,9 +31,9 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, pin, SCENE_UX, SCENE_RY);
     scene_add_load(s, SCENE_GRAVITY, member, 0, -9.81, 0);
     const int motion = timed_add(s, value, SCENE_NONE);
-    timed_wanted(s, "tip_x", motion, tip, SCENE_UX);
-    timed_wanted(s, "tip_y", motion, tip, SCENE_UY);
+    timed_places(s, motion, tip, 1, (const char *const[]){"tip_x", "tip_y", NULL});
     scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
+    scene_meshes_doubled(s, 8, 64);
     return STATUS_OK;
 }
 

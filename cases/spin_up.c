@@ -6,8 +6,8 @@
 #include "cases/shared/timed.h"
 
 static const parameter_type parameters[] = {
-    [TIMED_TIME] = {"time", "s", 7.5, 0, 30, NULL, "when it is looked at"},
-    TIMED_HOW(0.025, "a hundredth of the first period"),
+    [TIMED_TIME] = {"time", "s", 5, 0, 30, NULL, "when it is looked at"},
+    TIMED_HOW(0.025, "a hundredth of the first period", 1e-5),
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 
@@ -30,10 +30,24 @@ static status build(const double value[], scene *s, fault *f)
     scene_drive_piece(s, turn, 15, "0.4*(t^2/2 + (7.5/pi)^2*(cos(2*pi*t/15) - 1))");
     scene_drive_piece(s, turn, 0, "6*t - 45");
     scene_drive(s, root, SCENE_RZ, turn);
+    const double end = 1;
+    const int steady = scene_add_static(s, 1, &end, 1);
+    scene_set_rotating_frame(s, steady, (scene_rotating_frame){.omega = {0, 0, 6}});
+    scene_add_quantity(s, "steady_stretch", "m", steady, scene_coordinate(tip, SCENE_UX));
     const int motion = timed_add(s, value, SCENE_NONE);
-    scene_add_quantity(s, "tip_u1", "m", motion, scene_relative_to(tip, SCENE_UX, root));
-    scene_add_quantity(s, "tip_u2", "m", motion, scene_relative_to(tip, SCENE_UY, root));
-    scene_add_quantity(s, "tip_rotation", "rad", motion, scene_relative_to(tip, SCENE_RZ, root));
+    for (int i = 0; i < 3; i++) {
+        static const struct {
+            const char *name, *unit;
+            int component;
+            double size;
+        } seen[] = {{"tip_u1", "m", SCENE_UX, 1e-3},
+                    {"tip_u2", "m", SCENE_UY, 0.1},
+                    {"tip_rotation", "rad", SCENE_RZ, 0.01}};
+        scene_add_quantity(s, seen[i].name, seen[i].unit, motion,
+                           scene_relative_to(tip, seen[i].component, root))
+            ->near_zero = seen[i].size;
+    }
+    scene_meshes_doubled(s, 2, 32);
     return STATUS_OK;
 }
 

@@ -16,17 +16,28 @@ section_spec timed_profile(const timed_section *of)
 
 int timed_add(scene *s, const double value[], int follows)
 {
+    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    return timed_add_started(s, value, follows, (scene_start){.velocity = {0}});
+}
+
+int timed_add_started(scene *s, const double value[], int follows, scene_start start)
+{
     const scene_motion how = {.scheme = (scene_scheme)value[TIMED_INTEGRATOR],
                               .alpha = scene_alpha_of_radius(0.9),
                               .step = value[TIMED_STEP],
-                              .tolerance = value[TIMED_TOLERANCE]};
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
-    scene_meshes_doubled(s, 2, 16);
+                              .tolerance = value[TIMED_TOLERANCE],
+                              .start = start};
+    scene_meshes_doubled(s, 4, 32);
     return scene_add_motion(s, follows, 1, &value[TIMED_TIME], how);
 }
 
-void timed_wanted(scene *s, const char *name, int motion, int node, int component)
+void timed_places(scene *s, int motion, int node, double size, const char *const name[3])
 {
-    scene_add_quantity(s, name, component < SCENE_RX ? "m" : "rad", motion,
-                       scene_coordinate(node, component));
+    for (int i = 0; i < 3; i++)
+        if (name[i] != NULL) {
+            scene_quantity *q =
+                scene_add_quantity(s, name[i], "m", motion, scene_coordinate(node, SCENE_UX + i));
+            q->offset = scene_node_at(s, node)->position[i];
+            q->near_zero = size;
+        }
 }

@@ -7,13 +7,16 @@
 /* The first parameters of every such case, in this order. */
 enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETERS };
 #define TIMED_INTEGRATORS "alpha|conserving|radau|explicit"
-#define TIMED_HOW(step, rule)                                                                      \
-    [TIMED_INTEGRATOR] = {"integrator", "", 0, 0, 0, TIMED_INTEGRATORS, "how it is integrated"},   \
+/* Defaults for judging meshes: error-controlled steps whose error of time is far below that of the
+ * meshes; what it is stands with each case. */
+#define TIMED_HOW(step, rule, tolerance)                                                           \
+    [TIMED_INTEGRATOR] = {"integrator",          "", SCENE_RADAU, 0, 0, TIMED_INTEGRATORS,         \
+                          "how it is integrated"},                                                 \
     [TIMED_STEP] = {"step", "s", step, 1e-9, 1e3, NULL, "of the integration: " rule},              \
     [TIMED_TOLERANCE] = {                                                                          \
         "tolerance",                                                                               \
         "1",                                                                                       \
-        0,                                                                                         \
+        tolerance,                                                                                 \
         0,                                                                                         \
         0.1,                                                                                       \
         NULL,                                                                                      \
@@ -27,7 +30,11 @@ section_spec timed_profile(const timed_section *);
 
 /* A motion that ends when it is looked at; follows: SCENE_NONE, or a static path. */
 int timed_add(scene *s, const double value[], int follows);
-/* Displacement of a node, or its turn. */
-void timed_wanted(scene *s, const char *name, int motion, int node, int component);
+/* The same with velocities at its begin, of any beam: shear and rotary inertia are not asked for.
+ */
+int timed_add_started(scene *s, const double value[], int follows, scene_start start);
+/* Where a node is: those of its coordinates x, y, z that have a name. size: what their errors are
+ * measured by where they are smaller [m]. */
+void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
 #endif

@@ -1,0 +1,47 @@
+/* A rigid body with moments of inertia 1, 2, 3 kg m^2 tumbles free of forces and carries a rod
+ * without mass, which is in nobody's way. Exact angular velocities are elliptic
+ * functions (E.T. Whittaker, Analytical Dynamics, 1904, chapter 6). */
+#include <stddef.h>
+
+#include "cases/shared/timed.h"
+
+static const parameter_type parameters[] = {
+    [TIMED_TIME] = {"time", "s", 2, 0, 100, NULL, "when it is looked at"},
+    TIMED_HOW(0.05, "a fortieth of a turn", 1e-9),
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+
+static status build(const double value[], scene *s, fault *f)
+{
+    static const double y_axis[] = {0, 1, 0};
+    static const char axis[] = "xyz";
+    (void)f;
+    section_spec spec = section_spec_constants(1, 1); /* N, N m^2 */
+    spec.constants.A = spec.constants.Iy = spec.constants.Iz = spec.constants.It = 1e4;
+    spec.constants.Ip = 2e4;
+    const int profile = scene_add_section(s, &spec), body = scene_add_node(s, 0, 0, 0);
+    scene_set_body(s, body, (scene_body){.mass = 1, .inertia = {1, 2, 3}});
+    scene_add_member(s, body, scene_add_attached(s, body, 0.5, 0, 0), profile, y_axis);
+    const int motion =
+        timed_add_started(s, value, SCENE_NONE, (scene_start){.spin = {0.5, 0.2, 2}});
+    for (int i = 0; i < 3; i++) {
+        const char name[] = {'w', '_', axis[i], 0};
+        scene_add_quantity(s, name, "rad/s", motion, scene_rate(body, SCENE_RX + i));
+    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const char name[] = {'R', '_', axis[i], axis[k], 0};
+            scene_add_quantity(s, name, "1", motion, scene_orientation_entry(body, i, k));
+        }
+    scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
+    scene_meshes_doubled(s, 1, 4);
+    return STATUS_OK;
+}
+
+const case_type case_rigid_body = {
+    .name = "rigid_body",
+    .summary = "a rigid body with three moments of inertia tumbles free of forces",
+    .source = "elliptic functions (reference/derive/rigid_body.py)",
+    .parameters = {parameters},
+    .build = build,
+};

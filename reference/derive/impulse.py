@@ -1,0 +1,27 @@
+"""Momentum of what flies freely: the integral of the load, behind its end."""
+from mpmath import mpf
+
+ANY = "integrator=*;step=*;tolerance=*"
+ROUND_OFF = 1e-12  # relative, of hundreds of steps
+PLANE_TIMES = {"": ("2.5", "5", "10"), "load=step;": ("2.5", "5", "7.5", "10")}
+SPACE_TIMES = ("5", "7", "7.5", "9", "10")
+
+
+def plane():
+    """8 N for 2.5 s, in one step or as twice a squared sine, whose mean is one [kg m/s]."""
+    return 8 * mpf("2.5")
+
+
+def space():
+    """A triangle of 5 s whose peak is a tenth of 200 N [kg m/s]."""
+    return mpf(5) * 20 / 2
+
+
+def rows():
+    for load, times in PLANE_TIMES.items():
+        for time in times:
+            yield ("free_flight_plane", f"{load}time={time};{ANY}", "px", plane(), "kg m/s",
+                   ROUND_OFF)
+    for time in SPACE_TIMES:
+        for name, value in (("px", space()), ("py", 0), ("pz", 0)):
+            yield ("free_flight_space", f"time={time};{ANY}", name, value, "kg m/s", ROUND_OFF)
