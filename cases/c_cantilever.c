@@ -35,18 +35,6 @@ static const parameter_type parameters[] = {
     {0},
 };
 
-static channel section_sizes(int centreline)
-{
-    const double flange = 0.016, web = 0.010, outer_height = 0.30, outer_width = 0.10;
-    return (channel){.height = centreline ? outer_height : outer_height - flange,
-                     .width = centreline ? outer_width : outer_width - web / 2,
-                     .flange_thickness = flange,
-                     .web_thickness = web,
-                     .young = 210e9,
-                     .shear_modulus = 80.77e9,
-                     .density = 7800};
-}
-
 /* Distance of the web's centre line from the centroid, along y [m]. */
 static double web_offset(const channel *c)
 {
@@ -86,7 +74,7 @@ static void add_path(const double value[], scene *s, int node)
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
-    const channel c = section_sizes(value[SIZES] != 0);
+    const channel c = channel_of_cantilever(value[SIZES] != 0);
     section_spec spec;
     channel_section(&c, &spec);
     const int profile = scene_add_section(s, &spec);

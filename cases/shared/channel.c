@@ -23,3 +23,15 @@ void channel_print_constants(int data, section_spec *out)
     /* Printed as 3.65e6 mm^4, for which D is indefinite: 3.65e9 mm^4 is meant. */
     out->given.Dw = data == CHANNEL_PRINTED ? 3.65e-3 : 3.65e-6;
 }
+
+channel channel_of_cantilever(int centreline)
+{
+    const double flange = 0.016, web = 0.010, outer_height = 0.30, outer_width = 0.10;
+    return (channel){.height = centreline ? outer_height : outer_height - flange,
+                     .width = centreline ? outer_width : outer_width - web / 2,
+                     .flange_thickness = flange,
+                     .web_thickness = web,
+                     .young = 210e9,
+                     .shear_modulus = 80.77e9,
+                     .density = 7800};
+}

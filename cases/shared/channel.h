@@ -21,4 +21,8 @@ void channel_section(const channel *c, section_spec *out);
  */
 void channel_print_constants(int data, section_spec *out);
 
+/* That of the cantilever of J section 5.2, of steel; centreline: 30 x 10 cm are sizes of the centre
+ * line, else outer ones. */
+channel channel_of_cantilever(int centreline);
+
 #endif

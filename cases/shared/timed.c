@@ -1,5 +1,7 @@
 #include "cases/shared/timed.h"
 
+#include <stdio.h>
+
 section_spec timed_profile(const timed_section *of)
 {
     const double stiffness[6] = {of->EA, of->GA, of->GA, of->GJ, of->EI, of->EI},
@@ -40,4 +42,16 @@ void timed_places(scene *s, int motion, int node, double size, const char *const
             q->offset = scene_node_at(s, node)->position[i];
             q->near_zero = size;
         }
+}
+
+int timed_driver(scene *s, double end, double duration)
+{
+    char text[200];
+    const int drive = scene_add_moving_driver(s, "drive");
+    snprintf(text, sizeof text, "%.17g*(10*(t/%.17g)^3 - 15*(t/%.17g)^4 + 6*(t/%.17g)^5)", end,
+             duration, duration, duration);
+    scene_drive_piece(s, drive, duration, text);
+    snprintf(text, sizeof text, "%.17g", end);
+    scene_drive_piece(s, drive, 0, text);
+    return drive;
 }

@@ -37,4 +37,8 @@ int timed_add_started(scene *s, const double value[], int follows, scene_start s
  * measured by where they are smaller [m]. */
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
+/* A driver that goes from 0 to `end` [m or rad] in that time [s] and stays: 10 s^3 - 15 s^4 + 6
+ * s^5, which begins and ends without acceleration. */
+int timed_driver(scene *s, double end, double duration);
+
 #endif

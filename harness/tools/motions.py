@@ -1,0 +1,153 @@
+"""All stored values of motions in time against limits of meshes: each value, ours on the finest mesh, our limit and its uncertainty.
+
+usage: motions.py PROGRAM [CASE...] [-o FILE.csv]     ends with status 1 where a limit is farther from its truth than the larger of the
+truth's uncertainty and its own.
+
+One integration for all instants of a structure: what the case asks for at one time, its scene asks for at each.  Steps are so short
+that the error of time is below that of the meshes; geometrically_exact is the formulation whose limits are known best.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FORMULATION = "geometrically_exact"
+HOW = ("integrator", "step", "tolerance")
+COLUMNS = ("case,parameters,time,quantity,unit,kind,truth,truth_uncertainty,elements,finest,limit,"
+           "limit_uncertainty,off,within").split(",")
+# meshes, and the tolerance of a step; of those named alone: with these parameters
+CASES = {
+    "rigid_body": {"": ((1, 2, 4), 1e-11)},
+    "spin_up": {"": ((8, 16, 32), 1e-10)},
+    "free_flight_plane": {"": ((16, 32, 64), 1e-8), "load=step": ((32, 64, 128), 1e-7)},
+    "free_flight_space": {"": ((8, 16, 32), 1e-8)},
+    "elbow": {"": ((8, 16, 32), 1e-7)},
+    "pendulum": {"": ((8, 16, 32), 1e-8)},
+    "leaf_guide": {"": ((4, 8, 16), 1e-7)},
+    "release": {"": ((8, 16, 32), 1e-10)},
+}
+
+
+def stored(case):
+    """{structure parameters: [(time or None, row)]} of a case's table, without rows of other models."""
+    found = {}
+    with open(ROOT / "reference" / "tables" / f"{case}.csv", newline="", encoding="utf-8") as table:
+        for row in csv.DictReader(table):
+            given = dict(item.split("=") for item in row["parameters"].split(";") if item)
+            time = given.pop("time", None)
+            structure = ";".join(f"{name}={value}" for name, value in given.items()
+                                 if name not in HOW and value != "*")
+            found.setdefault(structure, []).append((None if time == "*" else time, row))
+    return found
+
+
+def default_time(program, case):
+    listed = json.loads(_run(program, "list", case, "--format", "json"))
+    return next(str(p["default"]) for p in listed["parameters"] if p["name"] == "time")
+
+
+def _run(program, *words):
+    done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
+    if not done.stdout:
+        sys.exit(f"motions.py: {' '.join(words)}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def asked_at(scene, times):
+    """The scene with its motion read at all the times: a quantity for each, NAME_0 and so on; others stay."""
+    motions = [name for name, a in scene["analyses"].items() if "motion" in a]
+    scene["analyses"][motions[0]]["motion"]["instants"] = times
+    quantities = {}
+    for name, quantity in scene["quantities"].items():
+        kind = next(iter(quantity))
+        if quantity[kind].get("analysis") != motions[0]:
+            quantities[name] = quantity
+            continue
+        for i, time in enumerate(times):
+            quantities[f"{name}_{i}"] = {**quantity, kind: {**quantity[kind], "at": time}}
+    scene["quantities"] = quantities
+    return scene
+
+
+def limits(program, case, structure, times, meshes, tolerance):
+    """{name: (finest value, limit, uncertainty)}"""
+    words = [word for item in structure.split(";") if item for word in ("--set", item)]
+    text = _run(program, "scene", case, *words, "--set", f"time={times[-1]}", "--set",
+                f"tolerance={tolerance}")
+    scene = asked_at(yaml.load(text, Loader=yaml.BaseLoader), times)
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / f"{case}.yaml"
+        path.write_text(yaml.dump(scene, sort_keys=False, width=10000), encoding="utf-8")
+        answer = json.loads(
+            _run(program, "converge", "--scene", str(path), "-f", FORMULATION, "-n",
+                 ",".join(map(str, meshes)), "--format", "json"))
+    return {
+        q["quantity"]: (q["value"], q["limit"], q["limit_uncertainty"])
+        for q in answer["series"][0]["quantities"]
+    }
+
+
+def judge(case, structure, rows, found, times, elements):
+    for time, row in rows:
+        name = row["quantity"] if time is None else f"{row['quantity']}_{times.index(time)}"
+        known = found.get(name) or found.get(f"{row['quantity']}_{len(times) - 1}")
+        if known is None or known[1] is None:
+            finest = limit = doubt = off = None
+        else:
+            finest, limit, doubt = known
+            off = limit - float(row["value"])
+        uncertainty = float(row["uncertainty"])
+        within = off is not None and abs(off) <= max(uncertainty, doubt or 0.0)
+        yield dict(
+            zip(COLUMNS,
+                (case, structure, time or "any", row["quantity"], row["unit"], row["kind"],
+                 row["value"], row["uncertainty"], elements, finest, limit, doubt, off,
+                 "yes" if within else "no")))
+
+
+def table(program, case):
+    for structure, rows in stored(case).items():
+        times = sorted({time for time, _ in rows if time is not None}, key=float)
+        times = times or [default_time(program, case)]
+        rows = [(time if time is not None or "time=*" in row["parameters"] else default_time(program, case), row)
+                for time, row in rows]
+        times = sorted({*times, *(time for time, _ in rows if time is not None)}, key=float)
+        meshes, tolerance = CASES[case].get(structure, CASES[case][""])
+        found = limits(program, case, structure, times, meshes, tolerance)
+        yield from judge(case, structure, rows, found, times, meshes[-1])
+
+
+def show(rows):
+    outside = [row for row in rows if row["within"] != "yes"]
+    for case in dict.fromkeys(row["case"] for row in rows):
+        own = [row for row in rows if row["case"] == case]
+        good = sum(row["within"] == "yes" for row in own)
+        print(f"{case}: {good} of {len(own)} values within the larger of their digits and the error of the mesh")
+    for row in outside:
+        print("  outside: " + ", ".join(f"{name} {row[name]}" for name in COLUMNS[:-1] if row[name] not in ("", None)))
+    return 1 if outside else 0
+
+
+def main():
+    given = argparse.ArgumentParser()
+    given.add_argument("program")
+    given.add_argument("case", nargs="*")
+    given.add_argument("-o", "--output")
+    asked = given.parse_args()
+    rows = [row for case in asked.case or CASES for row in table(asked.program, case)]
+    if asked.output:
+        with open(asked.output, "w", newline="", encoding="utf-8") as out:
+            writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+    return show(rows)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
