@@ -147,6 +147,10 @@ truths: needs-truths all ## derive every exact and predicted row again, and soli
 	@$(PYTHON) reference/derive/rederive.py
 	@$(PYTHON) reference/derive/predicted.py
 
+.PHONY: motions
+motions: needs-truths all ## every stored value of motions in time beside limits of meshes that verify does not run, build/motions.csv; half an hour
+	@$(PYTHON) harness/tools/motions.py $(PROGRAM) -o $(BUILD)/motions.csv
+
 causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes, for the report: ten minutes at most; build/causes.json
 	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json

@@ -1,10 +1,12 @@
-"""All stored values of motions in time against limits of meshes: each value, ours on the finest mesh, our limit and its uncertainty.
+"""All stored values of motions in time against limits of meshes: each value, ours on the finest
+mesh, our limit and its uncertainty.
 
-usage: motions.py PROGRAM [CASE...] [-o FILE.csv]     ends with status 1 where a limit is farther from its truth than the larger of the
-truth's uncertainty and its own.
+usage: motions.py PROGRAM [CASE...] [-o FILE.csv]     ends with status 1 where a limit is farther
+from its truth than the larger of the truth's uncertainty and its own.
 
-One integration for all instants of a structure: what the case asks for at one time, its scene asks for at each.  Steps are so short
-that the error of time is below that of the meshes; geometrically_exact is the formulation whose limits are known best.
+One integration for all instants of a structure: what the case asks for at one time, its scene
+asks for at each.  Steps are so short that the error of time is below that of the meshes;
+geometrically_exact is the formulation whose limits are known best.
 """
 import argparse
 import csv
@@ -35,7 +37,8 @@ CASES = {
 
 
 def stored(case):
-    """{structure parameters: [(time or None, row)]} of a case's table, without rows of other models."""
+    """{structure parameters: [(time or None, row)]} of a case's table, without rows of other
+    models."""
     found = {}
     with open(ROOT / "reference" / "tables" / f"{case}.csv", newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):
@@ -49,7 +52,7 @@ def stored(case):
 
 def default_time(program, case):
     listed = json.loads(_run(program, "list", case, "--format", "json"))
-    return next(str(p["default"]) for p in listed["parameters"] if p["name"] == "time")
+    return next(f"{p['default']:g}" for p in listed["parameters"] if p["name"] == "time")
 
 
 def _run(program, *words):
@@ -60,7 +63,8 @@ def _run(program, *words):
 
 
 def asked_at(scene, times):
-    """The scene with its motion read at all the times: a quantity for each, NAME_0 and so on; others stay."""
+    """The scene with its motion read at all the times: a quantity for each, NAME_0 and so on;
+    others stay."""
     motions = [name for name, a in scene["analyses"].items() if "motion" in a]
     scene["analyses"][motions[0]]["motion"]["instants"] = times
     quantities = {}
@@ -96,7 +100,7 @@ def limits(program, case, structure, times, meshes, tolerance):
 def judge(case, structure, rows, found, times, elements):
     for time, row in rows:
         name = row["quantity"] if time is None else f"{row['quantity']}_{times.index(time)}"
-        known = found.get(name) or found.get(f"{row['quantity']}_{len(times) - 1}")
+        known = found.get(name) or found.get(f"{row['quantity']}_0")
         if known is None or known[1] is None:
             finest = limit = doubt = off = None
         else:
@@ -113,11 +117,10 @@ def judge(case, structure, rows, found, times, elements):
 
 def table(program, case):
     for structure, rows in stored(case).items():
-        times = sorted({time for time, _ in rows if time is not None}, key=float)
-        times = times or [default_time(program, case)]
-        rows = [(time if time is not None or "time=*" in row["parameters"] else default_time(program, case), row)
+        usual = default_time(program, case)
+        rows = [(usual if time is None and "time=*" not in row["parameters"] else time, row)
                 for time, row in rows]
-        times = sorted({*times, *(time for time, _ in rows if time is not None)}, key=float)
+        times = sorted({"0", usual, *(time for time, _ in rows if time is not None)}, key=float)
         meshes, tolerance = CASES[case].get(structure, CASES[case][""])
         found = limits(program, case, structure, times, meshes, tolerance)
         yield from judge(case, structure, rows, found, times, meshes[-1])
@@ -128,9 +131,11 @@ def show(rows):
     for case in dict.fromkeys(row["case"] for row in rows):
         own = [row for row in rows if row["case"] == case]
         good = sum(row["within"] == "yes" for row in own)
-        print(f"{case}: {good} of {len(own)} values within the larger of their digits and the error of the mesh")
+        print(f"{case}: {good} of {len(own)} values within the larger of their digits and the "
+              "error of the mesh")
     for row in outside:
-        print("  outside: " + ", ".join(f"{name} {row[name]}" for name in COLUMNS[:-1] if row[name] not in ("", None)))
+        print("  outside: " + ", ".join(f"{name} {row[name]}" for name in COLUMNS[:-1]
+                                        if row[name] not in ("", None)))
     return 1 if outside else 0
 
 

@@ -1,8 +1,10 @@
-"""Rods that move in their plane: the thrown rod and the pendulum, exact in space to the digits that two meshes agree in.
+"""Rods that move in their plane: the thrown rod and the pendulum, exact in space to the digits that
+two meshes agree in.
 
-Simo-Reissner beam, fields x, y and the turn t of the section: strains (cos t x' + sin t y' - 1, -sin t x' + cos t y', t'), forces
-EA, GA, EI times these, mass rho A and rotary inertia rho I.  Space: polynomials in Lobatto's points, whose quadrature makes the mass
-diagonal.  Time: the explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps that waves set.
+Simo-Reissner beam, fields x, y and the turn t of the section: strains (cos t x' + sin t y' - 1,
+-sin t x' + cos t y', t'), forces EA, GA, EI times these, mass rho A and rotary inertia rho I.
+Space: polynomials in Lobatto's points, whose quadrature makes the mass diagonal.  Time: the
+explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps that waves set.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -19,7 +21,8 @@ LEAST = 1e-9  # [m] of an uncertainty
 
 @dataclass(frozen=True)
 class Rod:
-    """From (x0, y0) along (cos, sin) of angle; stiffnesses [N, N, N m^2], mass [kg/m], rotary inertia [kg m]."""
+    """From (x0, y0) along (cos, sin) of angle; stiffnesses [N, N, N m^2], mass [kg/m], rotary
+    inertia [kg m]."""
     start: tuple
     angle: float
     length: float
@@ -44,7 +47,8 @@ def _lobatto(degree):
 
 
 class Mesh:
-    """Rod in elements: G takes values at nodes to derivatives at points, V to values there; weight [points], lumped [nodes]."""
+    """Rod in elements: G takes values at nodes to derivatives at points, V to values there; weight
+    [points], lumped [nodes]."""
 
     def __init__(self, rod, elements, degree):
         x, w, D = _lobatto(degree)
@@ -61,7 +65,8 @@ class Mesh:
 
 
 def forces(rod, mesh, q):
-    """Of the strains on the nodes [3, nodes], from q likewise: x, y and the turn from the x axis."""
+    """Of the strains on the nodes [3, nodes], from q likewise: x, y and the turn from the x
+    axis."""
     (dx, dy, curvature), turn = q @ mesh.G.T, mesh.V @ q[2]
     c, s = np.cos(turn), np.sin(turn)
     stretch, shear = c * dx + s * dy - 1, c * dy - s * dx
@@ -74,7 +79,8 @@ def forces(rod, mesh, q):
 
 
 def move(rod, mesh, load, held, times):
-    """Places of both ends at the times: [times, (x, y) of the first, (x, y) of the last]; load(t, out) adds forces to out[3, nodes]."""
+    """Places of both ends at the times: [times, (x, y) of the first, (x, y) of the last]; load(t,
+    out) adds forces to out[3, nodes]."""
     n = len(mesh.S)
     q = np.stack([
         rod.start[0] + mesh.S * np.cos(rod.angle), rod.start[1] + mesh.S * np.sin(rod.angle),
@@ -112,7 +118,8 @@ def flight(times=FLIGHT_TIMES):
 
 @cache
 def swing(times=SWING_TIMES):
-    """Rows (pin_x, pin_y, tip_x, tip_y) of the rubber pendulum, and how far the meshes are apart."""
+    """Rows (pin_x, pin_y, tip_x, tip_y) of the rubber pendulum, and how far the meshes are
+    apart."""
     radius, young, density = 0.02, 5e6, 1100
     A = np.pi * radius**2
     I = A * radius**2 / 4  # noqa: E741

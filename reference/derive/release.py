@@ -1,12 +1,16 @@
-"""Linear vibration of a cantilever that a force at its tip held aside and that is let go; deflection of the tip over that at the begin.
+"""Linear vibration of a cantilever that a force at its tip held aside and that is let go:
+deflection
+of the tip over that at the begin.
 
 Bernoulli's beam, L = EI = rho A = 1: 12 sum cos(l_n^2 t)/l_n^4 with 1 + cos(l) cosh(l) = 0.
 
 Timoshenko's beam with rotary inertia, y = (w, p, Q, M), Q = k G A (w' - p), M = E I p':
-  y' = A(omega^2) y:  Q' = -rho A omega^2 w,  M' = -Q - rho I omega^2 p;  w = p = 0 at the root, Q = M = 0 at the tip.
-The tip's answer to a force of frequency omega, H = w(L)/F, follows from exp(A L); its poles are the modes, and the residues
-r_n there say how much of each is in the answer to a constant force, r_n/(omega_n^2 H(0)).  All shares add up to one: what the
-modes beyond the last one leave of it is the uncertainty.
+  y' = A(omega^2) y:  Q' = -rho A omega^2 w,  M' = -Q - rho I omega^2 p;  w = p = 0 at the root, Q
+  = M = 0 at the tip.
+The tip's answer to a force of frequency omega, H = w(L)/F, follows from exp(A L); its poles are
+the modes, and the residues r_n there say how much of each is in the answer to a constant force,
+r_n/(omega_n^2 H(0)).  All shares add up to one: what the modes beyond the last one leave of it is
+the uncertainty.
 """
 import numpy as np
 from mpmath import cos, cosh, findroot, mp, mpf, pi
@@ -15,7 +19,7 @@ from scipy.optimize import brentq
 
 mp.dps = 30
 ANY = "integrator=*;step=*;tolerance=*"
-STATIC = 1e-9  # relative: at an amplitude of 1e-5 of the length a path changes the geometry by 1e-10
+STATIC = 1e-9  # relative: an amplitude of 1e-5 of the length changes the geometry by 1e-10
 BERNOULLI_TIMES = ("0.25", "0.5", "1", "1.5", "1.75", "2", "5", "10")
 TIMOSHENKO_TIMES = ("0.001", "0.002", "0.005", "0.01", "0.02")
 JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a point that is verified

@@ -1,12 +1,15 @@
-"""A rigid body that tumbles free of forces, J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2) rad/s at the begin, R = 1 there.
+"""A rigid body that tumbles free of forces, J = diag(1, 2, 3) kg m^2, body rates (0.5, 0.2, 2)
+rad/s
+at the begin, R = 1 there.
 
 Rates: with T the energy and L the angular momentum, L^2 > 2 T J2, so that
   w1 = a1 cn, w2 = a2 sn, w3 = a3 dn of p t + u0, parameter m,
-a_i and p from T and L (E.T. Whittaker, Analytical Dynamics, 1904, chapter 6).  Orientation: with z along L, Euler's angles
-z x z have sin(theta) (sin(psi), cos(psi)) = (J1 w1, J2 w2)/L, cos(theta) = J3 w3/L, and the precession is the quadrature of
+a_i and p from T and L (E.T. Whittaker, Analytical Dynamics, 1904, chapter 6).  Orientation: with
+z along L, Euler's angles z x z have sin(theta) (sin(psi), cos(psi)) = (J1 w1, J2 w2)/L,
+cos(theta) = J3 w3/L, and the precession is the quadrature of
   phi' = L (J1 w1^2 + J2 w2^2)/(J1^2 w1^2 + J2^2 w2^2).
-test/motion_test.py integrates the equations of motion instead.  Values are rounded to eight decimals, far below what any
-integrator is asked for.
+test/motion_test.py integrates the equations of motion instead.  Values are rounded to eight
+decimals, far below what any integrator is asked for.
 """
 from mpmath import atan2, cos, ellipf, ellipfun, matrix, mp, mpf, quad, sin, sqrt
 

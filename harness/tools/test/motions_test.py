@@ -1,0 +1,59 @@
+"""Stored values of motions beside limits: what is asked of a scene, and what counts as within."""
+import os
+import unittest
+
+from harness.tools import motions
+
+SCENE = {
+    "analyses": {"a": {"static": {}}, "b": {"motion": {"instants": ["9"]}}},
+    "quantities": {
+        "still": {"displacement": {"analysis": "a", "node": "n"}, "unit": "m"},
+        "tip": {"displacement": {"analysis": "b", "node": "n"}, "unit": "m", "offset": "2"},
+    },
+}
+
+
+def row(value, uncertainty="1e-6", quantity="tip"):
+    return {"quantity": quantity, "unit": "m", "kind": "exact", "value": value,
+            "uncertainty": uncertainty}
+
+
+class Motions(unittest.TestCase):
+
+    def test_a_quantity_is_read_at_every_time(self):
+        asked = motions.asked_at(SCENE, ["1", "9"])
+        self.assertEqual(list(asked["quantities"]), ["still", "tip_0", "tip_1"])
+        self.assertEqual(asked["quantities"]["tip_0"]["displacement"]["at"], "1")
+        self.assertEqual(asked["quantities"]["tip_1"]["offset"], "2")
+        self.assertEqual(asked["analyses"]["b"]["motion"]["instants"], ["1", "9"])
+
+    def test_within_the_larger_of_both_uncertainties(self):
+        rows = [("1", row("3")), ("9", row("3")), (None, row("5", quantity="still")),
+                ("1", row("3.1"))]
+        found = {"tip_0": (3.2, 3.0000005, 1e-9), "tip_1": (3.2, 3.01, 0.02),
+                 "still": (5.0, 5.1, 0.0)}
+        judged = list(motions.judge("c", "", rows, found, ["1", "9"], 32))
+        self.assertEqual([one["within"] for one in judged], ["yes", "yes", "no", "no"])
+        self.assertEqual(motions.show(judged), 1)
+        self.assertEqual(motions.show(judged[:2]), 0)
+
+    def test_what_has_no_limit_is_outside(self):
+        judged = list(motions.judge("c", "", [("1", row("3"))], {}, ["1"], 32))
+        self.assertEqual(judged[0]["within"], "no")
+
+    def test_every_case_has_rows_and_times(self):
+        for case in motions.CASES:
+            stored = motions.stored(case)
+            self.assertTrue(stored, case)
+            for structure in motions.CASES[case]:
+                self.assertIn(structure, stored, case)
+
+    def test_a_body_is_within(self):
+        program = os.environ.get("BEAMWORK", str(motions.ROOT / "build" / "beamwork"))
+        judged = list(motions.table(program, "rigid_body"))
+        self.assertEqual(len(judged), 61)
+        self.assertTrue(all(one["within"] == "yes" for one in judged))
+
+
+if __name__ == "__main__":
+    unittest.main()
