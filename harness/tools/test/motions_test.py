@@ -1,6 +1,12 @@
 """Stored values of motions beside limits: what is asked of a scene, and what counts as within."""
 import os
+import pathlib
+import subprocess
+import tempfile
 import unittest
+
+import h5py
+import numpy as np
 
 from harness.tools import motions
 
@@ -53,6 +59,27 @@ class Motions(unittest.TestCase):
         judged = list(motions.table(program, "rigid_body"))
         self.assertEqual(len(judged), 61)
         self.assertTrue(all(one["within"] == "yes" for one in judged))
+
+    def test_the_centre_of_mass_of_a_flight_is_where_the_impulse_takes_it(self):
+        program = os.environ.get("BEAMWORK", str(motions.ROOT / "build" / "beamwork"))
+        elements = 16
+        for case, words, place in (("free_flight_space", ("time=10", ), (40.5, 0, 4)),
+                                   ("free_flight_plane", ("time=10", "load=step"), (20.5, 4, 0)),
+                                   ("free_flight_plane", ("time=2.5", "load=step"), (5.5, 4, 0))):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "flight.h5"
+                subprocess.run([
+                    program, "solve", case, "-f", "beamw", "-n",
+                    str(elements), "--shapes", "-o",
+                    str(path), *(w for word in words for w in ("--set", word))
+                ], check=True, capture_output=True)
+                with h5py.File(path) as stored:
+                    shapes = stored[f"cases/{case}/shapes"]
+                    nodes = shapes[next(iter(shapes))]["position"][-1]
+            self.assertEqual(len(nodes), elements + 1)
+            mass = np.ones(len(nodes))
+            mass[[0, -1]] = 0.5
+            self.assertLess(np.max(np.abs(mass @ nodes / np.sum(mass) - place)), 1e-11, case)
 
 
 if __name__ == "__main__":
