@@ -79,8 +79,7 @@ def forces(rod, mesh, q):
 
 
 def move(rod, mesh, load, held, times):
-    """Places of both ends at the times: [times, (x, y) of the first, (x, y) of the last]; load(t,
-    out) adds forces to out[3, nodes]."""
+    """(q, v) at the times, both [times, 3, nodes]; load(t, out) adds forces to out[3, nodes]."""
     n = len(mesh.S)
     q = np.stack([
         rod.start[0] + mesh.S * np.cos(rod.angle), rod.start[1] + mesh.S * np.sin(rod.angle),
@@ -97,8 +96,14 @@ def move(rod, mesh, load, held, times):
 
     found = solve_ivp(rate, (0, times[-1]), np.concatenate([q.ravel(), np.zeros(3 * n)]), "DOP853",
                       t_eval=times, rtol=1e-9, atol=1e-10)
-    places = found.y.T[:, :3 * n].reshape(-1, 3, n)
-    return np.concatenate([places[:, :2, 0], places[:, :2, -1]], axis=1)
+    both = found.y.T.reshape(-1, 2, 3, n)
+    return both[:, 0], both[:, 1]
+
+
+def ends(moved):
+    """Places of both ends: [times, (x, y) of the first, (x, y) of the last]."""
+    q = moved[0]
+    return np.concatenate([q[:, :2, 0], q[:, :2, -1]], axis=1)
 
 
 def _thrown(t, force):
@@ -107,13 +112,30 @@ def _thrown(t, force):
     force[2, -1] -= 80 * factor
 
 
+THROWN = Rod((0, 8), float(np.arctan2(-8, 6)), 10, 1e4, 1e4, 100, 1, 10)
+
+
 @cache
 def flight(times=FLIGHT_TIMES):
     """Rows (A_x, A_y, B_x, B_y) under the smooth load, and how far the meshes are apart."""
-    rod = Rod((0, 8), float(np.arctan2(-8, 6)), 10, 1e4, 1e4, 100, 1, 10)
-    fine, coarse = (move(rod, Mesh(rod, *mesh), _thrown, (), [float(t) for t in times])
+    fine, coarse = (ends(
+        move(THROWN, Mesh(THROWN, *mesh), _thrown, (), [float(t) for t in times]))
                     for mesh in MESHES)
     return fine, np.abs(fine - coarse)
+
+
+def behind_step(elements, degree):
+    """(energy, angular momentum about the origin) that 2.5 s of the load as a step leave."""
+
+    def step(_, force):
+        force[0, -1] += 8
+        force[2, -1] -= 80
+
+    mesh = Mesh(THROWN, elements, degree)
+    (q, ), (v, ) = move(THROWN, mesh, step, (), [2.5])
+    energy = 8 * (q[0, -1] - 6) - 80 * (q[2, -1] - THROWN.angle)
+    turning = THROWN.mass * (q[0] * v[1] - q[1] * v[0]) + THROWN.rotary * v[2]
+    return energy, mesh.lumped @ turning
 
 
 @cache
@@ -131,7 +153,7 @@ def swing(times=SWING_TIMES):
         def weight(_, force):
             force[1] -= 9.81 * rod.mass * mesh.lumped
 
-        return move(rod, mesh, weight, (0, 1), [float(t) for t in times])
+        return ends(move(rod, mesh, weight, (0, 1), [float(t) for t in times]))
 
     fine, coarse = (run(*mesh) for mesh in MESHES)
     return fine, np.abs(fine - coarse)

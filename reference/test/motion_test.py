@@ -59,8 +59,13 @@ class Plane(unittest.TestCase):
         self.assertLess(np.max(np.abs(found[0, 2:] - [0.9916559559, -0.0702880662])), 1e-6)
         self.assertLess(np.max(apart), 1e-7)
 
+    def test_angular_momentum_behind_the_step(self):
+        energy, momentum = plane_motion.behind_step(4, 8)
+        self.assertLess(abs(momentum + 229.5182), 0.05)
+        self.assertLess(abs(energy - 379.7), 2)
+
     def test_momentum_of_the_thrown_rod(self):
-        rod = plane_motion.Rod((0, 8), float(np.arctan2(-8, 6)), 10, 1e4, 1e4, 100, 1, 10)
+        rod = plane_motion.THROWN
         mesh = plane_motion.Mesh(rod, 4, 6)
         rng = np.random.default_rng(1)
         q = rng.standard_normal((3, len(mesh.S)))
