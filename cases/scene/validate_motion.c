@@ -85,11 +85,12 @@ static status check_follows(const scene *s, int i, fault *f)
 {
     const int follows = s->analysis[i].follows;
     if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC &&
+        s->analysis[follows].kind != SCENE_CONTINUATION &&
         s->analysis[follows].kind != SCENE_ROTATION && s->analysis[follows].kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
                          "analysis %d: a motion starts from the last state of a static path, a "
-                         "rotation or a motion, and what it follows is %s; follow one of these, "
-                         "or nothing",
+                         "continuation, a rotation or a motion, and what it follows is %s; follow "
+                         "one of these, or nothing",
                          i, scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
         TRY(check_resumed(s, &s->analysis[i], i, f));
