@@ -41,7 +41,9 @@ done
 for file in elements/*.c cases/*.c; do
     [ -f "$file" ] || continue
     name=$(basename "$file" .c)
-    hits=$(grep -rnwE "\"$name\"|element_$name|case_$name" harness --include='*.c' --include='*.h' 2>/dev/null | grep -v '/test/' || true)
+    quoted="\"$name\"|"
+    case $name in release) quoted="" ;; esac # a word of scene files, too
+    hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness --include='*.c' --include='*.h' 2>/dev/null | grep -v '/test/' || true)
     if [ -n "$hits" ]; then
         echo "$hits" | sed "s|\$|   <- the harness names $name|"
         bad=1
