@@ -66,7 +66,7 @@ def asked_at(scene, times):
     """The scene with its motion read at all the times: a quantity for each, NAME_0 and so on;
     others stay."""
     motions = [name for name, a in scene["analyses"].items() if "motion" in a]
-    scene["analyses"][motions[0]]["motion"]["instants"] = times
+    scene["analyses"][motions[0]]["motion"]["stations"] = times
     quantities = {}
     for name, quantity in scene["quantities"].items():
         kind = next(iter(quantity))

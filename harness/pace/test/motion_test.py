@@ -8,7 +8,7 @@ import unittest
 from harness.test import program
 from harness.test.program import ProgramTest
 
-FLIGHT = ("free_flight_space", "-f", "collocation", "-n", "4")
+FLIGHT = ("free_flight_space", "-f", "collocation", "-n", "4", "--set", "time=7.5")
 
 
 def run(*arguments):
@@ -107,7 +107,7 @@ class Words(ProgramTest):
         self.assertEqual([float(r["error"]) for r in rows],
                          [r["error"] for r in record["cases"][0]["runs"]])
         text = run(*asked).stdout
-        self.assertIn("free_flight_space, collocation, n = 4, to 7.5 s", text)
+        self.assertIn("free_flight_space (time=7.5), collocation, n = 4, to 7.5 s", text)
         self.assertIn("for an error of 0.01:", text)
 
     def test_refusals(self):

@@ -11,7 +11,7 @@ import numpy as np
 from harness.tools import motions
 
 SCENE = {
-    "analyses": {"a": {"static": {}}, "b": {"motion": {"instants": ["9"]}}},
+    "analyses": {"a": {"static": {}}, "b": {"motion": {"stations": ["9"]}}},
     "quantities": {
         "still": {"displacement": {"analysis": "a", "node": "n"}, "unit": "m"},
         "tip": {"displacement": {"analysis": "b", "node": "n"}, "unit": "m", "offset": "2"},
@@ -31,7 +31,7 @@ class Motions(unittest.TestCase):
         self.assertEqual(list(asked["quantities"]), ["still", "tip_0", "tip_1"])
         self.assertEqual(asked["quantities"]["tip_0"]["displacement"]["at"], "1")
         self.assertEqual(asked["quantities"]["tip_1"]["offset"], "2")
-        self.assertEqual(asked["analyses"]["b"]["motion"]["instants"], ["1", "9"])
+        self.assertEqual(asked["analyses"]["b"]["motion"]["stations"], ["1", "9"])
 
     def test_within_the_larger_of_both_uncertainties(self):
         rows = [("1", row("3")), ("9", row("3")), (None, row("5", quantity="still")),
