@@ -105,6 +105,10 @@ certificates: all ## hold every formulation against the interface, and measure w
 stress: all ## drive every formulation to extremes; a table, and build/stress.json
 	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)
 
+.PHONY: motion
+motion: all ## integrators of motions in time: orders, what they conserve, large steps; build/motion.json
+	@$(PROGRAM) motion --expected harness/pace/expected.csv --json $(BUILD)/motion.json $(MOTION)
+
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
 

@@ -2,78 +2,85 @@
 
 #include <math.h>
 
-#include "harness/pace/pace_plan.h"
+/* Steps of the motion of a run, with its begin. */
+typedef struct track {
+    int count;
+    const motion_record *record;
+} track;
 
-/* The first point of a curve behind `from`: where loads end, accelerations and what has no mass are
- * found anew. */
-static int first_of(const curve *c, double from)
+static track track_of(const solve_result *r, int analysis)
+{
+    track t = {0, r->motion};
+    while (t.record != NULL && t.record < r->motion + r->motions && t.record->analysis != analysis)
+        t.record++;
+    while (t.record + t.count < r->motion + r->motions && t.record[t.count].analysis == analysis)
+        t.count++;
+    return t;
+}
+
+static double balance_at(const track *t, int i, scene_balance what)
+{
+    return t->record[i].at.balance[what];
+}
+
+/* The first step that ends where nothing acts; where loads end, accelerations and what has no mass
+ * are found anew, so that the end of the step before is not yet one of them. */
+static int first_alone(const track *t, double from)
 {
     int i = 0;
-    while (i < c->points && c->x[i] <= from * (1 + 1e-12))
+    while (from > 0 && i < t->count && t->record[i].at.time <= from * (1 + 1e-12))
         i++;
     return i;
 }
 
-/* With the first point at which nothing acts any more: the run may have stopped before. */
-static void take_energy(const curve *c, int first, pace_run *r)
+/* Against the first step: the run may have stopped before the last one. */
+static void take_energy(const track *t, int first, pace_run *r)
 {
-    const double before = c->value[first];
+    const double before = balance_at(t, first, SCENE_ENERGY);
     r->largest = r->last = 1;
     r->energy = 0;
-    for (int i = first; i < c->points; i++) {
-        r->last = c->value[i] / before;
+    for (int i = first; i < t->count; i++) {
+        r->last = balance_at(t, i, SCENE_ENERGY) / before;
         r->largest = fmax(r->largest, r->last);
         r->energy = fmax(r->energy, fabs(r->last - 1));
     }
 }
 
-static double length_at(const curve *const c[3], int i)
+/* Of a momentum: its size, or that of its change since `first`. */
+static double vector_at(const track *t, scene_balance x, int i, int first)
 {
-    return sqrt(c[0]->value[i] * c[0]->value[i] + c[1]->value[i] * c[1]->value[i] +
-                c[2]->value[i] * c[2]->value[i]);
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        const scene_balance which = (scene_balance)(x + k);
+        const double d = balance_at(t, i, which) - (first != i ? balance_at(t, first, which) : 0);
+        square += d * d;
+    }
+    return sqrt(square);
 }
 
-/* Largest change of a vector since the first point. */
-static double change_of(const curve *const c[3], int first)
+/* Of both momenta, against their size; what is at rest has none. */
+static double momentum_drift(const track *t, int first)
 {
+    static const scene_balance both[] = {SCENE_PX, SCENE_LX};
     double largest = 0;
-    for (int i = first; i < c[0]->points; i++) {
-        double square = 0;
-        for (int k = 0; k < 3; k++) {
-            const double d = c[k]->value[i] - c[k]->value[first];
-            square += d * d;
-        }
-        largest = fmax(largest, sqrt(square));
+    for (int b = 0; b < 2; b++) {
+        const double size = vector_at(t, both[b], first, first);
+        for (int i = first + 1; i < t->count && size > 0; i++)
+            largest = fmax(largest, vector_at(t, both[b], i, first) / size);
     }
     return largest;
 }
 
-/* Both momenta against their size; what is at rest has none. */
-static double momentum_drift(const pace *p, const pace_run *r, int first)
+/* Energy that no work explains, in parts of the largest. */
+static double unexplained(const track *t)
 {
-    double largest = 0;
-    for (int which = PACE_PX; which < PACE_CURVES; which += 3) {
-        const curve *c[3];
-        for (int k = 0; k < 3; k++)
-            c[k] = pace_plan_curve(p, r->series, which + k);
-        const double size = length_at(c, first);
-        if (size > 0)
-            largest = fmax(largest, change_of(c, first) / size);
-    }
-    return largest;
-}
-
-/* Of the work that went in and came out, in parts of the largest energy. */
-static double unexplained(const pace *p, const pace_run *r)
-{
-    const curve *energy = pace_plan_curve(p, r->series, PACE_ENERGY),
-                *drift = pace_plan_curve(p, r->series, PACE_DRIFT);
     double most = 0, size = 0;
-    for (int i = 0; energy != NULL && drift != NULL && i < drift->points; i++) {
-        most = isnan(drift->value[i]) ? NAN : fmax(most, fabs(drift->value[i]));
-        size = fmax(size, fabs(energy->value[i]));
-        if (isnan(most))
+    for (int i = 0; i < t->count; i++) {
+        const double drift = fabs(balance_at(t, i, SCENE_DRIFT));
+        if (isnan(drift))
             return NAN;
+        most = fmax(most, drift);
+        size = fmax(size, fabs(balance_at(t, i, SCENE_ENERGY)));
     }
     return size > 0 ? most / size : NAN;
 }
@@ -92,13 +99,13 @@ static pace_fate fate_of(const pace_run *r)
 void pace_drift(const pace *p, pace_run *r)
 {
     const pace_group *g = &p->group[r->group];
-    const curve *energy = pace_plan_curve(p, r->series, PACE_ENERGY);
-    const int first = energy != NULL ? first_of(energy, g->from) : 0;
-    r->energy = r->momentum = r->largest = r->last = NAN;
-    if (energy != NULL && first < energy->points && energy->value[first] > 0) {
-        take_energy(energy, first, r);
-        r->momentum = momentum_drift(p, r, first);
-    } else if (!isfinite(g->from))
-        r->energy = unexplained(p, r);
+    const track t = track_of(&pace_cell_of(p, r->series)->solve, g->analysis);
+    const int first = first_alone(&t, g->from);
+    r->momentum = r->largest = r->last = NAN;
+    r->energy = unexplained(&t);
+    if (first < t.count && balance_at(&t, first, SCENE_ENERGY) > 0) {
+        take_energy(&t, first, r);
+        r->momentum = momentum_drift(&t, first);
+    }
     r->fate = isfinite(g->from) || r->status != STATUS_OK ? fate_of(r) : PACE_UNJUDGED;
 }

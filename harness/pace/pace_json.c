@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "harness/catalogue/environment.h"
-#include "harness/pace/pace_plan.h"
 #include "harness/pace/pace_reach.h"
 #include "harness/pace/pace_record.h"
 #include "harness/record/json.h"
@@ -64,7 +63,7 @@ static json_t *values_of(const pace *p, const pace_run *r)
 {
     const scene *s = &pace_point_of(p, r)->scene;
     json_t *out = json_object();
-    for (int i = 0; r->values != NULL && i < s->quantities - PACE_CURVES; i++)
+    for (int i = 0; r->values != NULL && i < s->quantities; i++)
         json_object_set_new(out, s->quantity[i].name, number(r->values[i]));
     return out;
 }

@@ -7,7 +7,6 @@
 #include "harness/pace/pace_distance.h"
 #include "harness/pace/pace_drift.h"
 #include "harness/pace/pace_order.h"
-#include "harness/pace/pace_plan.h"
 #include "harness/study/run.h"
 #include "harness/timing/price.h"
 
@@ -42,9 +41,8 @@ static status errors_of(const pace *p, const pace_group *g, pace_run *r, fault *
     const scene *s = &pace_point_of(p, r)->scene;
     const cell_result *cell = pace_cell_of(p, r->series),
                       *reference = pace_cell_of(p, g->reference);
-    const int own = s->quantities - PACE_CURVES,
-              known = cell->solve.quantities == s->quantities &&
-                      reference->solve.quantities == s->quantities;
+    const int own = s->quantities,
+              known = cell->solve.quantities == own && reference->solve.quantities >= own;
     r->values = malloc((size_t)(own + 1) * sizeof *r->values);
     if (r->values == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for errors");

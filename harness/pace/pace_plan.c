@@ -1,7 +1,6 @@
 #include "harness/pace/pace_plan.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +9,6 @@
 
 enum {
     STATIONS_OF_ERROR = 20,
-    STATIONS_MOST = 4000,
     USUAL_STEPS = 4,
     USUAL_TOLERANCES = 3,
     PARTS = 100 /* of a tolerance, from one to the next */
@@ -62,23 +60,6 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-static void add_curve(scene *s, int analysis, const char *name, const char *unit,
-                      scene_balance what)
-{
-    scene_set_curve(scene_add_quantity(s, name, unit, analysis, scene_balance_of(what)), "time",
-                    "s", 1, 0);
-}
-
-static void add_curves(scene *s, int analysis)
-{
-    add_curve(s, analysis, "pace energy", "J", SCENE_ENERGY);
-    add_curve(s, analysis, "pace drift", "J", SCENE_DRIFT);
-    for (int i = 0; i < 3; i++)
-        add_curve(s, analysis, "pace momentum", "kg m/s", (scene_balance)(SCENE_PX + i));
-    for (int i = 0; i < 3; i++)
-        add_curve(s, analysis, "pace angular momentum", "kg m^2/s", (scene_balance)(SCENE_LX + i));
-}
-
 /* The point that was added last becomes that motion. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
@@ -88,10 +69,7 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     how->alpha = r->method.alpha;
     how->step = r->step;
     how->tolerance = r->tolerance;
-    TRY(stations_of(spacing, g->end, &how->path, f));
-    add_curves(&at->scene, g->analysis);
-    return at->scene.out_of_memory ? fault_set(f, STATUS_FAULT, "out of memory for a motion")
-                                   : STATUS_OK;
+    return stations_of(spacing, g->end, &how->path, f);
 }
 
 /* A series of one mesh, of a point of its own. */
@@ -110,13 +88,13 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Errors are looked at where all steps end; energies as often as there is room. */
-static double spacing_of(const pace_group *g, const pace_plan_request *q, double step)
+/* Between stations: errors are looked at where all steps end. */
+static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
-                 least = g->end / (q->errors ? STATIONS_OF_ERROR : STATIONS_MOST),
-                 unit = q->errors ? coarsest : step;
-    return fmin(g->end, unit * fmax(1, ceil(least / unit * (1 - same))));
+                 least = g->end / STATIONS_OF_ERROR;
+    return q->errors ? fmin(g->end, coarsest * fmax(1, ceil(least / coarsest * (1 - same))))
+                     : g->end;
 }
 
 static status add_run(pace *p, const pace_plan_request *q, const pace_run *what, fault *f)
@@ -129,10 +107,19 @@ static status add_run(pace *p, const pace_plan_request *q, const pace_run *what,
     pace_run *r = &p->run[p->runs];
     *r = *what;
     r->group = p->groups - 1;
-    TRY(add_motion(p, g, q, r, spacing_of(g, q, r->step), f));
+    TRY(add_motion(p, g, q, r, spacing_of(g, q), f));
     p->runs++;
     g->runs++;
     return STATUS_OK;
+}
+
+/* Where energies are read, a step of its own leads to every station: the reference is not one that
+ * is read between steps. */
+static void read_exactly(scene *s, int analysis)
+{
+    scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
+                                       scene_balance_of(SCENE_ENERGY)),
+                    "time", "s", 1, 0);
 }
 
 /* With its checks behind it. */
@@ -143,7 +130,11 @@ static status add_reference(pace *p, pace_group *g, const pace_plan_request *q, 
     g->reference = p->sweep.seriess;
     for (int i = 0; i <= PACE_CHECKS; i++) {
         r.tolerance = pace_reference[i];
-        TRY(add_motion(p, g, q, &r, spacing_of(g, q, g->step), f));
+        TRY(add_motion(p, g, q, &r, spacing_of(g, q), f));
+        scene *s = &p->sweep.point[p->sweep.points - 1].scene;
+        read_exactly(s, g->analysis);
+        if (s->out_of_memory)
+            return fault_set(f, STATUS_FAULT, "out of memory for a motion");
     }
     return STATUS_OK;
 }
@@ -204,11 +195,4 @@ status pace_plan_add(pace *p, const pace_plan_request *q, fault *f)
     if (q->errors)
         TRY(add_reference(p, g, q, f));
     return add_runs(p, q, f);
-}
-
-const curve *pace_plan_curve(const pace *p, int index, int which)
-{
-    const solve_result *r = &pace_cell_of(p, index)->solve;
-    const int at = r->quantities - PACE_CURVES + which;
-    return at >= 0 && r->quantity[at].curve.points > 0 ? &r->quantity[at].curve : NULL;
 }

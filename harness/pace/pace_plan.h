@@ -4,9 +4,6 @@
 
 #include "harness/pace/pace.h"
 
-/* Quantities behind those of the scene, along all stations. */
-enum { PACE_ENERGY, PACE_DRIFT, PACE_PX, PACE_LX = PACE_PX + 3, PACE_CURVES = PACE_LX + 3 };
-
 /* What is run of one structure. */
 typedef struct pace_plan_request {
     const case_type *type;
@@ -24,7 +21,4 @@ typedef struct pace_plan_request {
 status pace_plan_usual(pace_plan_request *, fault *);
 /* A group behind those that there are. REFUSED: no motion, or nothing to run. */
 status pace_plan_add(pace *, const pace_plan_request *, fault *);
-/* Of the curves in the cell of a series; NULL: it has none. */
-const curve *pace_plan_curve(const pace *, int index, int which);
-
 #endif

@@ -3,7 +3,8 @@
  *   order      pass, low order or undecided, from errors at halved steps (pace_order.h)
  *   energy     conserved, or "order P" of its drift at halved steps, or drifts
  *   momentum   the same
- *   tolerance  kept: errors within a factor of every tolerance, or not kept
+ *   tolerance  for each of them the decimal logarithm of how many times it the error is; twice as
+ *              much or as little is as expected
  *   fate       of each step: grows, stops, bounded or exact (pace.h) */
 #ifndef BEAMWORK_PACE_VERDICT_H
 #define BEAMWORK_PACE_VERDICT_H
@@ -38,6 +39,8 @@ typedef struct pace_verdicts {
     pace_verdict *verdict;
 } pace_verdicts;
 
+/* Is it what the table says? */
+int pace_verdict_is_expected(const pace_verdict *);
 /* Reads the table and plans its motions. REFUSED: its first mistake, with its line. */
 status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
 /* After pace_judge. */

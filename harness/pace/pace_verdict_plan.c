@@ -117,20 +117,29 @@ static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, 
     return STATUS_OK;
 }
 
+/* Of a row that is wrong. */
+static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
+                     fault *f)
+{
+    return fault_set(f, outcome, "%.80s:%d: %.200s", path, row->line, why->text);
+}
+
 static status plan_rows(const char *path, pace *p, pace_verdicts *all, planned row[], fault *f)
 {
+    const own_table_row *line = all->table.row;
+    fault why = {""};
     for (int i = 0; i < all->count; i++) {
-        fault why = {""};
-        const status outcome = read_row(&all->table.row[i], &all->verdict[i], &row[i], &why);
+        const status outcome = read_row(&line[i], &all->verdict[i], &row[i], &why);
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "%.80s:%d: %.200s", path, all->table.row[i].line,
-                             why.text);
+            return refuse(path, &line[i], outcome, &why, f);
     }
     for (int first = 0, end; first < all->count; first = end) {
         end = first + 1;
         while (end < all->count && is_same(&all->verdict[first], &all->verdict[end]))
             end++;
-        TRY(plan_block(p, all, row, first, end, f));
+        const status outcome = plan_block(p, all, row, first, end, &why);
+        if (outcome != STATUS_OK)
+            return refuse(path, &line[first], outcome, &why, f);
     }
     return STATUS_OK;
 }

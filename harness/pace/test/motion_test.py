@@ -79,7 +79,7 @@ class Runs(ProgramTest):
 class Stability(ProgramTest):
 
     def test_trapezoidal_in_stiff_flight(self):
-        case = "free_flight_space", "-f", "collocation", "-n", "4", "--set", "time=20"
+        case = *FLIGHT[:-1], "time=20"
         record = self.record("motion", *case, "--vary", "stiffening=1,1e4", "--no-errors",
                              "--integrator", "trapezoidal,conserving", "--step", "0.2")
         points = record["cases"][0]["stability"]
@@ -93,8 +93,8 @@ class Stability(ProgramTest):
             self.assertEqual(bool(r["reason"]), r["status"] != "ok")
 
     def test_held_structures_have_no_fate(self):
-        record = self.record("motion", "pendulum", "-f", "collocation", "-n", "2", "--no-errors",
-                             "--integrator", "alpha", "--step", "0.01")
+        record = self.record("motion", "pendulum", "-f", "collocation", "-n", "2", "--set",
+                             "time=0.5", "--no-errors", "--integrator", "alpha", "--step", "0.01")
         self.assertEqual(record["cases"][0]["stability"][0]["outcome"], "")
 
 
@@ -123,6 +123,53 @@ class Words(ProgramTest):
             self.assertEqual(done.returncode, 2, arguments)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
             self.assertIn(words, done.stderr)
+
+
+HEAD = "judged,case,parameters,formulation,elements,integrator,steps,expected,why"
+
+
+class Expected(ProgramTest):
+
+    def judged(self, *rows):
+        path = self.folder / "expected.csv"
+        path.write_text("\n".join([HEAD, *rows]) + "\n", encoding="utf-8")
+        return run("--expected", path)
+
+    def test_as_expected_and_not(self):
+        row = "{},free_flight_space,time=7.5,collocation,2,{},0.1..0.025,{},because"
+        good = row.format("energy", "conserving", "conserved"), row.format(
+            "energy", "alpha", "order 2")
+        done = self.judged(*good)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        self.assertIn("2 verdicts, 0 differ", done.stdout)
+        done = self.judged(row.format("energy", "alpha", "conserved"), good[0])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("unexpected: energy of alpha", done.stdout)
+        self.assertIn("2 verdicts, 1 differ", done.stdout)
+
+    def test_tolerances_within_a_factor_of_two(self):
+        row = "tolerance,free_flight_space,time=7.5,collocation,2,radau,1e-4..1e-6,{},because"
+        found = self.judged(row.format("9")).stdout.split(": ")[-1].split(",")[0]
+        near = " ".join(f"{float(x) + 0.2:.1f}" for x in found.split())
+        far = " ".join(f"{float(x) + 0.4:.1f}" for x in found.split())
+        self.assertEqual(self.judged(row.format(near)).returncode, 0)
+        self.assertEqual(self.judged(row.format(far)).returncode, 1)
+        self.assertEqual(self.judged(row.format(near.split()[0])).returncode, 1)
+
+    def test_mistakes_of_the_table(self):
+        good = "order,pendulum,,collocation,2,alpha,0.01,pass,because".split(",")
+        for column, word, words in ((0, "speed", "'speed' is judged by nothing"),
+                                    (1, "pendulums", "pendulum"), (2, "mass=1", "mass"),
+                                    (3, "colocation", "collocation"), (4, "two", "whole number"),
+                                    (5, "euler", "--integrator 'euler'"),
+                                    (6, "0", "--step '0'"), (1, "elastica", "no motion in time")):
+            row = [*good[:column], word, *good[column + 1:]]
+            done = self.judged(",".join(row))
+            self.assertEqual(done.returncode, 2, row)
+            self.assertIn("expected.csv:2: ", done.stderr)
+            self.assertIn(words, done.stderr)
+        self.assertEqual(run("--expected", self.folder / "none.csv").returncode, 4)
+        self.assertEqual(self.judged().returncode, 3)
 
 
 if __name__ == "__main__":
