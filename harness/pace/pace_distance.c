@@ -57,7 +57,7 @@ double pace_distance(const cell_result *cell, const cell_result *other, int anal
         return NAN;
     const double size = size_of(a);
     for (int i = 0; i < a->states; i++)
-        if (a->state[i].kind == SHAPE_PATH && a->state[i].analysis == analysis)
+        if (a->state[i].kind == SHAPE_MOTION && a->state[i].analysis == analysis)
             largest = fmax(largest, of_state(a, b, (size_t)i, (size_t)i, size));
     return largest;
 }

@@ -72,6 +72,13 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
+/* So many that all steps meet them, as far as the spacing divides the time. */
+static int frames_of(const pace_group *g, double spacing)
+{
+    const int parts = (int)ceil(g->end / spacing * (1 - same));
+    return 1 + parts * (parts < SHAPES_FEW ? SHAPES_FEW : 1);
+}
+
 /* A series of one mesh, of a point of its own. */
 static status add_motion(pace *p, const pace_group *g, const pace_plan_request *q, pace_run *r,
                          double spacing, fault *f)
@@ -80,7 +87,7 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     point *at = &p->sweep.point[p->sweep.points - 1];
     if (at->status != STATUS_OK)
         return fault_set(f, at->status, "%s", at->reason);
-    at->shapes = q->errors ? SHAPES_ALL : 0;
+    at->shapes = q->errors ? frames_of(g, spacing) : 0;
     at->whole_steps = q->whole;
     TRY(set_motion(p, g, r, spacing, f));
     TRY(plan_extend(&p->sweep, &q->formulation, 1, f));

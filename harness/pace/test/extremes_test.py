@@ -22,7 +22,7 @@ loads:
   aside: {force: [0, 0.0025, 0], on: tip, pieces: [{is: "0"}]}
 analyses:
   aside: {static: {stations: [1]}}
-  swing: {motion: {instants: [TIME], step: STEP, about: aside}}
+  swing: {motion: {stations: [TIME], step: STEP, about: aside}}
 quantities:
   tip: {displacement: {analysis: swing, node: tip, component: uy}}
 needs: []
@@ -39,7 +39,8 @@ nodes:
 members:
   rod: {from: body, to: end, section: rod, y: [0, 1, 0]}
 analyses:
-  flight: {motion: {instants: [TIME], step: STEP, velocity: [0, 0, 3], spin: [0.3, 0.1, 2]}}
+  flight: {motion: {stations: [TIME], step: STEP,
+                   start: {velocity: [0, 0, 3], spin: [0.3, 0.1, 2]}}}
 quantities:
   x: {displacement: {analysis: flight, node: body, component: ux}, near_zero: 1}
 needs: [NEEDS]
