@@ -96,7 +96,6 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
     scene_node_at(&s, tip)->body = (scene_body){.mass = 50, .inertia = {1e-3, 1e-3, 1e-3}};
     s.section[profile].density *= 1e-6;
     const int load = scene_add_load(&s, SCENE_FORCE, tip, 0, 1e-4, 0);
-    scene_load_piece(&s, load, 0, "0");
     const int bent = scene_add_static(&s, 1, one, 1), modal = scene_add_modal(&s, SCENE_NONE);
     scene_add_quantity(&s, "f", "Hz", modal, scene_frequency(0, SCENE_ANY));
     scene_add_quantity(&s, "static", "m", bent, scene_coordinate(tip, SCENE_UY));
@@ -104,6 +103,7 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
     const double u = answer_of(&a, "static"), f = answer_of(&a, "f"), at[1] = {2.25 / f};
     gsl_test(!(fabs(2 * PI * f / first - 1) < 1e-2), "frequency near that of the body");
     s.quantities = 0;
+    scene_load_piece(&s, load, 0, "0");
     const int motion = scene_add_motion(
         &s, bent, 1, at,
         (scene_motion){.scheme = by, .alpha = scene_alpha_of_radius(0.9), .step = step / f});
