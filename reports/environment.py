@@ -14,6 +14,7 @@ ADDS = (
     ("certificates", ("elements.json", ), "what each formulation keeps of its interface, and can do"),
     ("newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
     ("stress", ("stress.json", ), "every formulation at its extremes"),
+    ("motion", ("motion.json", ), "integrators of motions: orders, what they conserve, large steps"),
     ("mutants", ("mutants.json", ), "planted faults"),
     ("fuzz", ("fuzz.json", ), "any bytes as input"),
 )

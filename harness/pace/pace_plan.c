@@ -95,13 +95,20 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Between stations: errors are looked at where all steps end. */
+/* Between stations: errors are looked at where all steps end, which is where a whole number of the
+ * coarsest ones divides the time. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
-                 least = g->end / STATIONS_OF_ERROR;
-    return q->errors ? fmin(g->end, coarsest * fmax(1, ceil(least / coarsest * (1 - same))))
-                     : g->end;
+                 all = g->end / coarsest, wanted = ceil(all / STATIONS_OF_ERROR * (1 - same));
+    if (!q->errors)
+        return g->end;
+    if (fabs(all - round(all)) > same * all)
+        return fmin(g->end, coarsest * wanted);
+    int steps = (int)wanted;
+    while (steps > 1 && (int)round(all) % steps != 0)
+        steps--;
+    return fmin(g->end, coarsest * steps);
 }
 
 static status add_run(pace *p, const pace_plan_request *q, const pace_run *what, fault *f)
