@@ -148,7 +148,7 @@ int main(void)
     counted("warping_torsion", EXPENSE_linear, 1);
     counted("tip_body", EXPENSE_modal, 1);
     counted("lee_frame", EXPENSE_continuation, 1);
-    counted("pendulum", EXPENSE_alpha_step, 100);
+    counted("pendulum", EXPENSE_radau_step, 40);
     adapts();
     prices();
     return gsl_test_summary();
