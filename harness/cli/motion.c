@@ -151,7 +151,7 @@ int cli_motion(int count, char **arguments)
         "large steps: does the energy grow, does a step fail? With --expected the verdicts of a "
         "table. Exit status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 "
         "refused, 3 nothing was run, 4 file, disk or memory."
-        "\vbeamwork motion free_flight_space -f collocation -n 8 --set time=7.5 --integrator "
+        "\vbeamwork motion free_flight_space -f collocation -n 8 --integrator "
         "alpha,radau --step "
         "0.1..0.0125\n"
         "beamwork motion --expected harness/pace/expected.csv",
