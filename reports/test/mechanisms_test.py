@@ -23,12 +23,11 @@ class Page(ProgramTest):
         done = self.answered("bench", "spherical_joint", "-f", "sheet_third", "-n", "1", "--dense",
                              "-o", self.folder / "mechanisms_joint.h5")
         parts = re.search(
-            r"\[us\] in an iteration.*\n +sheet_third +1 +([\d.]+) +([\d.]+) +([\d.]+)"
-            r" +([\d.]+) +([\d.]+)\n"
+            r"\[us\] in an iteration.*\n +sheet_third +1(?: +-?[\d.]+){5}\n"
             r" +dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times", done.stdout)
         self.assertIsNotNone(parts, done.stdout)
-        self.assertTrue(all(float(part) > 0 for part in parts.groups()),
-                        done.stdout)  # how large they are is for benchmarks to say
+        # How large they are is for benchmarks to say: on a busy machine differences may be negative.
+        self.assertTrue(all(float(part) > 0 for part in parts.groups()), done.stdout)
         page = self.page()
         self.assertIn("time here", page)
         self.assertIn("<td class=\"n\">243</td>", page)
