@@ -180,7 +180,7 @@ layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) ## check that includes po
 	@harness/tools/layers.sh $^
 
 # In C all of them, in Python those that give the program what its readers cannot trust; all: ASAN_PYTHON='$(PYTHON_TESTS)'.
-ASAN_PYTHON ?= $(filter $(addprefix harness/,$(addsuffix /test,cli completion export imports process record scene_file)),$(PYTHON_TESTS))
+ASAN_PYTHON ?= $(filter $(addprefix harness/,$(addsuffix /test,completion imports process record scene_file)),$(PYTHON_TESTS))
 asan: ## tests under the address and undefined-behaviour sanitizers: those in C, and those of the readers
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PYTHON_TESTS="$(ASAN_PYTHON)" test
 
