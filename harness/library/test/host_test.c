@@ -184,7 +184,15 @@ static void *converge(void *argument)
     return NULL;
 }
 
-/* One scene solved by all of them, and processes started meanwhile. */
+/* The allocator of gcc 12's address sanitizer is no good in a process that was started while
+ * another thread held it, for ever; glibc's is. */
+#ifdef __SANITIZE_ADDRESS__
+enum { BESIDE = 0 };
+#else
+enum { BESIDE = 1 };
+#endif
+
+/* One scene solved by all of them, and processes started meanwhile, or behind. */
 static void threads(void)
 {
     pthread_t thread[THREADS], other;
@@ -195,12 +203,16 @@ static void threads(void)
     }
     for (int i = 0; i < THREADS; i++)
         pthread_create(&thread[i], NULL, work, &differs[i]);
-    pthread_create(&other, NULL, converge, &failed);
+    if (BESIDE)
+        pthread_create(&other, NULL, converge, &failed);
     for (int i = 0; i < THREADS; i++) {
         pthread_join(thread[i], NULL);
         gsl_test_int(differs[i], 0, "answers of thread %d that differ", i);
     }
-    pthread_join(other, NULL);
+    if (BESIDE)
+        pthread_join(other, NULL);
+    else
+        converge(&failed);
     gsl_test_int(failed, 0, "processes started beside them");
     for (int i = 0; i < SEVERAL; i++)
         free(alone[i]);
