@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "cases/scene/along_path.h"
 #include "harness/algebra/eigen.h"
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
@@ -116,7 +117,7 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
 {
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
-    TRY(loads_proportional(c->model, f));
+    TRY(along_path_proportional(c->scene, f));
     TRY(quadratic_forms_alloc(c->model, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
     if (loads_begin(c->model))

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/along_path.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/equations/applied.h"
@@ -12,18 +13,6 @@
 
 /* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
 static const double potential = 1e-12;
-
-static double interpolate(int stations, const double at[], const double value[], double path)
-{
-    if (path <= at[0])
-        return value[0];
-    for (int i = 1; i < stations; i++)
-        if (path <= at[i]) {
-            const double t = (path - at[i - 1]) / (at[i] - at[i - 1]);
-            return t == 1 ? value[i] : value[i - 1] + t * (value[i] - value[i - 1]);
-        }
-    return value[stations - 1];
-}
 
 void loads_of(model *m, int analysis)
 {
@@ -34,36 +23,15 @@ void loads_of(model *m, int analysis)
     m->held_path = followed != NULL ? followed->value[followed->stations - 1] : 1;
 }
 
-double loads_path_factor(const scene_load *load, double path)
-{
-    return load->stations > 0 ? interpolate(load->stations, load->path, load->factor, path) : path;
-}
-
-double loads_path_value(const scene_driver *d, double path)
-{
-    return interpolate(d->stations, d->path, d->value, path);
-}
-
 double loads_factor(const model *m, const scene_load *load, double path)
 {
     double at[3];
     if (!m->in_time)
-        return loads_path_factor(load, path);
+        return along_path_factor(load, path);
     if (load->function.pieces == 0)
-        return loads_path_factor(load, m->held_path);
+        return along_path_factor(load, m->held_path);
     function_at(&load->function, path, at);
     return at[0];
-}
-
-/* Derivative of the factor by the path parameter; at a station: of what follows. */
-static double rate_along_path(const scene_load *load, double path)
-{
-    if (load->stations == 0)
-        return 1;
-    for (int i = 1; i < load->stations; i++)
-        if (path >= load->path[i - 1] && path < load->path[i])
-            return (load->factor[i] - load->factor[i - 1]) / (load->path[i] - load->path[i - 1]);
-    return 0;
 }
 
 double loads_driver_value(const model *m, const scene_driver *d, double path)
@@ -77,11 +45,11 @@ void loads_driver_rates(const model *m, const scene_driver *d, double path, doub
 {
     out[1] = out[2] = 0;
     if (!m->in_time)
-        out[0] = loads_path_value(d, path);
+        out[0] = along_path_value(d, path);
     else if (d->function.pieces > 0)
         function_at(&d->function, path, out);
     else
-        out[0] = loads_path_value(d, m->held_path);
+        out[0] = along_path_value(d, m->held_path);
 }
 
 /* What one load puts on vertices is added up. */
@@ -125,7 +93,7 @@ void loads_rate(const model *m, const model_state *s, double path, double out[])
 {
     memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(m, s, &m->scene->load[i], rate_along_path(&m->scene->load[i], path), out);
+        loads_add_one(m, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
 }
 
 void loads_stiffness(const model *m, const model_state *s, double path, loads_entry take,
@@ -301,36 +269,4 @@ int loads_begin(const model *m)
         begin |= m->scene->driver[d].value != NULL &&
                  loads_driver_value(m, &m->scene->driver[d], 0) != 0;
     return begin;
-}
-
-/* Of stations between 0 and 1 all lie on the line from the value at 0 to that at 1. */
-static int is_straight(int stations, const double path[], const double value[])
-{
-    for (int i = 0; i < stations; i++) {
-        const double first = interpolate(stations, path, value, 0),
-                     last = interpolate(stations, path, value, 1),
-                     line = first + path[i] * (last - first);
-        if (path[i] > 0 && path[i] < 1 &&
-            !(fabs(value[i] - line) <= 1e-12 * (fabs(first) + fabs(last))))
-            return 0;
-    }
-    return 1;
-}
-
-status loads_proportional(const model *m, fault *f)
-{
-    static const char words[] =
-        "from path 0 to 1 its values are not on a line: the critical load of "
-        "a linear prestress has no sense; follow a static path";
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
-        if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor))
-            return fault_set(f, STATUS_REFUSED, "load %d: %s", i, words);
-    }
-    for (int d = 0; d < m->scene->drivers; d++) {
-        const scene_driver *driver = &m->scene->driver[d];
-        if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value))
-            return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
-    }
-    return STATUS_OK;
 }

@@ -8,9 +8,6 @@
  * which they are functions; what has none stays as at the end of the path that is followed, or
  * whole. */
 void loads_of(model *, int analysis);
-/* Of a static path: what the load is times; of a known driver its value [m or rad]. */
-double loads_path_factor(const scene_load *load, double path);
-double loads_path_value(const scene_driver *d, double path);
 /* What the load is times at `path`, or in time. */
 double loads_factor(const model *, const scene_load *load, double path);
 /* Of a known driver [m or rad]. */
@@ -27,8 +24,6 @@ void loads_rate(const model *, const model_state *, double path, double out[]);
 void loads_reference(const model *, double path, double f[]);
 /* Is there a load, or a coordinate moved, at path 0? */
 int loads_begin(const model *);
-/* REFUSED: something does not change in proportion from path 0 to 1. */
-status loads_proportional(const model *, fault *);
 
 /* Increments of the driven coordinates (dx[free .. free+driven)) that take the state to `path`; the
  * rest of dx untouched. */

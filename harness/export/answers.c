@@ -1,6 +1,6 @@
 #include "harness/export/answers.h"
 
-#include "harness/equations/loads.h"
+#include "cases/scene/along_path.h"
 #include "harness/export/carried.h"
 #include "harness/export/path_points.h"
 
@@ -28,7 +28,7 @@ static void write_structure_loads(const writer *w, double path)
             for (int i = 0; i < w->s->loads; i++) {
                 const scene_load *l = &w->s->load[i];
                 if (l->where == node && (l->kind == SCENE_MOMENT) == (k >= TRANSLATIONS))
-                    sum += loads_path_factor(l, path) * l->vector[k % TRANSLATIONS];
+                    sum += along_path_factor(l, path) * l->vector[k % TRANSLATIONS];
             }
             if (sum != 0)
                 fprintf(w->to, "%d,%d,%.12e\n", body_node(w->bodies, node, k), body_direction(k),

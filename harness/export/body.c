@@ -1,6 +1,6 @@
 #include "harness/export/body.h"
 
-#include "harness/equations/loads.h"
+#include "cases/scene/along_path.h"
 #include "harness/export/rigid.h"
 
 enum { TRANSLATIONS = 3, COMPONENTS = 6 };
@@ -75,7 +75,7 @@ static void write_boundary(const body_numbers *b, const scene *s, const double *
                     continue;
                 const int stays = by == SCENE_HELD || path == NULL;
                 fprintf(to, "%d,%d,%d,%.12e\n", body_node(b, i, k), direction, direction,
-                        stays ? 0 : loads_path_value(&s->driver[by], *path));
+                        stays ? 0 : along_path_value(&s->driver[by], *path));
             }
 }
 

@@ -1,0 +1,67 @@
+#include "cases/scene/along_path.h"
+
+#include <math.h>
+
+static double interpolate(int stations, const double at[], const double value[], double path)
+{
+    if (path <= at[0])
+        return value[0];
+    for (int i = 1; i < stations; i++)
+        if (path <= at[i]) {
+            const double t = (path - at[i - 1]) / (at[i] - at[i - 1]);
+            return t == 1 ? value[i] : value[i - 1] + t * (value[i] - value[i - 1]);
+        }
+    return value[stations - 1];
+}
+
+double along_path_factor(const scene_load *load, double path)
+{
+    return load->stations > 0 ? interpolate(load->stations, load->path, load->factor, path) : path;
+}
+
+double along_path_rate(const scene_load *load, double path)
+{
+    if (load->stations == 0)
+        return 1;
+    for (int i = 1; i < load->stations; i++)
+        if (path >= load->path[i - 1] && path < load->path[i])
+            return (load->factor[i] - load->factor[i - 1]) / (load->path[i] - load->path[i - 1]);
+    return 0;
+}
+
+double along_path_value(const scene_driver *d, double path)
+{
+    return interpolate(d->stations, d->path, d->value, path);
+}
+
+/* Of stations between 0 and 1 all lie on the line from the value at 0 to that at 1. */
+static int is_straight(int stations, const double path[], const double value[])
+{
+    for (int i = 0; i < stations; i++) {
+        const double first = interpolate(stations, path, value, 0),
+                     last = interpolate(stations, path, value, 1),
+                     line = first + path[i] * (last - first);
+        if (path[i] > 0 && path[i] < 1 &&
+            !(fabs(value[i] - line) <= 1e-12 * (fabs(first) + fabs(last))))
+            return 0;
+    }
+    return 1;
+}
+
+status along_path_proportional(const scene *s, fault *f)
+{
+    static const char words[] =
+        "from path 0 to 1 its values are not on a line: the critical load of "
+        "a linear prestress has no sense; follow a static path";
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *load = &s->load[i];
+        if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor))
+            return fault_set(f, STATUS_REFUSED, "load %d: %s", i, words);
+    }
+    for (int d = 0; d < s->drivers; d++) {
+        const scene_driver *driver = &s->driver[d];
+        if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value))
+            return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
+    }
+    return STATUS_OK;
+}
