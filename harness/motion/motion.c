@@ -8,6 +8,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/balance.h"
+#include "harness/motion/checks.h"
 #include "harness/motion/frames.h"
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"
@@ -15,9 +16,7 @@
 #include "harness/motion/stations.h"
 #include "harness/motion/watches.h"
 #include "harness/scheme/damping.h"
-#include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
-#include "harness/scheme/massless.h"
 #include "harness/solver/history.h"
 
 enum { MAX_HALVINGS = 12 };
@@ -222,43 +221,12 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
     return STATUS_OK;
 }
 
-/* Without numerical damping accelerations of what has no inertia grow until they overflow. */
-static status check_massless(const motion *w, fault *f)
-{
-    const scene_alpha *how = &w->how->alpha;
-    int massless;
-    TRY(massless_count(w->c->model, &w->masses, w->now.state, &massless, f));
-    if (massless == 0 || w->how->scheme != SCENE_ALPHA || how->force > how->mass)
-        return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "%d coordinates have no inertia: their accelerations would grow by the "
-                     "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
-                     "sections rotary inertia",
-                     massless);
-}
-
-/* What of Newton's forms an integrator does not have. */
-static status check_newton(const motion *w, fault *f)
-{
-    const solve_newton newton = w->c->options->newton;
-    if (newton == SOLVE_DENSE)
-        return fault_set(f, STATUS_REFUSED,
-                         "motions in time need a factored tangent, which newton=dense does not "
-                         "make; give newton=mixed");
-    if (newton == SOLVE_DISPLACEMENT && w->how->scheme == SCENE_CONSERVING)
-        return fault_set(f, STATUS_REFUSED,
-                         "the integrator conserving needs strains as unknowns; give newton=mixed");
-    return STATUS_OK;
-}
-
 static status solve(motion *w, fault *f)
 {
     const step_record start = {.increment = 0};
     scene_rotating_frame frame;
     const model *m = w->c->model;
-    TRY(check_newton(w, f));
-    TRY(forms_check(m, f));
-    TRY(drive_check(m, f));
+    TRY(checks_of(w->c, w->how, f));
     TRY(w->how->scheme == SCENE_CONSERVING ? carried_alloc(m, &w->masses, f)
                                            : carried_alloc_ends(m, &w->masses, f));
     TRY(damping_begin(w->c->model, &w->damping, f));
@@ -281,7 +249,7 @@ static status solve(motion *w, fault *f)
                          .begin = w->now.time,
                          .end = w->how->path.value[w->how->path.stations - 1]};
     TRY(frames_alloc(&w->frames, shapes_frames(w->c->options->shapes), f));
-    TRY(check_massless(w, f));
+    TRY(checks_massless(w->c, &w->masses, w->how, w->now.state, f));
     if (!goes_on(w))
         TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));

@@ -1,0 +1,39 @@
+#include "harness/motion/checks.h"
+
+#include "harness/inertia/forms.h"
+#include "harness/scheme/drive.h"
+#include "harness/scheme/massless.h"
+
+static status check_newton(const analysis_context *c, const scene_motion *how, fault *f)
+{
+    const solve_newton newton = c->options->newton;
+    if (newton == SOLVE_DENSE)
+        return fault_set(f, STATUS_REFUSED,
+                         "motions in time need a factored tangent, which newton=dense does not "
+                         "make; give newton=mixed");
+    if (newton == SOLVE_DISPLACEMENT && how->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator conserving needs strains as unknowns; give newton=mixed");
+    return STATUS_OK;
+}
+
+status checks_of(const analysis_context *c, const scene_motion *how, fault *f)
+{
+    TRY(check_newton(c, how, f));
+    TRY(forms_check(c->model, f));
+    return drive_check(c->model, f);
+}
+
+status checks_massless(const analysis_context *c, const carried *masses, const scene_motion *how,
+                       const model_state *begin, fault *f)
+{
+    int massless;
+    TRY(massless_count(c->model, masses, begin, &massless, f));
+    if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "%d coordinates have no inertia: their accelerations would grow by the "
+                     "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
+                     "sections rotary inertia",
+                     massless);
+}

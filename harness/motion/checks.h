@@ -1,0 +1,14 @@
+/* Whether a motion can be integrated as it was asked for. REFUSED: it cannot. */
+#ifndef BEAMWORK_MOTION_CHECKS_H
+#define BEAMWORK_MOTION_CHECKS_H
+
+#include "harness/inertia/carried.h"
+#include "harness/solver/context.h"
+
+/* The form of Newton has what the integrator needs; inertia and drivers can be written in time. */
+status checks_of(const analysis_context *, const scene_motion *, fault *);
+/* Without numerical damping accelerations of what has no inertia grow until they overflow. */
+status checks_massless(const analysis_context *, const carried *, const scene_motion *,
+                       const model_state *begin, fault *);
+
+#endif
