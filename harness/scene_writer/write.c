@@ -60,7 +60,7 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_structure_motions(&w);
     write_structure_loads(&w);
     write_analyses(&w);
-    write_analyses_quantities(&w);
+    write_quantities(&w);
     write_needs(&w);
     write_meshes(&w);
     return w.unwritable ? fault_set(f, STATUS_REFUSED,

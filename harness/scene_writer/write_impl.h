@@ -36,6 +36,6 @@ void write_structure_springs(writer *w);
 void write_structure_motions(writer *w);
 void write_structure_loads(writer *w);
 void write_analyses(writer *w);
-void write_analyses_quantities(writer *w);
+void write_quantities(writer *w);
 
 #endif
