@@ -79,6 +79,13 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
+/* What a quantity can be a value of, and how that is read from the map below its key. */
+typedef struct builder_extract {
+    const char *key;
+    scene_extract (*read)(const fields *);
+} builder_extract;
+const builder_extract *builder_extract_of(const fields *quantity);
+enum { BUILDER_MOST_ORDER = 100000 }; /* of an eigenvalue, a point, a crossing */
 /* The analysis that this one is about; a mistake: it does not stand before it. */
 int builder_about(const fields *f, int index);
 /* A motion in time. */

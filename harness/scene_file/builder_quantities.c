@@ -5,200 +5,6 @@
 #include "harness/language/units.h"
 #include "harness/scene_file/builder.h"
 
-enum { MOST_ORDER = 100000 };
-
-static int order_of(const fields *f)
-{
-    return fields_whole(f, "which", 0, 0, MOST_ORDER);
-}
-
-static scene_extract displacement(const fields *f)
-{
-    return scene_coordinate(fields_entry(f, "node", LIST_NODES),
-                            fields_word(f, "component", fields_components, 0));
-}
-
-/* Component of a reaction; turn_1: the moment about the first axis of a sequence, which is fixed in
- * space. */
-static int reaction_component(const fields *f, int node)
-{
-    enum { TURN_1 = SCENE_RZ + 1 };
-    const int component = fields_word(f, "component", "ux|uy|uz|rx|ry|rz|turn_1", 0);
-    if (component != TURN_1 || node < 0 || node >= f->b->scene->nodes)
-        return component < TURN_1 ? component : SCENE_RX;
-    const scene_node *n = &f->b->scene->node[node];
-    if (n->rotation == SCENE_ROTATION_SEQUENCE)
-        for (int i = 0; i < 3; i++)
-            if (n->axis[0][i] != 0 && n->axis[0][(i + 1) % 3] == 0 &&
-                n->axis[0][(i + 2) % 3] == 0 && n->axis[0][i] > 0)
-                return SCENE_RX + i;
-    document_mistake(f->b->mistakes, document_find(f->map, "component"), 0,
-                     "turn_1 is of a node with a sequence whose first axis is x, y or z; take rx, "
-                     "ry or rz");
-    return SCENE_RX;
-}
-
-static scene_extract reaction(const fields *f)
-{
-    const int node = fields_entry(f, "node", LIST_NODES);
-    return scene_reaction(node, reaction_component(f, node));
-}
-
-static scene_extract compliance(const fields *f)
-{
-    return scene_compliance_entry(fields_word(f, "row", fields_components, 0),
-                                  fields_word(f, "column", fields_components, 0));
-}
-
-static scene_extract stiffness(const fields *f)
-{
-    return scene_stiffness_entry(fields_word(f, "component", fields_components, 0));
-}
-
-static scene_extract critical_factor(const fields *f)
-{
-    return scene_critical_factor(fields_word(f, "sign", "positive|negative", 0) == 0 ? 1 : -1,
-                                 order_of(f));
-}
-
-static scene_extract frequency(const fields *f)
-{
-    static const char families[] = "any|not_axial|axial|bending_y|bending_z|torsion";
-    const int order = order_of(f);
-    const scene_family family = (scene_family)fields_word(f, "family", families, 0);
-    return scene_frequency_of(order, family, fields_whole(f, "half_waves", 0, 0, MOST_ORDER));
-}
-
-static scene_extract growth(const fields *f)
-{
-    (void)f;
-    return scene_growth();
-}
-
-static scene_extract factor_at(const fields *f)
-{
-    (void)f;
-    return scene_factor_at();
-}
-
-static scene_extract critical_point(const fields *f)
-{
-    return scene_critical_point((scene_critical)fields_word(f, "kind", "limit|bifurcation", 0),
-                                order_of(f),
-                                (scene_ordinate)fields_word(f, "value", "factor|coordinate", 0));
-}
-
-static scene_extract motion(const fields *f)
-{
-    return scene_driver_value(fields_entry(f, "motion", LIST_MOTIONS));
-}
-
-/* Of a member's length. */
-static double place_of(const fields *f)
-{
-    const double place = fields_number(f, "where", 0);
-    if (place >= 0 && place <= 1)
-        return place;
-    document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
-                     "where = %g; give a part of the member's length, from 0 to 1", place);
-    return 0;
-}
-
-static scene_extract internal(const fields *f)
-{
-    const int member = fields_entry(f, "member", LIST_MEMBERS);
-    const scene_resultant what =
-        (scene_resultant)fields_word(f, "resultant", SCENE_RESULTANT_CHOICES, 0);
-    if (fields_have(f, "along"))
-        return scene_internal_along(
-            member, (scene_along)(SCENE_ALONG_MAX + fields_word(f, "along", "max|min|largest", 0)),
-            what);
-    return scene_internal_at(
-        member, fields_have(f, "where") ? place_of(f) : fields_word(f, "end", "from|to", 0), what);
-}
-
-/* Given constants have no points. */
-static void check_points(const fields *f, int member)
-{
-    const scene *s = f->b->scene;
-    if (member < 0 || member >= s->members || s->member[member].section < 0 ||
-        s->member[member].section >= s->sections ||
-        (s->section[s->member[member].section].kind != SECTION_CONSTANTS &&
-         s->section[s->member[member].section].kind != SECTION_MATRICES))
-        return;
-    document_mistake(f->b->mistakes, document_find(f->map, "member"), 0,
-                     "its section is given by numbers and has no points; describe it by sizes "
-                     "or walls, or ask for 'internal'");
-}
-
-static scene_extract stress(const fields *f)
-{
-    const int member = fields_entry(f, "member", LIST_MEMBERS);
-    const scene_stress_measure what =
-        (scene_stress_measure)fields_word(f, "measure", SCENE_STRESS_CHOICES, 0);
-    check_points(f, member);
-    return fields_have(f, "where") ? scene_stress_at(member, place_of(f), what)
-                                   : scene_stress_along(member, what);
-}
-
-static int axis_word(const fields *f, const char *key)
-{
-    return fields_word(f, key, "x|y|z", 0);
-}
-
-static scene_extract rate(const fields *f)
-{
-    return scene_rate(fields_entry(f, "node", LIST_NODES),
-                      fields_word(f, "component", fields_components, 0));
-}
-
-static scene_extract orientation(const fields *f)
-{
-    return scene_orientation_entry(fields_entry(f, "node", LIST_NODES), axis_word(f, "row"),
-                                   axis_word(f, "column"));
-}
-
-static scene_extract relative(const fields *f)
-{
-    return scene_relative_to(fields_entry(f, "node", LIST_NODES),
-                             fields_word(f, "component", fields_components, 0),
-                             fields_entry(f, "from", LIST_NODES));
-}
-
-static scene_extract energy(const fields *f)
-{
-    return scene_balance_of(
-        (scene_balance)fields_word(f, "of", "kinetic|strain|energy|work|dissipated|drift", 0));
-}
-
-static scene_extract momentum(const fields *f)
-{
-    return scene_balance_of(
-        (scene_balance)(SCENE_PX + fields_word(f, "component", "px|py|pz|lx|ly|lz", 0)));
-}
-
-static const struct {
-    const char *key;
-    scene_extract (*read)(const fields *);
-} kinds[] = {{"displacement", displacement},
-             {"reaction", reaction},
-             {"compliance", compliance},
-             {"stiffness", stiffness},
-             {"critical_factor", critical_factor},
-             {"frequency", frequency},
-             {"growth", growth},
-             {"factor_at", factor_at},
-             {"critical_point", critical_point},
-             {"motion", motion},
-             {"internal", internal},
-             {"stress", stress},
-             {"rate", rate},
-             {"orientation", orientation},
-             {"relative", relative},
-             {"energy", energy},
-             {"momentum", momentum}};
-enum { KINDS = sizeof kinds / sizeof kinds[0] };
-
 /* Unit of a value where the file gives none. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
@@ -293,7 +99,7 @@ static void read_passing(const fields *entry, scene_quantity *q)
     q->passing = (scene_passing){
         .level = fields_number(&f, "level", 0),
         .direction = (scene_direction)fields_word(&f, "direction", SCENE_DIRECTION_CHOICES, 0),
-        .order = fields_whole(&f, "which", 0, 0, MOST_ORDER),
+        .order = fields_whole(&f, "which", 0, 0, BUILDER_MOST_ORDER),
         .from = fields_number(&f, "from", 0),
         .until = fields_number(&f, "until", 0)};
 }
@@ -332,7 +138,8 @@ static void check_wanted(builder *b)
         const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
         const fields f = fields_below(&entry, fields_have(&entry, "modal") ? "modal" : "buckling");
         const int asked = asked_of(b->scene, i);
-        if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, MOST_ORDER) < asked)
+        if (fields_have(&f, "wanted") &&
+            fields_whole(&f, "wanted", 0, 1, BUILDER_MOST_ORDER) < asked)
             document_mistake(b->mistakes, document_find(f.map, "wanted"), 0,
                              "quantities ask for %d of this analysis; write %d, or leave it out",
                              asked, asked);
@@ -344,15 +151,13 @@ void builder_quantities(builder *b)
     for (int i = 0; i < b->list[LIST_QUANTITIES].count; i++) {
         const unrolled *entry = &b->list[LIST_QUANTITIES].entry[i];
         const fields f = fields_of(b, entry);
-        int k = 0;
-        while (k < KINDS - 1 && !fields_have(&f, kinds[k].key))
-            k++;
-        const fields what = fields_below(&f, kinds[k].key);
+        const builder_extract *kind = builder_extract_of(&f);
+        const fields what = fields_below(&f, kind->key);
         const int analysis = fields_entry(&what, "analysis", LIST_ANALYSES);
-        const scene_extract extract = kinds[k].read(&what);
+        const scene_extract extract = kind->read(&what);
         if (analysis >= 0 && analysis < b->scene->analyses &&
             !scene_gives(b->scene->analysis[analysis].kind, extract.kind))
-            builder_no_quantity(&what, b->list[LIST_ANALYSES].entry[analysis].name, kinds[k].key,
+            builder_no_quantity(&what, b->list[LIST_ANALYSES].entry[analysis].name, kind->key,
                                 b->scene->analysis[analysis].kind, extract.kind);
         scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", analysis, extract);
         read_stations(&f, &what, q);
