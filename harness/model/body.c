@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/offset.h"
+#include "elements/math/offset.h"
 
 enum { N = NODE_COORDINATES };
 

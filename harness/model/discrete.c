@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/offset.h"
 #include "harness/model/body.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/offset.h"
 #include "harness/model/spring.h"
 
 enum { X = ELEMENT_MAX_COORDINATES };

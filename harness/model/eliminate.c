@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/offset.h"
 #include "harness/model/model_impl.h"
-#include "harness/model/offset.h"
 #include "harness/model/release.h"
 
 static void sequence_force(int angles, double b[3][3], double force[7])

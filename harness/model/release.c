@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/offset.h"
 #include "elements/math/rotation.h"
 #include "harness/model/member_arc.h"
-#include "harness/model/offset.h"
 
 enum { BALL = 3 }; /* turns without order */
 

@@ -1,7 +1,7 @@
 /* From a point to the one that moves it rigidly.  Offset rho: dr = dr_b + theta x rho.  Second
  * derivatives in the exponential chart: d2(F . rho)/dtheta2 = sym(F rho^T) - (F . rho) I. */
-#ifndef BEAMWORK_MODEL_OFFSET_H
-#define BEAMWORK_MODEL_OFFSET_H
+#ifndef BEAMWORK_MATH_OFFSET_H
+#define BEAMWORK_MATH_OFFSET_H
 
 /* force[6: force, moment] of the point becomes that of the body. */
 void offset_force(const double rho[3], double force[6]);

@@ -1,4 +1,4 @@
-#include "harness/model/offset.h"
+#include "elements/math/offset.h"
 
 #include <stddef.h>
 
