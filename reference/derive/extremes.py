@@ -6,7 +6,7 @@ import math
 
 from mpmath import mp, mpf, sqrt, tanh
 
-from reference.derive import cantilevers, column, defaults, linear_buckling, sheets
+from reference.derive import cantilevers, column, defaults, linear_buckling, release, rigid_body, sheets
 from reference.derive.beam import Beam
 
 TABLES = "extremes"
@@ -128,6 +128,28 @@ def turns():
             2 * mpf(part))) / angle, "1", 1e-13
 
 
+def released():
+    """Bernoulli's cantilever that is let go, of any stiffness of elongation, and with a body at its tip."""
+    tip = release.bernoulli("0.25", release.bernoulli_modes())
+    for axial in ("1e9", "1e12", "1200", "120000", "12000000"):
+        at = f"axial={decimal(mpf(axial))};time=0.25;{release.ANY}"
+        yield "release", at, "tip", tip, "1", release.ROUNDED
+    for body in ("1", "1e2", "1e4", "1e6", "1e9", "1e12"):
+        time, modes = decimal(mpf("1.5") * sqrt(mpf(body))), release.with_body_modes(mpf(body), 40)
+        at = f"body={decimal(mpf(body))};time={time};{release.ANY}"
+        yield "release", at, "tip", release.with_body(time, modes), "1", release.ROUNDED
+    yield "release", f"body=1000000;time=*;{release.ANY}", "energy", mpf(1), "1", release.STATIC
+
+
+def steady():
+    """A body that turns about a principal axis goes on, by 2 rad/s with 3 kg m^2."""
+    at = f"spin=steady;time={{}};{rigid_body.ANY}"
+    yield "rigid_body", at.format("*"), "w_z", mpf(2), "rad/s"
+    yield "rigid_body", at.format("*"), "energy", mpf(6), "J"
+    yield "rigid_body", at.format("30"), "R_xx", mp.cos(60), "1"
+
+
 def rows():
-    for family in (thin_sheet, inextensible, channels, squares, torsion, lateral, twisted, turns):
+    for family in (thin_sheet, inextensible, channels, squares, torsion, lateral, twisted, turns, released,
+                   steady):
         yield from family()

@@ -4,6 +4,10 @@ of the tip over that at the begin.
 
 Bernoulli's beam, L = EI = rho A = 1: 12 sum cos(l_n^2 t)/l_n^4 with 1 + cos(l) cosh(l) = 0.
 
+With a body of mu times its mass at the tip, where the beam answers to a force with
+N/(l^3 D), N = sin(l) cosh(l) - cos(l) sinh(l), D = 1 + cos(l) cosh(l):
+  H = N/(l^3 D - mu l^4 N) at omega = l^2, poles and residues as below.
+
 Timoshenko's beam with rotary inertia, y = (w, p, Q, M), Q = k G A (w' - p), M = E I p':
   y' = A(omega^2) y:  Q' = -rho A omega^2 w,  M' = -Q - rho I omega^2 p;  w = p = 0 at the root, Q
   = M = 0 at the tip.
@@ -13,7 +17,7 @@ r_n/(omega_n^2 H(0)).  All shares add up to one: what the modes beyond the last 
 the uncertainty.
 """
 import numpy as np
-from mpmath import cos, cosh, findroot, mp, mpf, pi
+from mpmath import cos, cosh, diff, findroot, mp, mpf, pi, sin, sinh, tan, tanh
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
@@ -39,6 +43,33 @@ def bernoulli_modes(count=MODES):
 
 def bernoulli(t, modes):
     return 12 * sum(cos(x**2 * mpf(t)) / x**4 for x in modes)
+
+
+def with_body_modes(body, count):
+    """(root l, share of the begin) of the first modes: a root lies between those of the beam whose
+    tip is held and those of the one that carries nothing."""
+
+    def both(x):
+        return sin(x) * cosh(x) - cos(x) * sinh(x), 1 + cos(x) * cosh(x)
+
+    def pole(x):
+        N, D = both(x)
+        return (D - body * x * N) / (1 + body) / cosh(x)
+
+    free = bernoulli_modes(count)
+    held = [mpf(0), *(findroot(lambda x: tan(x) - tanh(x), (n + mpf(1) / 4) * pi)
+                      for n in range(1, count))]
+    found = []
+    for low, high in zip(held, free):
+        x = findroot(pole, (low, high), solver="bisect", maxsteps=400, tol=mpf(10)**-30)
+        slope = diff(lambda q: q**(mpf(3) / 4) * both(q**(mpf(1) / 4))[1] -
+                     body * q * both(q**(mpf(1) / 4))[0], x**4)
+        found.append((x, -3 * both(x)[0] / slope / x**4))
+    return found
+
+
+def with_body(t, modes):
+    return sum(share * cos(x**2 * mpf(t)) for x, share in modes)
 
 
 def _system(square):
