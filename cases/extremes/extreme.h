@@ -24,7 +24,8 @@ typedef enum extreme_knob {
     EXTREME_ELEMENTS,   /* x is the number of elements per member */
     EXTREME_STEPS,      /* x is the number of load steps between two stations */
     EXTREME_SPLIT,      /* the first member is split at x of its length */
-    EXTREME_REVERSE     /* 1: every member runs the other way; 0: as it is */
+    EXTREME_REVERSE,    /* 1: every member runs the other way; 0: as it is */
+    EXTREME_WHOLE       /* no step of a motion is halved */
 } extreme_knob;
 
 typedef enum extreme_judge {

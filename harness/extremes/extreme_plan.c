@@ -125,6 +125,7 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
     point *p = &out->first.point[out->first.points - 1];
     p->condition = 1;
     p->steps = e->knob == EXTREME_STEPS ? (int)x : 0;
+    p->whole_steps = e->knob == EXTREME_WHOLE;
     for (int i = 0; i < out->formulations; i++) {
         if (!is_selected(request, e, &out->formulation[i], words))
             continue;

@@ -20,7 +20,9 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
     const int n = one->mesh[0], coarser = n >= enough_elements;
     const int mesh[OUTCOME_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
     TRY(plan_add(&s->neighbours, p->type, p->parameter, &p->edit, mesh, OUTCOME_NEIGHBOURS, f));
-    s->neighbours.point[s->neighbours.points - 1].steps = p->steps;
+    point *same = &s->neighbours.point[s->neighbours.points - 1];
+    same->steps = p->steps;
+    same->whole_steps = p->whole_steps;
     TRY(plan_extend(&s->neighbours, &one->formulation, 1, f));
     for (int i = 0; i < s->outcomes; i++)
         if (s->outcome[i].series == o->series)

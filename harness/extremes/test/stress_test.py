@@ -101,6 +101,17 @@ class Stress(ProgramTest):
         done = run("-k", "decay_free and collocation", truths=self.altered(one_percent))
         self.assertEqual(done.returncode, 1, done.stdout)
 
+    def test_motions(self):
+        """Steps stay as long as they are; turns that a step does not take are named."""
+        done = run("-k", "(turn_alpha or long_steps_radau) and collocation", "--format", "json")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        record = json.loads(done.stdout)
+        found = {(o["extreme"], o["x"], o["quantity"]): o for o in record["outcomes"]}
+        for x, outcome in ((0.9, "value"), (3, "not converged")):
+            self.assertEqual(found["turn_alpha", x, "R_xx"]["outcome"], outcome)
+        self.assertIn("turns by 3 rad", found["turn_alpha", 3, "energy"]["reason"])
+        self.assertLess(abs(found["long_steps_radau", 100, "tip"]["error"]), 5e-3)
+
     def test_a_missing_truth_is_a_fault(self):
 
         def none(folder):
