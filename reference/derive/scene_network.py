@@ -201,14 +201,24 @@ class SceneNetwork:
             return float
         return table(numbers(entry["path"], where), numbers(entry["factor"], where))
 
+    def weight(self, entry, where):
+        """Of a body: the force at its centre."""
+        if entry["on"] not in self.scene["nodes"]:
+            raise Refused(f"{where}: no node or member '{entry['on']}' in the deriving program")
+        body = self.scene["nodes"][entry["on"]]
+        mass = number(body.get("mass", "0"), where)
+        return {
+            **entry, "force": [str(mass * g) for g in numbers(entry["gravity"], where, 3)],
+            "at": body.get("centre", ["0"] * 3)
+        }
+
     def _load_nodes(self):
         for name, entry in self.scene.get("loads", {}).items():
             only(entry, name, LOAD)
             if "force" not in entry and "moment" not in entry:
-                if entry["on"] not in self.scene["members"]:
-                    raise Refused(
-                        f"{name}: the weight of a body is not within the deriving program")
-                continue
+                if entry["on"] in self.scene["members"]:
+                    continue
+                entry = self.weight(entry, name)
             if entry.get("axes", "fixed") != "fixed":
                 raise Refused(
                     f"{name}: a member's axes at a node are not within the deriving program")

@@ -93,6 +93,16 @@ class Scenes(unittest.TestCase):
         for mine, theirs in (("w", "w_over_L"), ("u", "u_over_L"), ("t", "theta")):
             self.close(found[mine], truth[theirs], 11)
 
+    def test_weight_of_a_body(self):
+        """The force at its centre."""
+        asked, body = {"w": tip("uy"), "t": tip("rz")}, ", mass: 0.3, centre: [0.1, -0.2, 0]"
+        weight = values(bar("gravity: [0, -9.81, 2], on: tip", asked, tip=body))
+        force = values(
+            bar(f"force: [0, {-9.81*0.3!r}, {2*0.3!r}], at: [0.1, -0.2, 0], on: tip", asked,
+                tip=body))
+        self.assertEqual(weight, force)
+        self.assertGreater(abs(weight["w"][0]), 0.1)
+
     def test_load_and_motion_say_the_same(self):
         w = values(bar("force: [0, 3, 0], on: tip", {"w": tip("uy")}))["w"][0]
         driven = bar("force: [0, 0, 0], on: tip", {"f": tip("uy", "reaction")},
@@ -251,8 +261,6 @@ class Refusals(unittest.TestCase):
     def test_each_names_what(self):
         push, asked = "force: [0, 1, 0], on: tip", {"w": tip("uy")}
         self.refused("'springs'", bar(push, asked) + "springs: {}\n")
-        self.refused("weight of a body",
-                     bar("gravity: [0, 0, -9.81], on: tip", asked, tip=", mass: 3"))
         self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
         self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
         self.refused("changes along",
