@@ -211,7 +211,7 @@ scene_load *scene_load_at(scene *s, int i)
 
 int scene_load_along(const scene_load *load)
 {
-    return load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT;
+    return load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT && load->kind != SCENE_WEIGHT;
 }
 
 int scene_load_unsymmetric(const scene_load *load)

@@ -118,7 +118,8 @@ typedef enum scene_load_kind {
     SCENE_MOMENT,             /* [N m] at a node */
     SCENE_DISTRIBUTED,        /* [N/m] along a member, per initial length */
     SCENE_DISTRIBUTED_MOMENT, /* [N m/m] along a member */
-    SCENE_GRAVITY             /* [m/s^2] on the mass of a member */
+    SCENE_GRAVITY,            /* [m/s^2] on the mass of a member */
+    SCENE_WEIGHT              /* [m/s^2] on the mass of the body of a node, at its centre */
 } scene_load_kind;
 
 /* Axes of a load: fixed, or those of its member before it is deformed, y as in scene_member. */

@@ -116,7 +116,7 @@ static void scale_spring(scene_spring *p, double x)
 static void scale_load(scene_load *load, double x)
 {
     scale_vector(load->at, x);
-    if (load->kind == SCENE_MOMENT || load->kind == SCENE_GRAVITY)
+    if (load->kind == SCENE_MOMENT || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT)
         scale_vector(load->vector, x);
     if (load->kind == SCENE_DISTRIBUTED)
         scale_vector(load->vector, 1 / x);

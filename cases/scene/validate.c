@@ -171,7 +171,7 @@ static status check_load_kind(const scene *s, int i, fault *f)
     if (vec3_norm(load->at) > 0 && load->kind != SCENE_FORCE && load->kind != SCENE_DISTRIBUTED)
         return fault_set(f, STATUS_REFUSED,
                          "load %d: only forces act at an offset, moments are the same everywhere "
-                         "and gravity acts at the centroids; take 'at' away",
+                         "and gravity acts at the centres of mass; take 'at' away",
                          i);
     if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
         return fault_set(
@@ -179,11 +179,17 @@ static status check_load_kind(const scene *s, int i, fault *f)
             "load %d: it is in a member's axes and acts on a node; give fixed axes, or "
             "put it on a member",
             i);
-    if (load->kind != SCENE_GRAVITY)
+    if (load->kind != SCENE_GRAVITY && load->kind != SCENE_WEIGHT)
         return STATUS_OK;
     if (load->axes != SCENE_AXES_FIXED || load->follower)
         return fault_set(f, STATUS_REFUSED,
                          "load %d: gravity has fixed axes; leave 'axes' and 'follower' out", i);
+    if (load->kind == SCENE_WEIGHT)
+        return s->node[load->where].body.mass > 0
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_REFUSED,
+                               "load %d: gravity on node %d, which has no mass; give it one", i,
+                               load->where);
     const int profile[2] = {s->member[load->where].section, s->member[load->where].section_q};
     for (int k = 0; k < 2; k++)
         if (scene_constants(s, profile[k], &c, NULL) == STATUS_OK && !(c.density > 0))

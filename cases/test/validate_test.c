@@ -102,6 +102,11 @@ static void weightless(scene *s)
     s->load[0] = (scene_load){SCENE_GRAVITY, .vector = {0, 0, -9.81}};
 }
 
+static void body_weightless(scene *s)
+{
+    s->load[0] = (scene_load){SCENE_WEIGHT, .where = TIP, .vector = {0, 0, -9.81}};
+}
+
 static void unknown_driver(scene *s)
 {
     scene_drive(s, TIP, SCENE_UZ, scene_add_unknown_driver(s, "sought", TIP, SCENE_UY, SCENE_NONE));
@@ -178,6 +183,7 @@ static const refusal refusals[] = {
     {node_along, "load 0: ", "a member's axes and acts on a node"},
     {weight_turns, "load 0: ", "gravity has fixed axes"},
     {weightless, "load 0: ", "no density"},
+    {body_weightless, "load 0: ", "no mass"},
 };
 
 static void says_that_memory_ran_out(void)

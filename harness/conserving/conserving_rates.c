@@ -41,7 +41,7 @@ status conserving_massless(conserving *s, fault *f)
     for (int k = 0; k < s->of.masses->masses; k++) {
         const carried_mass *one = &s->of.masses->mass[k];
         double centre[3], J[9];
-        carried_step_centre(one, centre, J);
+        carried_step_centre(m, one, centre, J);
         heavy += null_space(J, s->massless + (size_t)(9 * k)) < 3;
         turning += turns_freely(m, one->frame);
     }

@@ -50,6 +50,16 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
     return out;
 }
 
+/* Of a body: m g at its centre of mass. */
+static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
+{
+    const scene_body *body = &m->scene->node[load->where].body;
+    scene_load force = *load;
+    for (int i = 0; i < 3; i++)
+        force.vector[i] *= body->mass;
+    return of_vertex(s, load->where, &force, scale, NULL, body->centre);
+}
+
 /* Per length, of an element: 1, or its mass for gravity. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
@@ -93,7 +103,9 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
 {
     if (!scene_load_along(load)) {
         static const double none[3] = {0, 0, 0};
-        const applied one = of_vertex(s, load->where, load, scale, NULL, none);
+        const applied one = load->kind == SCENE_WEIGHT
+                                ? of_weight(m, s, load, scale)
+                                : of_vertex(s, load->where, load, scale, NULL, none);
         take(context, &one);
         return;
     }

@@ -61,9 +61,9 @@ static void write_rows(FILE *to, const void *what)
 
 static void write_loads(FILE *to, const void *what)
 {
-    static const char *const kind[] = {"force", "moment", "distributed", "distributed moment",
-                                       "gravity"};
-    static const char *const unit[] = {"N", "N m", "N/m", "N m/m", "m/s^2"};
+    static const char *const kind[] = {"force",   "moment", "distributed", "distributed moment",
+                                       "gravity", "gravity"};
+    static const char *const unit[] = {"N", "N m", "N/m", "N m/m", "m/s^2", "m/s^2"};
     const scene *s = ((const contents *)what)->scene;
     fprintf(to, "column,kind,node,member,x,y,z,unit,axes,follower\n");
     for (int i = 0; i < s->loads; i++) {

@@ -101,6 +101,9 @@ int builder_has_function(const fields *f);
  * do. */
 void builder_no_quantity(const fields *what, const char *analysis, const char *key,
                          scene_analysis_kind is, scene_quantity_kind kind);
+/* `path` and as many `values` as it has stations: their number; 0 after a mistake or where there
+ * are none. */
+int builder_stations(const fields *f, const char *values, double **path, double **value);
 /* Analyses and quantities where the file has none. */
 void builder_defaults(builder *b);
 

@@ -1,4 +1,4 @@
-/* Members of a scene, what moves it and what loads it. */
+/* Members of a scene and what moves it. */
 #include <stdio.h>
 #include <string.h>
 
@@ -131,18 +131,6 @@ void builder_members(builder *b)
     }
 }
 
-/* Path and values of as many stations: their number; 0 after a mistake or where there are none. */
-static int read_stations(const fields *f, const char *values, double **path, double **value)
-{
-    const int stations = fields_values(f, "path", path), count = fields_values(f, values, value);
-    if (stations == count)
-        return count;
-    document_mistake(
-        f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
-        "'path' has %d values and '%s' %d; give as many of both", stations, values, count);
-    return 0;
-}
-
 /* What a motion moves has its unit. */
 static void check_unit(const fields *f, int motion)
 {
@@ -181,7 +169,7 @@ void builder_motions(builder *b)
         if (fields_have(&f, "unit"))
             check_unit(&f, i);
         if (condition.map == NULL) {
-            const int stations = read_stations(&f, "value", &path, &value);
+            const int stations = builder_stations(&f, "value", &path, &value);
             const int driver = fields_have(&f, "value")
                                    ? scene_add_driver(b->scene, entry->name, stations, path, value)
                                    : scene_add_moving_driver(b->scene, entry->name);
@@ -194,70 +182,5 @@ void builder_motions(builder *b)
                                  fields_entry(&condition, "node", LIST_NODES),
                                  fields_word(&condition, "component", fields_components, 0),
                                  fields_entry(&condition, "motion", LIST_MOTIONS));
-    }
-}
-
-static void set_factor(const fields *f, int index)
-{
-    double *path, *factor;
-    const int stations = read_stations(f, "factor", &path, &factor);
-    if (stations > 0 && index >= 0)
-        scene_set_factor(f->b->scene, index, stations, path, factor);
-}
-
-/* In the axes of a member, which turn with an instance by themselves. */
-static int along_member(const fields *f, const char *key, double out[3])
-{
-    return fields_vector(f, key, 3, out);
-}
-
-/* The weight of a body is a force at its centre of mass, which turns with it. */
-static void weigh_body(const fields *f, scene_load *what)
-{
-    const int node = fields_entry(f, "on", LIST_NODES);
-    const scene_body *body = &scene_node_at(f->b->scene, node)->body;
-    if (body->mass == 0)
-        document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "gravity on a node that has no mass; give it mass: [kg], or name a "
-                         "member");
-    if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER)
-        document_mistake(f->b->mistakes, document_find(f->map, "gravity"), 0,
-                         "the weight of a body acts at its centre, along fixed axes; leave out "
-                         "'at' and 'axes'");
-    what->kind = SCENE_FORCE;
-    for (int k = 0; k < 3; k++)
-        what->vector[k] *= body->mass;
-    memcpy(what->at, body->centre, sizeof what->at);
-}
-
-void builder_loads(builder *b)
-{
-    static const char *const key[] = {"force", "moment", "distributed", "distributed_moment",
-                                      "gravity"};
-    for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
-        scene_load what = {.kind = SCENE_FORCE};
-        while (what.kind < SCENE_GRAVITY && !fields_have(&f, key[what.kind]))
-            what.kind++;
-        what.axes =
-            fields_word(&f, "axes", "fixed|member", 0) == 1 ? SCENE_AXES_MEMBER : SCENE_AXES_FIXED;
-        int (*const vector_of)(const fields *, const char *, double[3]) =
-            what.axes == SCENE_AXES_MEMBER ? along_member : fields_direction;
-        double *v = what.vector;
-        vector_of(&f, key[what.kind], v);
-        vector_of(&f, "at", what.at);
-        if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", LIST_MEMBERS) &&
-            fields_names(&f, "on", LIST_NODES))
-            weigh_body(&f, &what);
-        const int where =
-            fields_entry(&f, "on", scene_load_along(&what) ? LIST_MEMBERS : LIST_NODES);
-        const int load = scene_add_load(b->scene, what.kind, where, v[0], v[1], v[2]);
-        scene_load *l = scene_load_at(b->scene, load);
-        memcpy(l->at, what.at, sizeof l->at);
-        l->axes = what.axes;
-        l->follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
-        if (fields_have(&f, "path") || fields_have(&f, "factor"))
-            set_factor(&f, load);
-        builder_function(&f, load, scene_load_piece, 0);
     }
 }

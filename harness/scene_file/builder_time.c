@@ -229,3 +229,14 @@ int builder_has_function(const fields *f)
 {
     return fields_have(f, "time") || fields_have(f, "pieces") || fields_have(f, "table");
 }
+
+int builder_stations(const fields *f, const char *values, double **path, double **value)
+{
+    const int stations = fields_values(f, "path", path), count = fields_values(f, values, value);
+    if (stations == count)
+        return count;
+    document_mistake(
+        f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
+        "'path' has %d values and '%s' %d; give as many of both", stations, values, count);
+    return 0;
+}

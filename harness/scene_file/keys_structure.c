@@ -216,8 +216,9 @@ const scene_key keys_load[] = {
     {"distributed_moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
      .summary = "moments along a member, N m per m"},
     {"gravity", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
-     .summary = "on a member, whose section has a density, or a node, which has a mass"},
-    {"on", KEY_NAME, .needed = 1, .summary = "node or member"},
+     .summary = "on a member, whose section has a density, on a node, which has a mass, or on all "
+                "that has"},
+    {"on", KEY_NAME, .needed = 1, .summary = "node or member; of gravity also: all"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending"},
     {"factor", KEY_NUMBERS, .summary = "at these; left out: the path parameter itself"},
     {"time", KEY_TEXT, .group = 2,

@@ -36,10 +36,14 @@ def straight(view, at, way, ways, size=ARROW):
     return start + size * np.outer([-1, 0] if blocked else [0, 1], flat)
 
 
+def words_of(load):
+    return ("gravity " if load.kind == "gravity" else "") + vector(load.vector, UNITS[load.kind])
+
+
 def put_force(canvas, view, load, at, ways):
     line = straight(view, at, load.vector, ways)
     canvas.arrow(line, LOAD, mark=load.name)
-    words = vector(load.vector, "N") + (", follows" if load.follower else "")
+    words = words_of(load) + (", follows" if load.follower else "")
     tail = line[0] if np.allclose(line[1], view(at)) else line[1]
     canvas.label(tail, words, LOAD, towards=unit(tail - view(at)))
 
@@ -84,7 +88,7 @@ def put_along(canvas, view, load, line, told):
             canvas.arrow([tail + lift, tip + lift], LOAD, 0.9, mark, head=4)
         if not lift.any():
             canvas.line(tails, LOAD, 0.7)
-    words = ("gravity " if gravity else "") + vector(load.vector, UNITS[load.kind])
+    words = words_of(load)
     if words in told:
         return
     told.add(words)
@@ -105,7 +109,8 @@ def put_loads(canvas, view, scene, lines, into):
         elif load.on in lines:
             put_along(canvas, view, load, lines[load.on], told)
         else:
-            put_force(canvas, view, load, scene.nodes[load.on].position, into(load.on))
+            node = scene.nodes[load.on]
+            put_force(canvas, view, load, node.position + node.centre, into(load.on))
 
 
 def motions_of(scene, node):

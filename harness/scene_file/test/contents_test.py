@@ -226,6 +226,26 @@ quantities:
         for change, words in ((("mass: 0.01, ", ""), "has no mass"), (("on: tip", "on: tip, at: [1, 0, 0]"), "leave out 'at'")):
             self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
 
+    def test_weight_of_all(self):
+        """Members that have a density and bodies that have a mass, each once; a massless member stays weightless."""
+        one = LEAF.replace("push: {force: [0, 1, 0], on: tip}", "weight: {gravity: [0, -9.81, 0], on: all}").replace(
+            "tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}\n  end:  {at: [0.2, 0, 0]}").replace(
+            "loads:", "  more: {from: tip, to: end, section: light, y: [0, 1, 0]}\nloads:").replace(
+            "nodes:", "  light: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}\nnodes:").replace(
+            "shear_modulus: 81e9}", "shear_modulus: 81e9, density: 7800}", 1)
+        each = one.replace("weight: {gravity: [0, -9.81, 0], on: all}",
+                           "bar: {gravity: [0, -9.81, 0], on: leaf}\n  body: {gravity: [0, -9.81, 0], on: tip}")
+        self.assertEqual(self.answered("scene", "--scene", self.scene(one, "one.yaml")).stdout,
+                         self.answered("scene", "--scene", self.scene(each, "one.yaml")).stdout)
+        self.same_again(self.scene(one, "again.yaml"), "-f", "collocation", "-n", 1)
+        bare = one.replace(", density: 7800", "").replace("mass: 0.01, centre: [0.02, 0, 0]", "hold: []")
+        for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "in 'weight' already"),
+                            (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "in 'weight' already"),
+                            (one.replace("on: all", "on: all, follower: true"), "leave out 'at', 'axes' and 'follower'"),
+                            (one.replace("gravity:", "force:"), "no node 'all'"),
+                            (bare, "nothing of the scene has a mass")):
+            self.refused(2, words, "scene", "--scene", self.scene(text))
+
     def test_the_analysis_that_was_made_up(self):
         """Said where the scene states none."""
         where = ("-f", "collocation", "-n", 1)
