@@ -209,44 +209,6 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     }
 }
 
-static int moves(const scene *s)
-{
-    int found = 0;
-    for (int i = 0; i < s->analyses; i++)
-        found |= s->analysis[i].kind == SCENE_MOTION;
-    return found;
-}
-
-/* A quantity of a case in time: a run reads it at few of the instants that truths are known at,
- * `make motions` at all. */
-static int is_of_motion(const sweep *s, const truth *row)
-{
-    for (int i = 0; i < s->points; i++) {
-        const scene *one = &s->point[i].scene;
-        if (s->point[i].type != row->type || s->point[i].status != STATUS_OK || !moves(one))
-            continue;
-        for (int q = 0; q < one->quantities; q++)
-            if (strcmp(one->quantity[q].name, row->quantity) == 0)
-                return 1;
-    }
-    return 0;
-}
-
-/* Truths that a whole run should have met and did not. */
-static void count_missed(const sweep *s, truths *t, judgement *out)
-{
-    for (int i = 0; i < t->rows; i++) {
-        truth *row = &t->row[i];
-        const int elsewhere =
-            row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;
-        if (!row->met && !elsewhere && is_of_motion(s, row))
-            row->met = row->judged = 1;
-        out->unmet += !row->met && !elsewhere;
-        out->waiting += (row->met || elsewhere) && !row->judged;
-    }
-    out->unmet += t->strangers;
-}
-
 status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f)
 {
     int count = 0;
@@ -275,7 +237,7 @@ void judgement_end(const sweep *s, truths *t, int whole, judgement *out)
 {
     out->unobserved = missed_rules(s, t, whole);
     if (whole)
-        count_missed(s, t, out);
+        missed_truths(s, t, out);
 }
 
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f)

@@ -5,6 +5,7 @@
 
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/truth/truth.h"
 
 static int is_run(const sweep *s, const case_type *type, const element_type *element)
 {
@@ -76,4 +77,62 @@ int missed_rules(const sweep *s, truths *t, int whole)
         count += r->missed;
     }
     return count;
+}
+
+/* Of a point, was it looked at another time? Its motion of that quantity ends at `end`, and so does
+ * one of its parameters. */
+static int differs_by_time(const point *p, const truth *row, double end)
+{
+    double value[CASE_MAX_PARAMETERS];
+    const int count = parameter_count(p->type->parameters);
+    for (int k = 0; k < count; k++) {
+        if (p->parameter[k] != end)
+            continue;
+        memcpy(value, p->parameter, sizeof value);
+        value[k] = row->parameter[k];
+        if (truth_holds(row, p->type, value))
+            return 1;
+    }
+    return 0;
+}
+
+static int is_read_elsewhen(const point *p, const truth *row)
+{
+    const scene *one = &p->scene;
+    for (int q = 0; q < one->quantities; q++) {
+        const int analysis = one->quantity[q].analysis;
+        if (strcmp(one->quantity[q].name, row->quantity) != 0 || analysis >= one->analyses ||
+            one->analysis[analysis].kind != SCENE_MOTION)
+            continue;
+        const scene_path *path = scene_path_of(&one->analysis[analysis]);
+        if (differs_by_time(p, row, path->value[path->stations - 1]))
+            return 1;
+    }
+    return 0;
+}
+
+static int is_unread(const sweep *s, const truth *row)
+{
+    for (int i = 0; i < s->points; i++)
+        if (s->point[i].type == row->type && s->point[i].status == STATUS_OK &&
+            is_read_elsewhen(&s->point[i], row))
+            return 1;
+    return 0;
+}
+
+void missed_truths(const sweep *s, truths *t, judgement *out)
+{
+    for (int i = 0; i < t->rows; i++) {
+        truth *row = &t->row[i];
+        const int elsewhere =
+            row->formulation[0] != '\0' && formulation_find(row->formulation) == NULL;
+        if (!row->met && !elsewhere && is_unread(s, row)) {
+            row->met = 1;
+            out->unread++;
+            continue;
+        }
+        out->unmet += !row->met && !elsewhere;
+        out->waiting += (row->met || elsewhere) && !row->judged;
+    }
+    out->unmet += t->strangers;
 }

@@ -1,13 +1,18 @@
-/* Rules that a run should have shown and did not. */
+/* Rules and truths that a run should have shown and met and did not. */
 #ifndef BEAMWORK_MISSED_H
 #define BEAMWORK_MISSED_H
 
-#include "harness/study/sweep.h"
+#include "harness/judge/judgement.h"
 
 /* Marks them (rule.missed) and counts them. whole: 1: nothing was selected away, and every rule
  * should have been shown; else only those of one's own (rule.from) whose formulations and cases
  * were all run, with all points and quantities: a selection (-k) covers a case where it holds by
  * the name of the case alone. */
 int missed_rules(const sweep *s, truths *t, int whole);
+
+/* Counts the truths that a whole run has not judged by: unmet, waiting and unread. What is unread
+ * counts as met (truth.met) and is not judged: it differs from a point of the run by the instant
+ * alone at which a motion is looked at. */
+void missed_truths(const sweep *s, truths *t, judgement *out);
 
 #endif

@@ -184,6 +184,49 @@ static void expectations(void)
     bench_free(&b);
 }
 
+/* A truth of a motion that another instant than the case's was solved for is not judged by, and is
+ * not missed; of another structure it is. */
+static void other_instants(void)
+{
+    static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
+                                          {"time", "s", 5, 1, 9, NULL, "when it is looked at"},
+                                          {0}};
+    static const case_type timed = {.name = "made_up",
+                                    .summary = "a case of the test",
+                                    .source = "none",
+                                    .parameters = {both},
+                                    .build = no_build};
+    static const double end = 5;
+    bench b;
+    bench_converge(&b);
+    b.p.type = b.row[0].type = &timed;
+    b.p.parameter[1] = b.row[0].parameter[1] = end;
+    truth *later = bench_add_row(&b, 3);
+    later->parameter[1] = 9;
+    bench_expect(&b, VERDICT_PASS, 1, "a truth of other parameters");
+    gsl_test_int(b.j.unmet, 1, "is missed");
+    scene_add_motion(&b.p.scene, SCENE_NONE, 1, &end,
+                     (scene_motion){.step = 1, .start = {.velocity = {0}}});
+    bench_expect(&b, VERDICT_PASS, 0, "a truth at another instant of a motion");
+    gsl_test_int(b.j.unmet, 0, "is not missed");
+    gsl_test_int(b.j.unread, 1, "but was not looked at");
+    gsl_test_int(b.j.waiting, 0, "and waits for no formulation");
+    gsl_test(later->judged, "nothing was judged by it");
+    gsl_test_int(later->met, 1, "nor is it told as one of nothing that exists");
+    later->parameter[0] = 4;
+    bench_expect(&b, VERDICT_PASS, 1, "one of another structure");
+    gsl_test_int(b.j.unmet, 1, "is missed");
+    later->parameter[1] = end;
+    bench_expect(&b, VERDICT_PASS, 1, "and one that differs in nothing but what is no instant");
+    gsl_test_int(b.j.unmet, 1, "is missed, too");
+    later->parameter[0] = 2;
+    later->parameter[1] = 9;
+    later->quantity = words[WHY];
+    bench_expect(&b, VERDICT_PASS, 1, "of a quantity that does not exist");
+    gsl_test_int(b.j.unmet, 1, "it is missed, whatever the instant");
+    bench_free(&b);
+}
+
 static void stored_values(void)
 {
     bench b;
@@ -221,6 +264,7 @@ int main(void)
     publications();
     bound_by_the_derived_limit();
     expectations();
+    other_instants();
     stored_values();
     return gsl_test_summary();
 }
