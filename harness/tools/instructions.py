@@ -34,7 +34,7 @@ PARTS = (
     ("update", "elements/", r"update", "strain_evaluations"),
     ("other of elements", "elements/(?!math/|shared/)", r"", "elements_total"),
     ("J^T C J", "elements/math/", r"congruence", "strain_evaluations"),
-    ("elimination", "harness/model/", r"^(eliminate|offset)_", "strain_evaluations"),
+    ("elimination", "(harness/model|elements/math)/", r"^(eliminate|offset)_", "strain_evaluations"),
     ("assembly", "harness/model/", r"^assemble_|_assemble$", "strain_evaluations"),
     ("factorisation", "harness/", r"^(context_factor|factor_numeric|factor_alloc)$",
      "factorisations"),
