@@ -1,6 +1,5 @@
-/* What has no inertia must be in balance with the forces at the begin, and what has some is
- * accelerated by them: one equation for both, a stage in which positions give way to accelerations
- * by next to nothing. */
+/* Accelerations are those of a stage in which positions give way by next to nothing; where
+ * something has no inertia see settle.h. */
 #include "harness/motion/launch.h"
 
 #include <math.h>
@@ -12,6 +11,7 @@
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/motion/settle.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/massless.h"
@@ -121,8 +121,8 @@ static status check_drivers(const model *m, const double inc[], fault *f)
     return STATUS_OK;
 }
 
-static status settle(stage *s, int massless, double h, instant *now, instant *room, double *inc,
-                     double *zero, fault *f)
+static status accelerate(stage *s, double h, instant *now, instant *room, double *inc, double *zero,
+                         fault *f)
 {
     model *m = s->c->model;
     stage_rates r = {.b = 1 / (softness * h * h),
@@ -133,37 +133,43 @@ static status settle(stage *s, int massless, double h, instant *now, instant *ro
                      .v = room->v,
                      .a = room->a};
     step_record record = {.path = now->time};
-    if (now->strain != NULL) {
-        TRY(damping_rates(m, now->state, now->v, now->strain, f));
-        memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
-        damping_follow(m, 0, now->strain, kinematics_strains(now->state));
-    }
     instant_copy(m, now, room);
-    drive_at(m, now->state, now->time, inc, room->v, room->a);
-    TRY(check_drivers(m, inc, f));
     instant_recall(now, &s->arrival);
     TRY(stage_solve(s, now->state, now->time, &r, room->state, &record, f));
     history_drop_step(s->c->result, &record);
-    if (massless == 0) /* nothing moves but by what was given way */
-        kinematics_state_copy(m, now->state, room->state);
+    kinematics_state_copy(m, now->state, room->state);
     memcpy(room->algorithm, room->a, (size_t)s->all * sizeof *room->a);
     instant_remember(&s->arrival, room);
     instant_copy(m, room, now);
     return STATUS_OK;
 }
 
+static status begin(stage *s, const scene_motion *how, instant *now, instant *room, double *inc,
+                    double *zero, fault *f)
+{
+    model *m = s->c->model;
+    int massless;
+    if (now->strain != NULL) {
+        TRY(damping_rates(m, now->state, now->v, now->strain, f));
+        memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
+        damping_follow(m, 0, now->strain, kinematics_strains(now->state));
+    }
+    drive_at(m, now->state, now->time, inc, now->v, now->a);
+    TRY(check_drivers(m, inc, f));
+    TRY(massless_count(m, s->masses, now->state, &massless, f));
+    return massless > 0 ? settle(s, zero, now, f)
+                        : accelerate(s, how->step, now, room, inc, zero, f);
+}
+
 status launch_again(analysis_context *c, const carried *masses, const scene_motion *how,
                     instant *now, instant *room, fault *f)
 {
     stage s;
-    int massless;
-    TRY(massless_count(c->model, masses, now->state, &massless, f));
     TRY(stage_alloc(c, masses, &s, f));
     s.begins = 1;
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
-    drive_at(c->model, now->state, now->time, NULL, now->v, now->a);
     const status outcome = inc != NULL
-                               ? settle(&s, massless, how->step, now, room, inc, inc + s.all + 1, f)
+                               ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     free(inc);
     stage_free(&s);

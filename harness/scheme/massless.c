@@ -1,136 +1,176 @@
 #include "harness/scheme/massless.h"
 
+#include <lapacke.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "harness/inertia/inertia.h"
-#include "harness/inertia/released.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+#include "harness/inertia/forms.h"
 #include "harness/model/model_impl.h"
+#include "harness/scheme/body_mass.h"
 
-/* Coordinates of a body with those of the ends that are released from it. */
-typedef struct group {
-    int count;
-    int *index; /* [count] */
-    double *M;  /* [count x count] */
-} group;
+/* Of M as it is measured there, in parts of the largest mass. */
+static const double nothing = 1e-14;
 
-/* Rank of A[n x n], positive semidefinite, in which `nothing` is zero; destroys A. */
-static int rank_of(int n, double A[], int used[], double nothing)
+/* What is done with the masses of a body. */
+typedef enum task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } task;
+
+typedef struct wish {
+    task task;
+    const double *given; /* [free] diagonal of a stiffness; forces */
+    double *changed;     /* [free] forces; increments; accelerations */
+    double stiffest;
+} wish;
+
+/* x[free] onto the null space of M, whose vectors are columns of g->M. */
+static void project(const body_mass *g, double none, int forces, double x[])
 {
-    int rank = 0;
-    for (int k = 0; k < n; k++) {
-        int most = -1;
-        for (int i = 0; i < n; i++)
-            if (!used[i] && (most < 0 || A[(n + 1) * i] > A[(n + 1) * most]))
-                most = i;
-        const double pivot = A[(n + 1) * most];
-        if (pivot <= nothing)
-            return rank;
-        used[most] = 1;
-        rank++;
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n && !used[i]; j++)
-                if (!used[j])
-                    A[n * i + j] -= A[n * i + most] * A[n * most + j] / pivot;
+    const int n = g->count;
+    for (int i = 0; i < n; i++) {
+        const double unit = forces ? g->unit[i] : 1 / g->unit[i];
+        g->rest[i] = x[g->index[i]] * unit;
+        x[g->index[i]] = 0;
     }
+    for (int k = 0; k < n && g->value[k] <= none; k++) {
+        double part = 0;
+        for (int i = 0; i < n; i++)
+            part += g->M[n * i + k] * g->rest[i];
+        for (int i = 0; i < n; i++)
+            x[g->index[i]] += part * g->M[n * i + k] * (forces ? 1 / g->unit[i] : g->unit[i]);
+    }
+}
+
+static void accelerate(const body_mass *g, double none, const double force[], double a[])
+{
+    const int n = g->count;
+    for (int i = 0; i < n; i++)
+        a[g->index[i]] = 0;
+    for (int k = 0; k < n; k++) {
+        double part = 0;
+        if (g->value[k] <= none)
+            continue;
+        for (int i = 0; i < n; i++)
+            part += g->M[n * i + k] * g->unit[i] * force[g->index[i]];
+        for (int i = 0; i < n; i++)
+            a[g->index[i]] += part / g->value[k] * g->M[n * i + k] * g->unit[i];
+    }
+}
+
+static double stiffest(const body_mass *g, double none, const double diagonal[], double most)
+{
+    const int n = g->count;
+    for (int k = 0; k < n; k++) {
+        double stiffness = 0;
+        for (int i = 0; i < n; i++)
+            stiffness += pow(g->M[n * i + k] * g->unit[i], 2) * diagonal[g->index[i]];
+        if (g->value[k] > none)
+            most = fmax(most, stiffness / g->value[k]);
+    }
+    return most;
+}
+
+/* Rank of a body's M. */
+static int visit(const model *m, const carried *all, int body, const model_state *s, body_mass *g,
+                 wish *of)
+{
+    const double none = nothing * body_mass_of(m, all, body, s, g);
+    const int n = g->count, rank = body_mass_rank(g, none);
+    if (of->task == COUNT)
+        return rank;
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', n, g->M, n, g->value); /* fails only for NAN */
+    if (of->task == STIFFEST)
+        of->stiffest = stiffest(g, none, of->given, of->stiffest);
+    else if (of->task == ACCELERATE)
+        accelerate(g, none, of->given, of->changed);
+    else
+        project(g, none, of->task == KEEP_FORCES, of->changed);
     return rank;
 }
 
-static int place_in(const group *g, int coordinate)
+static int warping(const model *m, const carried *all, wish *of)
 {
-    for (int k = 0; k < g->count; k++)
-        if (g->index[k] == coordinate)
-            return k;
-    return NONE;
-}
-
-static void take_vertex(const model *m, int vertex, group *g)
-{
-    for (int c = 0; c < 6; c++) {
-        const int at = m->vertex[vertex].coordinate[c];
-        if (at != NONE && at < m->free && place_in(g, at) == NONE)
-            g->index[g->count++] = at;
+    int heavy = 0;
+    for (int i = 0; i < m->warps; i++) {
+        const int c = m->warp[i].coordinate;
+        const double mass = all->warping[c];
+        if (c >= m->free)
+            continue;
+        heavy += mass > 0;
+        if (of->task == STIFFEST && mass > 0)
+            of->stiffest = fmax(of->stiffest, of->given[c] / mass);
+        if (of->task == ACCELERATE)
+            of->changed[c] = mass > 0 ? of->given[c] / mass : 0;
+        if ((of->task == KEEP_FORCES || of->task == KEEP_MOTION) && mass > 0)
+            of->changed[c] = 0;
     }
+    return heavy;
 }
 
-/* Lengths of the model instead of turns: the same measure for all. */
-static double unit_of(const model *m, int body, int vertex, int c)
+/* Free coordinates less the rank of their masses: *out. */
+static status walk(const model *m, const carried *all, const model_state *s, wish *of, int *out,
+                   fault *f)
 {
-    for (int k = SCENE_RX; k <= SCENE_RZ; k++)
-        if (m->vertex[body].coordinate[k] == c || m->vertex[vertex].coordinate[k] == c)
-            return 1 / m->size;
-    return 1;
-}
-
-static double add_mass(const model *m, const carried *all, int index, const model_state *s,
-                       const double zero[], const group *g)
-{
-    const int vertex = all->mass[index].frame, body = m->vertex[vertex].body;
-    static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    inertia_parts p;
-    released of;
-    double motion[6 * KINEMATICS_MOST], K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
-    inertia_frame(m, all, index, s, zero, NULL, &p);
-    released_columns(m, s, vertex, &of);
-    released_motion(&of, 1, one, one, motion);
-    released_project(&of, p.acceleration, motion, K);
-    for (int i = 0; i < of.count; i++)
-        for (int j = 0; j < of.count; j++) {
-            const int row = place_in(g, of.index[i]), column = place_in(g, of.index[j]);
-            if (row != NONE && column != NONE)
-                g->M[g->count * row + column] += K[of.count * i + j] *
-                                                 unit_of(m, body, vertex, of.index[i]) *
-                                                 unit_of(m, body, vertex, of.index[j]);
-        }
-    return all->mass[index].mass;
-}
-
-/* Of one body and all ends that are released from it. */
-static int body_rank(const model *m, const carried *all, int body, const model_state *s,
-                     const double zero[], group *g, int used[])
-{
-    const double nothing = 1e-14;
-    double largest = 0;
-    g->count = 0;
-    take_vertex(m, body, g);
-    for (int i = m->first_release; i < m->vertices; i++)
-        if (m->vertex[i].body == body)
-            take_vertex(m, i, g);
-    memset(g->M, 0, (size_t)(g->count * g->count) * sizeof *g->M);
-    memset(used, 0, (size_t)g->count * sizeof *used);
-    for (int k = 0; k < all->masses; k++)
-        if (m->vertex[all->mass[k].frame].body == body)
-            largest = fmax(largest, add_mass(m, all, k, s, zero, g));
-    return rank_of(g->count, g->M, used, nothing * largest);
-}
-
-/* Most ends that are released from one body. */
-static int most_ends(const model *m, int ends[])
-{
-    int most = 0;
-    for (int i = m->first_release; i < m->vertices; i++)
-        if (++ends[m->vertex[i].body] > most)
-            most = ends[m->vertex[i].body];
-    return most;
+    int heavy = 0;
+    body_mass g;
+    TRY(body_mass_alloc(m, &g, f));
+    for (int i = 0; i < m->first_release; i++)
+        if (m->vertex[i].body == i)
+            heavy += visit(m, all, i, s, &g, of);
+    *out = m->free - heavy - warping(m, all, of);
+    body_mass_free(&g);
+    return STATUS_OK;
 }
 
 status massless_count(const model *m, const carried *all, const model_state *s, int *out, fault *f)
 {
-    int *room = calloc(2 * (size_t)m->vertices + 1, sizeof *room), heavy = 0;
-    const size_t n = room == NULL ? 0 : 6 + SCENE_RELEASED * (size_t)most_ends(m, room);
-    double *zero = calloc((size_t)(m->free + m->driven) + 1, sizeof *zero);
-    group g = {0, calloc(2 * n, sizeof(int)), calloc(n * n, sizeof(double))};
-    const int known = room != NULL && zero != NULL && g.index != NULL && g.M != NULL;
-    for (int i = 0; i < m->first_release && known; i++)
-        if (m->vertex[i].body == i)
-            heavy += body_rank(m, all, i, s, zero, &g, g.index + n);
-    for (int i = 0; i < m->warps; i++)
-        heavy += m->warp[i].coordinate < m->free && all->warping[m->warp[i].coordinate] > 0;
-    free(room);
-    free(zero);
-    free(g.index);
-    free(g.M);
-    *out = m->free - heavy;
-    return known ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for masses");
+    wish of = {.task = COUNT};
+    return walk(m, all, s, &of, out, f);
+}
+
+status massless_forces(const model *m, const carried *all, const model_state *s, double force[],
+                       fault *f)
+{
+    wish of = {.task = KEEP_FORCES, .changed = force};
+    int count;
+    return walk(m, all, s, &of, &count, f);
+}
+
+status massless_motion(const model *m, const carried *all, const model_state *s, double dx[],
+                       fault *f)
+{
+    wish of = {.task = KEEP_MOTION, .changed = dx};
+    int count;
+    return walk(m, all, s, &of, &count, f);
+}
+
+status massless_stiffest(const model *m, const carried *all, const model_state *s,
+                         const double diagonal[], double *out, fault *f)
+{
+    wish of = {.task = STIFFEST, .given = diagonal};
+    int count;
+    TRY(walk(m, all, s, &of, &count, f));
+    *out = of.stiffest;
+    return STATUS_OK;
+}
+
+status massless_accelerate(const model *m, const carried *all, const model_state *s,
+                           const double force[], double a[], fault *f)
+{
+    wish of = {.task = ACCELERATE, .given = force, .changed = a};
+    int count;
+    TRY(walk(m, all, s, &of, &count, f));
+    for (int i = 0; i < m->vertices; i++) {
+        const int *at = m->vertex[i].coordinate + SCENE_RX;
+        double R[9], turning[3], own[3];
+        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY ||
+            at[0] >= m->free || at[1] >= m->free || at[2] >= m->free)
+            continue;
+        for (int k = 0; k < 3; k++)
+            turning[k] = a[at[k]];
+        rotation_matrix(&s->q[4 * i], R);
+        mat3_transpose_mul_vec(R, turning, own);
+        for (int k = 0; k < 3; k++)
+            a[at[k]] = own[k];
+    }
+    return STATUS_OK;
 }

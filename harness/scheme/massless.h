@@ -1,4 +1,6 @@
-/* Coordinates without inertia: their positions follow from balance at every instant. */
+/* What has inertia and what has none: of the coordinates of a body and of the ends that are
+ * released from it, some motions may be without. Their positions follow from balance at every
+ * instant. */
 #ifndef BEAMWORK_MASSLESS_H
 #define BEAMWORK_MASSLESS_H
 
@@ -6,5 +8,16 @@
 
 /* Free coordinates less the rank of their masses in the state. */
 status massless_count(const model *, const carried *, const model_state *, int *count, fault *);
+/* force[free], dx[free] (spatial increments of rotations): what of them works on, or is, motion
+ * without inertia. */
+status massless_forces(const model *, const carried *, const model_state *, double force[],
+                       fault *);
+status massless_motion(const model *, const carried *, const model_state *, double dx[], fault *);
+/* The largest stiffness of what has inertia, by that [1/s^2]; diagonal[free]: of a stiffness. */
+status massless_stiffest(const model *, const carried *, const model_state *,
+                         const double diagonal[], double *, fault *);
+/* a[free] that forces give what has inertia, as rates have it (forms.h); 0 for what has none. */
+status massless_accelerate(const model *, const carried *, const model_state *,
+                           const double force[], double a[], fault *);
 
 #endif

@@ -58,25 +58,11 @@ static void rates_of(const stage *s, stage_rates *r)
     }
 }
 
-/* dx, from the equations of the present state. fresh 0: with the factors of the iteration before.
- */
-static status direction(stage *s, int fresh, double time, const stage_rates *r,
-                        const model_state *now, step_record *record, fault *f)
+status stage_direction(stage *s, int fresh, fault *f)
 {
-    model *m = s->c->model;
-    counters *count = model_counters(m);
-    model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
-                               .K = fresh ? &s->S : NULL,
-                               .residual = s->residual};
-    const inertia_relation with = {r->b, r->g, r->inc};
-    if (s->c->options->newton == SOLVE_DISPLACEMENT)
-        TRY(linearise_make_compatible(m, (model_state *)now, f));
-    TRY(linearise_state(m, now, &lin, f));
-    inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
-    if (fresh) {
-        inertia_add_tangent(m, s->masses, now, r->v, r->a, &with, &s->S);
+    counters *count = model_counters(s->c->model);
+    if (fresh)
         TRY(context_factor(s->c, s->factor, &s->S, f));
-    }
     memcpy(s->dx, s->residual, (size_t)s->free * sizeof *s->dx);
     memset(s->dx + s->free, 0, (size_t)(s->all - s->free) * sizeof *s->dx);
     factor_solve(s->factor, s->dx);
@@ -86,8 +72,27 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
     count->solutions++;
     count->factor_entries = counts.entries;
     count->factor_flops += fresh ? counts.flops : 0;
-    record->incompatibility = lin.incompatibility;
     return STATUS_OK;
+}
+
+/* dx, from the equations of the present state. fresh 0: with the factors of the iteration before.
+ */
+static status direction(stage *s, int fresh, double time, const stage_rates *r,
+                        const model_state *now, step_record *record, fault *f)
+{
+    model *m = s->c->model;
+    model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
+                               .K = fresh ? &s->S : NULL,
+                               .residual = s->residual};
+    const inertia_relation with = {r->b, r->g, r->inc};
+    if (s->c->options->newton == SOLVE_DISPLACEMENT)
+        TRY(linearise_make_compatible(m, (model_state *)now, f));
+    TRY(linearise_state(m, now, &lin, f));
+    inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
+    if (fresh)
+        inertia_add_tangent(m, s->masses, now, r->v, r->a, &with, &s->S);
+    record->incompatibility = lin.incompatibility;
+    return stage_direction(s, fresh, f);
 }
 
 static status judge(const stage *s, double time, double correction, double before, int iteration,

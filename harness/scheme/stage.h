@@ -29,6 +29,9 @@ typedef struct stage {
 status stage_alloc(analysis_context *, const carried *, stage *, fault *);
 void stage_free(stage *);
 
+/* S dx = residual; fresh 0: with the factors that there are. */
+status stage_direction(stage *, int fresh, fault *);
+
 /* All arrays [free + driven]. */
 typedef struct stage_rates {
     double b, g;

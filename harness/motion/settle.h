@@ -1,0 +1,13 @@
+/* Where something has no inertia, what belongs to places and rates at one instant. */
+#ifndef BEAMWORK_SETTLE_H
+#define BEAMWORK_SETTLE_H
+
+#include "harness/scheme/instant.h"
+#include "harness/scheme/stage.h"
+
+/* What has no inertia comes into balance with what acts from now on and with the rates of the rest,
+ * whose gyroscopic moments it takes; then accelerations follow, 0 of what has none. zero[free +
+ * driven]. NOT_CONVERGED: there is no such balance. */
+status settle(stage *, const double zero[], instant *now, fault *);
+
+#endif
