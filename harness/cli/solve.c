@@ -12,6 +12,7 @@
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/record/system_folder.h"
+#include "harness/request/restart.h"
 #include "harness/tables/table_follow.h"
 #include "harness/tables/table_solution.h"
 
@@ -110,9 +111,10 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
     follow_curves curves;
     follow_request what = {.cell = {.type = type, .keep_all = r->keep_all, .threads = r->threads}};
-    if (r->shapes > 0 || r->matrices != NULL)
+    if (r->shapes > 0 || r->matrices != NULL || r->ends != NULL || r->restart != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--follow gives curves of modes: leave --shapes and --matrices");
+                         "--follow gives curves of modes: leave --shapes, --matrices, --ends and "
+                         "--restart");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
     TRY(files_check(r, 0, case_input_truths_path(r), f));
@@ -127,9 +129,29 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
     return written;
 }
 
+/* A motion goes on with the formulation and the elements that it began with. */
+static status take_restart(command_request *r, restart *from, fault *f)
+{
+    TRY(restart_read(r->restart, from, f));
+    if (r->formulations == 0)
+        TRY(formulation_parse(from->formulation, &r->formulation[r->formulations++], f));
+    if (r->meshes == 0)
+        r->mesh[r->meshes++] = from->elements;
+    return STATUS_OK;
+}
+
+static status prepare_ends(const command_request *r, const restart *from, solution_request *what,
+                           scene *s, fault *f)
+{
+    what->keep_ends = r->ends != NULL;
+    if (r->ends != NULL || r->restart != NULL)
+        TRY(restart_possible(s, f));
+    return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
+}
+
 /* What is needed before the solution; solve_request frees it. */
 static status prepare(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
-                      solution_request *what, sweep *s, truths *t, fault *f)
+                      restart *from, solution_request *what, sweep *s, truths *t, fault *f)
 {
     TRY(files_check(r, r->shapes > 0, case_input_truths_path(r), f));
     const status known = case_input_truths(r, t, f);
@@ -137,15 +159,31 @@ static status prepare(command_request *r, const case_type *type, char note[DEFAU
         fprintf(stderr, "beamwork: without truths: %s\n", f->text); /* a solution needs none */
     else
         TRY(known);
+    if (r->restart != NULL)
+        TRY(take_restart(r, from, f));
     TRY(defaults_fill(r, type, note, f));
     *what = defaults_request(r, type);
-    return solution_plan(what, s, f);
+    TRY(solution_plan(what, s, f));
+    return prepare_ends(r, from, what, &s->point[0].scene, f);
 }
 
-static status write_all(const command_request *r, const char *note, const sweep *s, const truths *t,
-                        fault *f)
+/* Of motions that came to their ends. */
+static status write_ends(const command_request *r, const solution_request *what, const sweep *s,
+                         fault *f)
+{
+    if (r->ends == NULL)
+        return STATUS_OK;
+    if (s->series[0].cell[0].solve.ends > 0)
+        return restart_write(r->ends, what, s, f);
+    fprintf(stderr, "beamwork: no motion came to its end: --ends %s is not written\n", r->ends);
+    return STATUS_OK;
+}
+
+static status write_all(const command_request *r, const char *note, const solution_request *what,
+                        const sweep *s, const truths *t, fault *f)
 {
     TRY(write_out(r, note, s, t, f));
+    TRY(write_ends(r, what, s, f));
     return write_matrices(r, s, f);
 }
 
@@ -159,7 +197,7 @@ static int solve_and_write(const command_request *r, const char *note, const sol
     const status solved = solution_run(what, s, &f);
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT)
         return message_fail(solved, f.text);
-    const status written = write_all(r, note, s, t, &unwritten);
+    const status written = write_all(r, note, what, s, t, &unwritten);
     return written != STATUS_OK ? message_fail(written, unwritten.text) : message_exit(solved, &f);
 }
 
@@ -169,6 +207,7 @@ static int solve_request(command_request *r)
     fault f = {""};
     truths t = {0};
     char note[DEFAULTS_NOTE];
+    restart from = {.ends = 0};
     const case_type *type = case_input_find(r);
     if (type == NULL)
         return r->refusal;
@@ -180,11 +219,12 @@ static int solve_request(command_request *r)
     if (r->shapes > 0 && r->output == NULL)
         return message_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
     solution_request what;
-    const status ready = prepare(r, type, note, &what, &s, &t, &f);
+    const status ready = prepare(r, type, note, &from, &what, &s, &t, &f);
     const int code =
         ready == STATUS_OK ? solve_and_write(r, note, &what, &s, &t) : message_fail(ready, f.text);
     sweep_free(&s);
     truths_free(&t);
+    restart_free(&from);
     return code;
 }
 
@@ -198,6 +238,8 @@ int cli_solve(int count, char **arguments)
         "changes by more than 0.1 % from the mesh before, or, where one still does, the finest: "
         "the output says which, and why."
         "\vbeamwork solve elastica\n"
-        "beamwork solve c_column -f beamw -n 8 --set section_data=printed",
-        "fnsFoKSPRVtTYL.", count, arguments, solve_request);
+        "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
+        "beamwork solve pendulum -f collocation -n 8 --set time=1 --ends pendulum.h5\n"
+        "beamwork solve pendulum --set time=2 --restart pendulum.h5",
+        "fnsFoKSPRVtTYL45.", count, arguments, solve_request);
 }

@@ -37,11 +37,12 @@ typedef struct command_request {
     const char *format, *output, *json, *junit, *markdown, *propose, *truths, *select, *threshold,
         *against, *error;
     const char *vary[CASE_MAX_PARAMETERS]; /* NAME=A..B/N ...: what a sweep is over */
-    int varies, derive;   /* derive: 1: truths are solved for where none is stored */
-    const char *design;   /* of its points; NULL: a grid */
-    long points, seed;    /* of a design that is no grid; seed -1: not given */
-    const char *follow;   /* NAME=A..B/N: modes over a parameter */
-    const char *matrices; /* folder for the matrices of all states */
+    int varies, derive;         /* derive: 1: truths are solved for where none is stored */
+    const char *design;         /* of its points; NULL: a grid */
+    long points, seed;          /* of a design that is no grid; seed -1: not given */
+    const char *follow;         /* NAME=A..B/N: modes over a parameter */
+    const char *matrices;       /* folder for the matrices of all states */
+    const char *ends, *restart; /* files: where motions stop is kept, and where they go on from */
     int jobs, keep_all, steps;
     int doublings;  /* of the finest mesh */
     int threads;    /* of the loop over elements */

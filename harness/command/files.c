@@ -9,7 +9,7 @@
 #include "harness/record/output.h"
 #include "harness/record/output_folder.h"
 
-enum { OUTPUTS = 6, INPUTS = 6 };
+enum { OUTPUTS = 7, INPUTS = 7 };
 
 typedef struct named_place {
     const char *option, *path;
@@ -65,11 +65,12 @@ status files_check(const command_request *r, int whole_file, const char *truths_
         {.option = "--junit", .path = r->junit},
         {.option = "--markdown", .path = r->markdown},
         {.option = "--propose", .path = r->propose},
-        {.option = "--matrices", .path = r->matrices, .folder = 1}};
+        {.option = "--matrices", .path = r->matrices, .folder = 1},
+        {.option = "--ends", .path = r->ends, .form = OUTPUT_WHOLE_FILE}};
     const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
-    const char *const input[INPUTS] = {truths_path, r->most_arguments == 2 ? r->case_name : NULL,
-                                       r->second,   r->scene_path[0],
-                                       r->map,      is_path ? r->against : "/proc/self/exe"};
+    const char *const input[INPUTS] = {
+        truths_path, r->most_arguments == 2 ? r->case_name : NULL, r->second, r->scene_path[0],
+        r->map,      is_path ? r->against : "/proc/self/exe",      r->restart};
     for (int i = 0; i < OUTPUTS; i++) {
         if (out[i].path == NULL)
             continue;
@@ -90,10 +91,10 @@ status files_check(const command_request *r, int whole_file, const char *truths_
 
 status files_check_input(const command_request *r, const char *path, fault *f)
 {
-    const char *const option[OUTPUTS] = {"-o",         "--json",    "--junit",
-                                         "--markdown", "--propose", "--matrices"};
-    const char *const out[OUTPUTS] = {r->output,   r->json,    r->junit,
-                                      r->markdown, r->propose, r->matrices};
+    const char *const option[OUTPUTS] = {"-o",        "--json",     "--junit", "--markdown",
+                                         "--propose", "--matrices", "--ends"};
+    const char *const out[OUTPUTS] = {r->output,  r->json,     r->junit, r->markdown,
+                                      r->propose, r->matrices, r->ends};
     const char *const input[INPUTS] = {path};
     for (int i = 0; i < OUTPUTS; i++) {
         named_place one = {.option = option[i], .path = out[i]};

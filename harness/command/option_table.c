@@ -62,6 +62,13 @@ const verb_option option_table[OPTION_MOST] = {
      "table "
      "of their rows, into a new folder",
      offsetof(command_request, matrices)},
+    {"ends", '4', "FILE",
+     "also keep where motions in time stop (HDF5): --restart goes on from there",
+     offsetof(command_request, ends)},
+    {"restart", '5', "FILE",
+     "go on from where the motions of another run stopped, kept by its --ends: the same scene with "
+     "later stations, bit for bit as one run of steps that stay",
+     offsetof(command_request, restart)},
     {"markdown", 'M', "FILE", "summary as Markdown, for a pull request",
      offsetof(command_request, markdown)},
     {"against", 'A', "OTHER",

@@ -29,6 +29,7 @@ typedef struct motion {
     analysis_context *c;
     const scene_motion *how;
     int analysis, follows;
+    const outcome_end *from; /* where the motion stopped that this one goes on from; NULL: none */
     carried masses;
     mesh_damping damping;
     work work;
@@ -45,16 +46,10 @@ typedef struct motion {
     int quiet; /* steps since what acts was last smooth no longer */
 } motion;
 
-/* Does it go on from where another motion stopped? */
-static int goes_on(const motion *w)
-{
-    return w->follows != SCENE_NONE && w->c->scene->analysis[w->follows].kind == SCENE_MOTION;
-}
-
 static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
 {
     TRY(balance_of(w->c->model, &w->masses, at, balance, f));
-    if (w->out->steps == 0 && !goes_on(w))
+    if (w->out->steps == 0 && w->from == NULL)
         w->out->origin = balance[SCENE_ENERGY];
     balance[SCENE_DRIFT] -= w->out->origin;
     return STATUS_OK;
@@ -74,7 +69,7 @@ static status record_step(motion *w, const step_record *record, double error, fa
         TRY(balance_at(w, &w->now, w->balance, f));
     w->looked_ahead = 0;
     w->largest = fmax(w->largest, w->balance[SCENE_ENERGY]);
-    w->quiet += w->out->steps > 0 || !goes_on(w);
+    w->quiet += w->out->steps > 0 || w->from == NULL;
     memcpy(one.balance, w->balance, sizeof one.balance);
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
@@ -178,17 +173,19 @@ static status integrate(motion *w, fault *f)
             TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
         TRY(stations_here(&w->stations, &w->now, w->balance, f));
     }
-    return resume_keep(w->c, w->analysis, &w->now, &(resume_control){w->h, w->largest, w->quiet},
-                       w->out, f);
+    return resume_keep(w->c, w->analysis, &w->now,
+                       &(resume_control){w->h, w->largest, w->out->origin, w->quiet}, w->out, f);
 }
 
-/* Where the motion before it stopped. */
+/* Where the motion before it stopped; of another scheme or step: in the same scene only. */
 static status go_on(motion *w, fault *f)
 {
-    const scene_motion *former = scene_motion_of(&w->c->scene->analysis[w->follows]);
+    const scene_motion *former = w->from->analysis == w->analysis
+                                     ? w->how
+                                     : scene_motion_of(&w->c->scene->analysis[w->from->analysis]);
     resume_control control;
-    TRY(resume_take(w->c, w->follows, &w->now, &control, f));
-    w->out->origin = outcome_motion_of(&w->c->outcomes[w->follows])->origin;
+    TRY(resume_take(w->c, w->from, &w->now, &control, f));
+    w->out->origin = control.origin;
     if (former->step == w->how->step && former->tolerance == w->how->tolerance)
         w->h = control.step;
     w->largest = control.largest;
@@ -198,14 +195,25 @@ static status go_on(motion *w, fault *f)
                : STATUS_OK;
 }
 
+/* Where it goes on from, in another run or in the scene. */
+static status find_end(motion *w, fault *f)
+{
+    w->from = resume_given(w->c, w->analysis);
+    if (w->from != NULL || w->follows == SCENE_NONE ||
+        w->c->scene->analysis[w->follows].kind != SCENE_MOTION)
+        return STATUS_OK;
+    return resume_before(w->c, w->follows, &w->from, f);
+}
+
 /* The state that the motion starts from, at time 0, and how the axes turn that it is at rest in. */
 static status begin(motion *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
     memset(frame, 0, sizeof *frame);
     w->h = w->how->step;
-    if (follows == SCENE_NONE || goes_on(w))
-        return follows == SCENE_NONE ? STATUS_OK : go_on(w, f);
+    TRY(find_end(w, f));
+    if (w->from != NULL || follows == SCENE_NONE)
+        return w->from != NULL ? go_on(w, f) : STATUS_OK;
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
     if (before->status != STATUS_OK || path->reached < path->stations)
@@ -250,7 +258,7 @@ static status solve(motion *w, fault *f)
                          .end = w->how->path.value[w->how->path.stations - 1]};
     TRY(frames_alloc(&w->frames, shapes_frames(w->c->options->shapes), f));
     TRY(checks_massless(w->c, &w->masses, w->how, w->now.state, f));
-    if (!goes_on(w))
+    if (w->from == NULL)
         TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
     return integrate(w, f);

@@ -3,13 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
-
-static size_t coordinates_of(const model *m)
-{
-    const model_size size = model_sizes(m);
-    return (size_t)size.free + (size_t)size.driven;
-}
+#include "harness/algebra/memory.h"
+#include "harness/model/model_impl.h"
+#include "harness/scheme/damping.h"
 
 static int is_followed(const scene *s, int analysis)
 {
@@ -19,43 +15,118 @@ static int is_followed(const scene *s, int analysis)
     return 0;
 }
 
-status resume_keep(const analysis_context *c, int analysis, const instant *now,
-                   const resume_control *control, outcome_motion *o, fault *f)
+/* Sizes of what is kept of this model. */
+static void measure(const model *m, const instant *now, outcome_end *out)
 {
-    const size_t n = coordinates_of(c->model), bytes = n * sizeof *now->v;
-    if (!is_followed(c->scene, analysis))
-        return STATUS_OK;
-    o->end.v = malloc(3 * bytes + 1);
-    if (o->end.v == NULL)
+    out->states = now->state->size;
+    out->coordinates = (size_t)m->free + (size_t)m->driven;
+    out->strains = now->strain != NULL ? (size_t)m->elements * (size_t)m->strains : 0;
+}
+
+/* Where the parts of an instant lie among the numbers of an end, and how many each has. */
+enum { PARTS = 5 };
+typedef struct part {
+    double *of;
+    size_t count;
+} part;
+static void parts_of(const instant *now, const outcome_end *e, part out[PARTS])
+{
+    const part list[PARTS] = {{now->state->block, e->states},
+                              {now->v, e->coordinates},
+                              {now->a, e->coordinates},
+                              {now->algorithm, e->coordinates},
+                              {now->strain, 2 * e->strains}};
+    memcpy(out, list, sizeof list);
+}
+
+static status copy(const model *m, int analysis, const instant *now, const resume_control *control,
+                   outcome_end *out, fault *f)
+{
+    part of[PARTS];
+    *out = (outcome_end){.analysis = analysis,
+                         .time = now->time,
+                         .path = now->state->path,
+                         .step = control->step,
+                         .work = now->work,
+                         .dissipated = now->dissipated,
+                         .largest = control->largest,
+                         .origin = control->origin,
+                         .stress = now->stress,
+                         .contraction = now->contraction,
+                         .quiet = control->quiet};
+    measure(m, now, out);
+    out->value = malloc((outcome_end_values(out) + 1) * sizeof *out->value);
+    if (out->value == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the end of a motion");
-    memcpy(o->end.v, now->v, bytes);
-    memcpy(o->end.v + n, now->a, bytes);
-    memcpy(o->end.v + 2 * n, now->algorithm, bytes);
-    o->end.time = now->time;
-    o->end.step = control->step;
-    o->end.largest = control->largest;
-    o->end.quiet = control->quiet;
-    o->end.work = now->work;
-    o->end.dissipated = now->dissipated;
+    double *to = out->value;
+    parts_of(now, out, of);
+    for (int i = 0; i < PARTS; i++)
+        if (of[i].count > 0) {
+            memcpy(to, of[i].of, of[i].count * sizeof *to);
+            to += of[i].count;
+        }
     return STATUS_OK;
 }
 
-status resume_take(const analysis_context *c, int before, instant *now, resume_control *control,
-                   fault *f)
+status resume_keep(const analysis_context *c, int analysis, const instant *now,
+                   const resume_control *control, outcome_motion *o, fault *f)
+{
+    outcome_end end;
+    if (is_followed(c->scene, analysis))
+        return copy(c->model, analysis, now, control, &o->end, f);
+    if (!c->options->keep_ends)
+        return STATUS_OK;
+    TRY(copy(c->model, analysis, now, control, &end, f));
+    const status kept =
+        memory_append(&c->result->end, &c->result->ends, &end, sizeof end, "ends of motions", f);
+    if (kept != STATUS_OK)
+        outcome_end_free(&end);
+    return kept;
+}
+
+const outcome_end *resume_given(const analysis_context *c, int analysis)
+{
+    for (int i = 0; i < c->options->restarts; i++)
+        if (c->options->restart[i].analysis == analysis)
+            return &c->options->restart[i];
+    return NULL;
+}
+
+status resume_before(const analysis_context *c, int before, const outcome_end **out, fault *f)
 {
     const analysis_outcome *all = &c->outcomes[before];
-    const outcome_motion *o = outcome_motion_of(all);
-    const size_t n = coordinates_of(c->model), bytes = n * sizeof *now->v;
-    if (all->status != STATUS_OK || o->end.v == NULL)
+    *out = &outcome_motion_of(all)->end;
+    if (all->status != STATUS_OK || (*out)->value == NULL)
         return fault_set(f, STATUS_NOT_CONVERGED, "the motion that this one goes on from: %s",
                          all->reason);
-    kinematics_state_copy(c->model, o->path.state[o->path.reached - 1], now->state);
-    memcpy(now->v, o->end.v, bytes);
-    memcpy(now->a, o->end.v + n, bytes);
-    memcpy(now->algorithm, o->end.v + 2 * n, bytes);
-    now->time = o->end.time;
-    now->work = o->end.work;
-    now->dissipated = o->end.dissipated;
-    *control = (resume_control){o->end.step, o->end.largest, o->end.quiet};
+    return STATUS_OK;
+}
+
+status resume_take(const analysis_context *c, const outcome_end *e, instant *now,
+                   resume_control *control, fault *f)
+{
+    outcome_end here;
+    part of[PARTS];
+    measure(c->model, now, &here);
+    if (here.states != e->states || here.coordinates != e->coordinates ||
+        here.strains != e->strains)
+        return fault_set(f, STATUS_REFUSED,
+                         "the motion that this one goes on from has %zu numbers, this mesh %zu: "
+                         "take its formulation and elements",
+                         e->states, here.states);
+    const double *from = e->value;
+    parts_of(now, e, of);
+    for (int i = 0; i < PARTS; i++)
+        if (of[i].count > 0) {
+            memcpy(of[i].of, from, of[i].count * sizeof *from);
+            from += of[i].count;
+        }
+    now->state->path = e->path;
+    now->time = e->time;
+    now->work = e->work;
+    now->dissipated = e->dissipated;
+    now->stress = e->stress;
+    now->contraction = e->contraction;
+    *control = (resume_control){e->step, e->largest, e->origin, e->quiet};
     return STATUS_OK;
 }

@@ -57,5 +57,8 @@ status solution_run(const solution_request *r, sweep *s, fault *f)
     cell_request request = cell_of(r, &s->point[0].scene);
     request.solve.shapes = r->shapes;
     request.solve.systems = r->systems;
+    request.solve.keep_ends = r->keep_ends;
+    request.solve.restarts = r->restarts;
+    request.solve.restart = r->restart;
     return cell_run(&request, &s->series[0].cell[0], f);
 }

@@ -11,7 +11,10 @@ typedef struct solution_request {
     formulation formulation; /* type NULL: to be chosen */
     int elements;            /* of each member; 0: to be chosen */
     int keep_all, steps, shapes, threads;
-    int systems; /* 1: the matrices of small motions about all states are kept */
+    int keep_ends; /* 1: of motions */
+    int restarts;
+    const outcome_end *restart; /* [restarts] that motions go on from; none where nothing is */
+    int systems;                /* 1: the matrices of small motions about all states are kept */
 } solution_request;
 
 /* What was chosen, and why: one line each; "" where it was given. */

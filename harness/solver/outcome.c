@@ -128,6 +128,17 @@ outcome_path *outcome_walk(analysis_outcome *o)
     return o->kind == SCENE_STATIC ? &o->left.path : &o->left.rotation.path;
 }
 
+size_t outcome_end_values(const outcome_end *e)
+{
+    return e->states + 3 * e->coordinates + 2 * e->strains;
+}
+
+void outcome_end_free(outcome_end *e)
+{
+    free(e->value);
+    e->value = NULL;
+}
+
 void outcome_free(analysis_outcome *o)
 {
     switch (o->kind) {
@@ -142,7 +153,7 @@ void outcome_free(analysis_outcome *o)
         free(o->left.motion.step);
         free_path(&o->left.motion.path);
         free_path(&o->left.motion.frames);
-        free(o->left.motion.end.v);
+        outcome_end_free(&o->left.motion.end);
         break;
     case SCENE_STATIC:
         free_path(&o->left.path);

@@ -78,15 +78,23 @@ typedef struct outcome_step {
     double balance[SCENE_BALANCES];
 } outcome_step;
 
-/* Where a motion stopped, for one that goes on from there; its state is that of the last station.
- */
+/* Where a motion stopped: all that one needs which goes on from there. */
 typedef struct outcome_end {
-    double *v;                        /* [3 x (free + driven)] rates, their derivatives, and what
-                                         generalized-alpha has of these; NULL: nothing follows */
-    double time, step;                /* [s] the next step */
-    double work, dissipated, largest; /* [J] largest: energy so far */
-    int quiet;                        /* steps since what acts was last smooth no longer */
+    int analysis;               /* of the scene */
+    double time, step;          /* [s] step: the next one */
+    double path;                /* of the state */
+    double work, dissipated;    /* [J] since the begin */
+    double largest, origin;     /* [J] largest energy so far; that of the begin */
+    double stress, contraction; /* of arrival.h */
+    int quiet;                  /* steps since what acts was last smooth no longer */
+    size_t states, coordinates, strains;
+    double *value; /* [states + 3 coordinates + 2 strains]; NULL: there is none. The state; rates,
+                      their derivatives, and what generalized-alpha has of these; rates of damped
+                      strains and their derivatives */
 } outcome_end;
+/* How many numbers `value` has. */
+size_t outcome_end_values(const outcome_end *);
+void outcome_end_free(outcome_end *);
 
 typedef struct outcome_motion {
     outcome_path path;

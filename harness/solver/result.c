@@ -21,6 +21,9 @@ void result_free(solve_result *r)
         free(r->matrices[i].compliance);
         free(r->matrices[i].stiffness);
     }
+    for (int i = 0; i < r->ends; i++)
+        outcome_end_free(&r->end[i]);
+    free(r->end);
     free(r->matrices);
     free(r->quantity);
     free(r->step);

@@ -31,6 +31,9 @@ typedef struct solve_options {
     int shapes;  /* most states of every path whose centre lines are kept; 0: no shapes */
     int systems; /* 1: the matrices of small motions about all states are kept */
     int whole_steps; /* 1: a step in time that fails ends the motion, instead of being halved */
+    int keep_ends;   /* 1: where motions stop is kept, for another run that goes on from there */
+    int restarts;
+    const outcome_end *restart; /* [restarts] where those stopped that motions go on from */
     int values_only; /* 1: what only curves and matrices show at a station is not computed */
 } solve_options;
 
@@ -119,6 +122,8 @@ typedef struct solve_result {
     path_event *event;
     int motions;
     motion_record *motion; /* [motions] one motion after the other */
+    int ends;
+    outcome_end *end; /* [ends] of motions that no other one of the scene goes on from */
     double seconds_setup,
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
     double phase[PHASES]; /* [s] of seconds_solve, when asked for */
