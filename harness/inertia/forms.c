@@ -33,6 +33,25 @@ static int keeps_axis(const model *m, int vertex)
     return moving <= 1;
 }
 
+/* Names two axes that it turns about, and the third. */
+static status refuse_turns(const model *m, int vertex, fault *f)
+{
+    static const char axis[] = "xyz";
+    int last = 2, first;
+    while (last > 0 && m->scene->node[vertex].angle[last] == SCENE_HELD)
+        last--;
+    first = last > 0 ? last - 1 : 0;
+    while (first > 0 && m->scene->node[vertex].angle[first] == SCENE_HELD)
+        first--;
+    return fault_set(
+        f, STATUS_REFUSED,
+        "node %d: a motion in time must know how it lies, which turns about fixed axes "
+        "do not say: about %c, then about %c, and back by both leaves it turned about "
+        "%c; give its rotation as a sequence of angles or as a vector, or hold one "
+        "turn more",
+        vertex, axis[first], axis[last], axis[3 - first - last]);
+}
+
 status forms_check(const model *m, fault *f)
 {
     for (int i = 0; i < m->first_release; i++) {
@@ -45,10 +64,7 @@ status forms_check(const model *m, fault *f)
         const int turns = turns_of(m, i);
         const int loose = turns == 3 && driven > 0 && v->vector_driver[0] == NONE;
         if (turns == 2 || (loose && !keeps_axis(m, i)))
-            return fault_set(f, STATUS_REFUSED,
-                             "node %d: a motion in time has no angular velocity for %s about fixed "
-                             "axes; give its rotation as a sequence of angles or as a vector",
-                             i, turns == 2 ? "two turns" : "free and driven turns");
+            return refuse_turns(m, i, f);
     }
     return STATUS_OK;
 }

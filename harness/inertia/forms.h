@@ -12,7 +12,10 @@ typedef enum rotation_form {
     FORM_SEQUENCE /* angles one after the other */
 } rotation_form;
 
-/* REFUSED: two free turns about fixed axes, which no rates belong to. */
+/* REFUSED: two turns about fixed axes that move while the third is held or moves otherwise, with
+ * its row kept or left out alike. They hold a component of the angular velocity at zero, which has
+ * no integral: exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so that no
+ * state of the coordinates says where the node is. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
