@@ -109,6 +109,10 @@ stress: all ## drive every formulation to extremes; a table, and build/stress.js
 motion: all ## integrators of motions in time: orders, what they conserve, large steps; build/motion.json
 	@$(PROGRAM) motion --expected harness/pace/expected.csv --time-limit 0 --json $(BUILD)/motion.json $(MOTION)
 
+.PHONY: paces
+paces: all ## integrators on all cases of motion with all formulations, for profiles in the report; the reference held against another integrator; a minute; build/paces.json
+	@$(PYTHON) harness/tools/paces.py $(PROGRAM) -o $(BUILD)/paces.json $(PACES)
+
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
 

@@ -15,6 +15,7 @@ ADDS = (
     ("newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
     ("stress", ("stress.json", ), "every formulation at its extremes"),
     ("motion", ("motion.json", ), "integrators of motions: orders, what they conserve, large steps"),
+    ("paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
     ("mutants", ("mutants.json", ), "planted faults"),
     ("fuzz", ("fuzz.json", ), "any bytes as input"),
 )

@@ -1,5 +1,5 @@
 """Integrators: which one, with which step, is soonest within an error of time, and can it be
-believed?  (motion.json beside the results)"""
+believed?  (motion.json beside the results, and paces.json where there is one)"""
 import functools
 
 from reports.integrators import answers, figures, map as stability, stored, words
@@ -17,14 +17,24 @@ def noise_of(site):
 
 
 def rows_of(problems, noise):
-    """[(problem, {level: Answer})] of the table who is cheapest."""
+    """[(problem, {level: Answer})] of a table who is cheapest."""
     return [(p, {level: answers.answer(p, level, noise) for level in answers.LEVELS})
-            for p in answers.judged(problems)]
+            for p in problems]
+
+
+def cases_of(problems, noise):
+    """[(case, parameters, {level: Summary}, rows)]: all formulations of a case together, and each."""
+    return [(case, parameters,
+             {level: answers.summary(own, level, noise) for level in answers.LEVELS},
+             rows_of(own, noise)) for (case, parameters), own in answers.by_case(problems).items()]
 
 
 def maps_of(problems):
-    """[(name, Image, sentence)]: a map for each structure, letters explained below the first."""
-    found = [own for own in answers.structures(problems).values() if stability.fates(own)]
+    """[(name, Image, sentence)]: a map for each structure of which large steps were run, the
+    largest first, letters explained below it."""
+    found = [own for own in answers.structures(problems).values() if stability.fates(own) and
+             any(p.reference == stored.NONE_WANTED for p in own)]
+    found.sort(key=lambda own: -len(stability.fates(own)))
     return [(min(own, key=lambda p: p.stiffening).name, stability.draw(own, own is found[0]),
              words.stability(own)) for own in found]
 
@@ -35,37 +45,50 @@ def unmeasured(problems):
 
 
 def failures_of(problems):
-    """[(problem, run)] of what has no error, and why; large steps that are to stop stand in the
-    maps."""
-    return [(p, r) for p in answers.judged(problems) for r in p.runs
-            if r.status != "ok" and not r.fate]
+    """[(case, parameters, scheme, runs that failed, formulations, one of them)] of what has no
+    error; large steps that are to stop stand in the maps."""
+    found = {}
+    for p in problems:
+        for r in p.runs:
+            if r.status != "ok" and not r.large:
+                found.setdefault((p.case, p.parameters, r.scheme), []).append((p.formulation, r))
+    return [(*key, len(own), len({f for f, _ in own}), own[0][1]) for key, own in found.items()]
+
+
+def diagrams_of(site, problems):
+    """[(case, parameters, Image)]"""
+    found = [(case, parameters, figures.work_precision(site, f"{case}_{i}", own))
+             for i, ((case, parameters), own) in enumerate(answers.by_case(problems).items())]
+    return [one for one in found if one[2]]
 
 
 def write(site):
     record, noise = stored.beside(site.results), noise_of(site)
-    problems = record.problems
-    cases = {}
-    for problem in problems:
-        cases.setdefault(problem.case, []).append(problem)
-    diagrams = ((case, figures.work_precision(site, case, found)) for case, found in cases.items())
-    profiles = ((level, figures.profile(site, answers.judged(problems), level))
-                for level in answers.LEVELS)
-    counted, stiffenings = answers.iterations(problems)
+    told = answers.judged(record.compared)
+    profiles = ((level, figures.profile(site, told, level)) for level in answers.LEVELS)
+    counted, stiffenings = answers.iterations(record.every)
     site.write("integrators.html",
                "integrators.html",
-               first=words.first(problems, noise),
+               first=words.first(record.compared, noise),
+               words=words, doubt=answers.doubt,
                tolerances=answers.LEVELS,
-               rows=rows_of(problems, noise),
+               cases=cases_of(told, noise),
+               problems=len(told),
                noise=noise,
-               diagrams=[(case, image) for case, image in diagrams if image],
-               maps=maps_of(problems),
+               diagrams=diagrams_of(site, told),
+               maps=maps_of(record.problems),
                profiles=[(level, image) for level, image in profiles if image],
+               within={level: answers.counted(told, level) for level in answers.LEVELS},
+               checks=record.checks,
+               left_out=record.left_out,
                iterations=counted, counted=words.iterations(counted),
                stiffenings=[(s, stability.short(s)) for s in stiffenings],
-               ladders=[(p, one) for p in answers.judged(problems) for one in p.ladders],
+               orders=answers.orders(told),
+               ladders=[(p, one) for p in told for one in p.ladders
+                        if one.verdict == "low order"],
                verdicts=record.verdicts, judged=words.verdicts(record.verdicts),
-               unmeasured=unmeasured(problems),
-               failures=failures_of(problems))
+               unmeasured=unmeasured(record.every),
+               failures=failures_of(answers.judged(record.every)))
 
 
 def tasks(site):

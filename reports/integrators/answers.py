@@ -29,6 +29,54 @@ def answer(problem, level, noise=1.0):
     return Answer(level, ways, ties)
 
 
+def by_case(problems):
+    """{(case, parameters): [Problem]}"""
+    out = {}
+    for problem in problems:
+        out.setdefault((problem.case, problem.parameters), []).append(problem)
+    return out
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Of a case with all formulations: wins {scheme: formulations in which it is soonest or as
+    soon}; best: the ways of the scheme that has most of them; keeping: the cheapest ways that
+    keep energy to round-off, with their costs over the least."""
+
+    wins: tuple
+    reached: int
+    count: int
+    best: tuple
+    keeping: tuple
+
+
+def summary(problems, level, noise=1.0):
+    count, reached = wins(problems, level, noise)
+    ordered_wins = tuple(sorted(count.items(), key=lambda item: -item[1]))
+    best, keeping = [], []
+    for problem in problems:
+        found = answer(problem, level, noise)
+        best += [w for w in found.ways if ordered_wins and w.scheme == ordered_wins[0][0]]
+        keeping += [(w.scheme, w.cost / found.best.cost)
+                    for w in found.ways if w.run.keeps][:1]
+    return Summary(ordered_wins, reached, len(problems), tuple(best), tuple(keeping))
+
+
+def counted(problems, level):
+    """{scheme: problems in which it comes within the level}"""
+    return {s: sum(any(w.scheme == s for w in answer(p, level).ways) for p in problems)
+            for s in ordered({r.scheme for p in problems for r in p.runs if r.known})}
+
+
+def orders(problems):
+    """{scheme: (nominal order, {verdict: ladders})}"""
+    out = {}
+    for one in (one for p in problems for one in p.ladders):
+        verdicts = out.setdefault(one.scheme, (one.nominal, {}))[1]
+        verdicts[one.verdict] = verdicts.get(one.verdict, 0) + 1
+    return {s: out[s] for s in ordered(out)}
+
+
 def judged(problems):
     """Those with errors of time."""
     return [p for p in problems if not p.reference and any(r.known for r in p.runs)]

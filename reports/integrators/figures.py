@@ -74,8 +74,9 @@ def profile(site, problems, level):
         rows = [(f"{x:.3g}", f"{100 * share:.0f} %") for x, share in
                 list(zip(at, shares))[marked]]
         look = site.points(scheme, ("factor", "within the error"), rows)
-        panel.plot(*stairs(at, shares), **{**look, "marker": None, "gid": f"f|{scheme}"})
-        panel.plot(at[marked], shares[marked], label=scheme, **{**look, "linestyle": "none"})
+        panel.plot(*stairs(at, shares), label=scheme,
+                   **{**look, "marker": None, "gid": f"f|{scheme}"})
+        panel.plot(at[marked], shares[marked], **{**look, "linestyle": "none"})
     return chart.image(site, f"integrators_profile_{level:g}".replace(".", "_"))
 
 

@@ -22,7 +22,7 @@ def text(x, y, words, more=""):
 
 def short(value):
     """A power of ten as 1e6."""
-    return f"{value:g}".replace("e+0", "e").replace("e+", "e")
+    return (f"{value:g}" if value < 1e4 else f"{value:.0e}").replace("e+0", "e").replace("e+", "e")
 
 
 def field(x, y, fate, words):
@@ -81,7 +81,7 @@ def draw(problems, legend=True):
                 text(LEFT + 9, y + 12, letter, f'fill="{ink}"') +
                 text(LEFT + 26, y + 12, f"{fate}: {meaning}", 'text-anchor="start"'))
     height += 20 * len(there) + 4
-    width = LEFT + max(step[0] * columns, 260)
+    width = LEFT + max(step[0] * columns, 320 if there else 0)
     name = "".join(c if c.isalnum() else "_" for c in f"map_{problems[0].name}")
     return Image(f"{name}.svg",
                  f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" '

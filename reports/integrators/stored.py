@@ -1,11 +1,12 @@
 """What `beamwork motion --json` wrote, as plain records: motions by integrators with steps and
-tolerances."""
+tolerances; and `make paces`, the same of every case of motion."""
 import json
 import math
 import os
 from dataclasses import dataclass
 
-FILE = "motion.json"
+FILE, PACES = "motion.json", "paces.json"
+KEPT = 1e-11  # of the largest energy: what does not drift by more keeps it
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
 NONE_WANTED = "none is wanted"  # of a reference
 STIFFENING = "stiffening"  # parameter of cases that says how many times as stiff elongation is
@@ -14,7 +15,8 @@ STIFFENING = "stiffening"  # parameter of cases that says how many times as stif
 @dataclass(frozen=True)
 class Run:
     """One motion. error: of time alone; cost [s] of counted work; energy, momentum: largest
-    relative change that nothing explains; fate: what became of it once nothing acts."""
+    relative change that nothing explains; fate: what became of it once nothing acts; large: of a map of
+    large steps, whose errors nobody wants."""
 
     scheme: str
     step: float
@@ -28,6 +30,7 @@ class Run:
     fate: str
     status: str
     reason: str
+    large: bool
 
     @property
     def setting(self):
@@ -37,6 +40,11 @@ class Run:
     @property
     def known(self):
         return self.status == "ok" and math.isfinite(self.error)
+
+    @property
+    def keeps(self):
+        """Energy, to round-off."""
+        return self.energy <= KEPT
 
 
 @dataclass(frozen=True)
@@ -107,11 +115,12 @@ def number(row, name, other=math.nan):
     return other if value is None else float(value)
 
 
-def run_of(row):
+def run_of(row, large=False):
     return Run(row["integrator"], number(row, "step"), number(row, "tolerance", 0),
                number(row, "error"), number(row, "cost"), number(row, "iterations_per_step"),
                int(number(row, "rejected", 0)), number(row, "energy_drift"),
-               number(row, "momentum_drift"), row["outcome"], row["status"], row["reason"])
+               number(row, "momentum_drift"), row["outcome"], row["status"], row["reason"],
+               large)
 
 
 def ways_of(rows, runs):
@@ -136,7 +145,7 @@ def problem_of(row, parameters):
     def own(name):
         return [one for one in row[name] if one["parameters"] == parameters]
 
-    runs = [run_of(r) for r in own("runs") + own("stability")]
+    runs = [run_of(r) for r in own("runs")] + [run_of(r, True) for r in own("stability")]
     reference = (own("references") or [{"reason": NONE_WANTED}])[0]
     ladders = [Ladder(o["integrator"], o["nominal"], number(o, "order"), o["verdict"])
                for o in own("orders")]
@@ -151,24 +160,65 @@ def problems_of(row):
     return [problem_of(row, parameters) for parameters in places]
 
 
+@dataclass(frozen=True)
+class Check:
+    """How far the reference of a problem is from `explicit` at two tolerances; reason: why that is
+    not known."""
+
+    name: str
+    formulation: str
+    uncertainty: float
+    distances: tuple
+    reason: str
+
+
 @dataclass
 class Record:
-    """verdicts: rows of what is judged against what is expected."""
+    """verdicts: rows of what is judged against what is expected. compared: problems on which
+    integrators are compared, every case of motion where `make paces` ran them; left_out:
+    {(case, formulation): why it is not run}."""
 
     problems: list
     verdicts: list
+    compared: list
+    left_out: dict
+    checks: list
+
+    @property
+    def every(self):
+        return self.problems + [p for p in self.compared if p not in self.problems]
+
+
+def load(path):
+    """What a file has, or None where there is none."""
+    if not os.path.exists(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def check_of(row):
+    at = f" ({row['parameters']})" if row["parameters"] else ""
+    distances = tuple(math.nan if d is None else d for d in row["distances"])
+    return Check(row["case"] + at, row["formulation"], number(row, "uncertainty"), distances,
+                 row["reason"])
 
 
 def read(path):
     """The Record, or None where there is no such file."""
-    if not os.path.exists(path):
+    found = load(path)
+    if found is None:
         return None
-    with open(path, encoding="utf-8") as file:
-        found = json.load(file)
     problems = [one for row in found["cases"] for one in problems_of(row)]
-    return Record(problems, found["verdicts"])
+    paces = load(os.path.join(os.path.dirname(path), PACES))
+    if paces is None:
+        return Record(problems, found["verdicts"], problems, {}, [])
+    return Record(problems, found["verdicts"],
+                  [one for row in paces["cases"] for one in problems_of(row)],
+                  {(row["case"], row["formulation"]): row["reason"] for row in paces["left_out"]},
+                  [check_of(row) for row in paces["checks"]])
 
 
 def beside(results):
-    """The same of the file beside the results."""
+    """The same of the files beside the results."""
     return read(os.path.join(os.path.dirname(os.path.abspath(results)), FILE))

@@ -12,7 +12,8 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """`within 1 % alpha in 2 of 3`; of one problem with its step."""
+    """`within 1 % alpha in 2 of 3`, without those that are soonest half as often as the first; of
+    one problem with its step."""
     count, reached = answers.wins(problems, level, noise)
     if not reached:
         return f"within {level_words(level)} none"
@@ -22,6 +23,7 @@ def soonest(problems, level, noise):
         best = found.best
         return f"within {level_words(level)} {best.scheme} with {best.run.setting}{tied}"
     most = sorted(count.items(), key=lambda item: -item[1])
+    most = [(scheme, n) for scheme, n in most if 2 * n >= most[0][1]]
     told = joined(f"{scheme} in {n}" for scheme, n in most)
     tied = " (ties count for each)" if sum(count.values()) > reached else ""
     return f"within {level_words(level)} {told} of {reached}{tied}"
@@ -38,8 +40,8 @@ def trust(problems, noise):
     doubted = [row for row in doubted if row[2]]
     if doubted:
         p, way, words = doubted[0]
-        return (f"{len(doubted)} of these {len(best)} answers should not be relied on yet: "
-                f"{way.scheme} in {p.name}: {words}.")
+        return (f"{len(doubted)} of these {len(best)} answers are to be taken with care, as stands "
+                f"with them: {way.scheme} in {p.name}: {words}.")
     found = [p.ladder(way.scheme) for p, way in best]
     passed = sum(one is not None and one.verdict == "pass" for one in found)
     unread = len(best) - passed
@@ -58,6 +60,35 @@ def first(problems, noise):
              f"Of {len(told)} problems (a case with a formulation) soonest is")
     levels = "; ".join(soonest(told, level, noise) for level in answers.LEVELS)
     return f"{where} {levels}. {trust(told, noise)}"
+
+
+def between(values, form):
+    """`least to largest`, one where they are told alike."""
+    least, most = form(min(values)), form(max(values))
+    return least if least == most else f"{least} to {most}"
+
+
+def chosen(ways):
+    """`tolerance 1e-05`, `step 0.01 to 0.02 s`: of most of the ways."""
+    by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
+    if 2 * len(by_tolerance) >= len(ways):
+        return f"tolerance {between(by_tolerance, '{:.2g}'.format)}"
+    return f"step {between([w.run.step for w in ways if not w.run.tolerance], '{:.3g}'.format)} s"
+
+
+def keeping(found):
+    """Who comes within the error and keeps energy, at how many times the least cost."""
+    if not found.keeping:
+        return "none of those within it keeps energy to round-off"
+    names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
+    ratios = between([ratio for _, ratio in found.keeping], "{:.2g}".format)
+    return f"keeps energy to round-off: {names}, at {ratios} times the cost"
+
+
+def drift(ways):
+    """Of energy, of runs that are soonest."""
+    known = [w.run.energy for w in ways if w.run.energy == w.run.energy]
+    return f"energy drifts by {between(known, '{:.0e}'.format)}" if known else ""
 
 
 def stability(problems):

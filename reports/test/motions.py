@@ -85,6 +85,16 @@ def record(cases=("pendulum", "free_flight_space"),
     return {"cases": out, "verdicts": [VERDICT, {**VERDICT, "steps": "0.1"}], "unexpected": 0}
 
 
+def paces():
+    """The same of three cases, as `make paces` writes it: a check that was possible, and one not."""
+    check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
+             "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
+    refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}
+    return {"cases": record(("elbow", "release", "spin_up"))["cases"], "checks": [check, refused],
+            "left_out": [{"case": "elbow", "parameters": "", "formulation": "beamw_vlasov",
+                          "reason": "does not offer shear"}]}
+
+
 def write(path, found):
     with open(path, "w", encoding="utf-8") as out:
         json.dump(found, out)

@@ -1,0 +1,109 @@
+#!/usr/bin/python3
+"""Integrators on every case of motion, with every formulation that offers it and is practical: the
+problems of work-precision diagrams and performance profiles (harness/pace/paces.csv).
+
+usage: paces.py PROGRAM -o FILE [WORD]     JSON for the report, and a line for each problem; WORD:
+only the rows whose case has it.
+
+Each row is one run of `beamwork motion`. The reference that it judges by, radau at 1e-10, is held
+against `explicit` (Runge-Kutta of order 8, which shares neither Newton nor a tangent with it) at
+two tolerances on the same mesh, once for each row where that is possible (column check: with which
+formulation). What is left between them falls with the tolerance as far as it is the error of
+`explicit`.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import time
+
+TABLE = pathlib.Path(__file__).resolve().parents[1] / "pace" / "paces.csv"
+EXPLICIT = "1e-11,1e-13"  # tolerances of its steps
+CELL, CHECK = "60", "60"  # [s] that a motion may take, of them all and of the explicit ones
+LEVEL = 1e-4  # of the lines that are shown
+
+
+def motion(program, row, *more):
+    """The record of `beamwork motion`, of one row."""
+    sets = [word for p in row["parameters"].split(";") if p for word in ("--set", p)]
+    command = [program, "motion", row["case"], "-n", row["elements"], *sets, "--format", "json",
+               *more]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1) or not done.stdout:
+        raise SystemExit(f"paces.py: {' '.join(command)}: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
+def offers(found):
+    """Does its formulation offer the motion?"""
+    return any(r["status"] != "refused" for r in found["runs"])
+
+
+def ladder(program, row):
+    """(cases, those whose formulation does not offer them), with all integrators."""
+    chosen = [word for name in row["formulations"].split() for word in ("-f", name)]
+    record = motion(program, row, *chosen, "--time-limit", CELL, "--step", row["steps"],
+                    "--tolerance", row["tolerances"])
+    return ([c for c in record["cases"] if offers(c)],
+            [{"case": c["case"], "parameters": row["parameters"], "formulation": c["formulation"],
+              "reason": c["runs"][0]["reason"]} for c in record["cases"] if not offers(c)])
+
+
+def checked(program, row):
+    """How far the reference and `explicit` are apart at the same instants."""
+    found = motion(program, row, "-f", row["check"], "--time-limit", CHECK, "--integrator",
+                   "explicit", "--tolerance", EXPLICIT)["cases"][0]
+    coarse, fine = found["runs"]
+    return {"case": row["case"], "parameters": row["parameters"], "formulation": row["check"],
+            "elements": int(row["elements"]), "distances": [coarse["error"], fine["error"]],
+            "uncertainty": found["references"][0]["uncertainty"], "steps": fine["steps"],
+            "reason": coarse["reason"] or fine["reason"] or found["references"][0]["reason"]}
+
+
+def word_of(check):
+    """What came of it."""
+    if None in check["distances"]:
+        return f"not checked: {check['reason']}"
+    coarse, fine = check["distances"]
+    return (f"explicit at {EXPLICIT.replace(',', ' and ')} is {coarse:.1e} and {fine:.1e} from it "
+            f"({check['formulation']})")
+
+
+def soonest(cases):
+    """`radau 7, alpha 2`: in how many of them a scheme is soonest within LEVEL."""
+    count = {}
+    for case in cases:
+        ways = [w for w in case["reached"] if w["error"] == LEVEL]
+        best = min(ways, key=lambda w: w["cost"])["integrator"] if ways else "none"
+        count[best] = count.get(best, 0) + 1
+    return ", ".join(f"{name} {n}" for name, n in sorted(count.items(), key=lambda i: -i[1]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("program")
+    parser.add_argument("word", nargs="?", default="")
+    parser.add_argument("-o", "--output", required=True)
+    given = parser.parse_args()
+    out = {"cases": [], "left_out": [], "checks": []}
+    with open(TABLE, newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if given.word in row["case"]]
+    for row in rows:
+        begin = time.monotonic()
+        cases, left_out = ladder(given.program, row)
+        check = checked(given.program, row)
+        out["cases"] += cases
+        out["left_out"] += left_out
+        out["checks"].append(check)
+        at = f" ({row['parameters']})" if row["parameters"] else ""
+        print(f"{row['case']}{at}: {len(cases)} formulations, soonest within {LEVEL:g}: "
+              f"{soonest(cases)}; reference: {word_of(check)}; {time.monotonic() - begin:.0f} s",
+              flush=True)
+    pathlib.Path(given.output).write_text(json.dumps(out), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

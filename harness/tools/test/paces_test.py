@@ -1,0 +1,63 @@
+"""paces.py: every case of motion is in its table, a row is run and its reference checked."""
+import csv
+import json
+import sys
+import unittest
+
+from harness.test import program
+from harness.test.program import ROOT, ProgramTest
+from harness.tools import paces
+
+
+def table(path):
+    with open(ROOT / path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class Table(unittest.TestCase):
+
+    def test_every_case(self):
+        timed = {r["case"] for r in table("reference/defaults.csv")
+                 if r["parameter"] == "integrator"}
+        self.assertGreaterEqual(len(timed), 11)
+        self.assertEqual({r["case"] for r in table("harness/pace/paces.csv")}, timed)
+
+
+class Run(ProgramTest):
+
+    def test_row(self):
+        out = self.folder / "paces.json"
+        done = self.answered(ROOT / "harness/tools/paces.py", program.PROGRAM, "rigid_body", "-o",
+                             out, program=sys.executable)
+        record = json.loads(out.read_text(encoding="utf-8"))
+        self.assertGreater(len(record["cases"]), 3)
+        self.assertEqual({c["case"] for c in record["cases"]}, {"rigid_body"})
+        check, = record["checks"]
+        coarse, fine = check["distances"]
+        self.assertLess(fine, 0.2 * coarse)
+        self.assertLess(fine, 1e-8)
+        self.assertIn(f"{fine:.1e} from it", done.stdout)
+
+
+class Words(unittest.TestCase):
+
+    def test_check(self):
+        check = {"distances": [1e-8, 2e-9], "formulation": "beam", "reason": ""}
+        self.assertIn("1.0e-08 and 2.0e-09 from it (beam)", paces.word_of(check))
+        check = {"distances": [None, None], "formulation": "beam", "reason": "no inertia"}
+        self.assertEqual(paces.word_of(check), "not checked: no inertia")
+
+    def test_soonest(self):
+        """What is not reached is told, not left out."""
+        ways = [{"error": paces.LEVEL, "cost": cost, "integrator": name}
+                for name, cost in (("slow", 2), ("quick", 1))]
+        self.assertEqual(paces.soonest([{"reached": ways}, {"reached": ways}, {"reached": []}]),
+                         "quick 2, none 1")
+
+    def test_offers(self):
+        self.assertFalse(paces.offers({"runs": [{"status": "refused"}]}))
+        self.assertTrue(paces.offers({"runs": [{"status": "refused"}, {"status": "ok"}]}))
+
+
+if __name__ == "__main__":
+    unittest.main()
