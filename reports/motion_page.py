@@ -32,7 +32,7 @@ def parts_of(site, case, motions):
     return {
         "case": case, "first": first,
         "sentence": words.sentence(first, stored.how(case.points[0])),
-        "spread": words.spread(motions),
+        "spread": words.spread(motions), "whenever": words.whenever,
         "space": pictures.markup(case, s) if s is not None and shapes.FRAME in s.kind else None,
         "quantities": [(q, image) for q, image in drawn if image],
         "energies": figures.energies(site, first, f"{name}_energies"),

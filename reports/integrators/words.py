@@ -1,5 +1,6 @@
 """Sentences about integrators."""
 from reports.integrators import answers
+from reports.motion.words import between
 
 
 def joined(words):
@@ -62,18 +63,12 @@ def first(problems, noise):
     return f"{where} {levels}. {trust(told, noise)}"
 
 
-def between(values, form):
-    """`least to largest`, one where they are told alike."""
-    least, most = form(min(values)), form(max(values))
-    return least if least == most else f"{least} to {most}"
-
-
 def chosen(ways):
     """`tolerance 1e-05`, `step 0.01 to 0.02 s`: of most of the ways."""
     by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
     if 2 * len(by_tolerance) >= len(ways):
-        return f"tolerance {between(by_tolerance, '{:.2g}'.format)}"
-    return f"step {between([w.run.step for w in ways if not w.run.tolerance], '{:.3g}'.format)} s"
+        return f"tolerance {between(by_tolerance, '{:.2g}')}"
+    return f"step {between([w.run.step for w in ways if not w.run.tolerance], '{:.3g}')} s"
 
 
 def keeping(found):
@@ -81,14 +76,14 @@ def keeping(found):
     if not found.keeping:
         return "none of those within it keeps energy to round-off"
     names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
-    ratios = between([ratio for _, ratio in found.keeping], "{:.2g}".format)
+    ratios = between([ratio for _, ratio in found.keeping], "{:.2g}")
     return f"keeps energy to round-off: {names}, at {ratios} times the cost"
 
 
 def drift(ways):
     """Of energy, of runs that are soonest."""
     known = [w.run.energy for w in ways if w.run.energy == w.run.energy]
-    return f"energy drifts by {between(known, '{:.0e}'.format)}" if known else ""
+    return f"energy drifts by {between(known, '{:.0e}')}" if known else ""
 
 
 def stability(problems):

@@ -147,13 +147,14 @@ def end_of(case):
 
 
 def quantity(site, case, name, image):
-    """A quantity over time with its truths; None where there is one instant only and no truth of
-    another."""
+    """A quantity over time with its truths, as far as it was computed; None where that is one
+    instant only."""
     found, end = over_time(case, name), end_of(case)
-    truths = stored.truths_of(site.truths, case.name, name, end) if end is not None else []
-    instants = {t for x, *_ in found.values() for t in x} | {t.time for t in truths}
-    if not found or len(instants) < 2:
+    instants = {t for x, *_ in found.values() for t in x}
+    if len(instants) < 2:
         return None
+    truths = stored.truths_of(site.truths, case.name, name, end) if end is not None else []
+    truths = [t for t in truths if t.time <= max(instants) * (1 + 1e-9)]
     unit = case.points[0].units.get(name, "")
     chart = Chart(1, WIDE)
     size, shown = fitting(np.concatenate([y for _, y, _, _ in found.values()]), unit)

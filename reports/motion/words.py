@@ -1,5 +1,6 @@
 """Sentences about a motion: what integrated it, its steps, what it drifts by."""
 import math
+import re
 
 import numpy as np
 
@@ -45,7 +46,8 @@ def momenta(motion):
 def sentence(motion, how):
     """One motion in one sentence."""
     rejected = int(motion.columns["rejected"].sum())
-    tries = f" ({rejected} longer ones tried in vain)" if rejected else ""
+    tries = (f" ({rejected} longer {'one' if rejected == 1 else 'ones'} tried in vain)"
+             if rejected else "")
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
     tolerance = float(how.get("tolerance", 0))  # YAML reads 1e-05 as a text
@@ -55,12 +57,22 @@ def sentence(motion, how):
             f"each; energy drifts by at most {drift:.0e} of its largest value{momenta(motion)}.")
 
 
+def between(values, form):
+    """`least to largest`, one where they are told alike."""
+    least, most = form.format(min(values)), form.format(max(values))
+    return least if least == most else f"{least} to {most}"
+
+
+def whenever(meaning):
+    """What a quantity is, without the instant at which it is read."""
+    return re.sub(r", \S+ s after the begin of the motion", "", meaning)
+
+
 def spread(motions):
     """How the others compare, or nothing."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
     counts = [float(m.columns["iterations"][1:].mean()) for m in motions]
-    return (f"Of all {len(motions)} formulations energy drifts by {min(drifts):.0e} to "
-            f"{max(drifts):.0e}, and a step takes {min(counts):.1f} to {max(counts):.1f} "
-            "iterations.")
+    return (f"Of all {len(motions)} formulations energy drifts by "
+            f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")

@@ -207,6 +207,23 @@ class Truths(ProgramTest):
         x, y, n, whole = figures.over_time(case, "x")["beamw"]
         self.assertEqual((x.tolist(), y.tolist(), n, whole), ([3, 9], [4, 5], 4, False))
 
+    def test_one_instant(self):
+        """What was computed at one instant is no curve, whatever truths there are."""
+        mesh = types.SimpleNamespace(n=4, values={"tip_x": 1.0}, curves={})
+        series = types.SimpleNamespace(key="beamw", meshes=[mesh])
+        case = types.SimpleNamespace(
+            name="pendulum", parameters=[{"parameter": "time", "default": "0.125"}],
+            points=[types.SimpleNamespace(parameters="", series=[series], units={})])
+        site = types.SimpleNamespace(truths=TRUTHS)
+        self.assertGreater(len(stored.truths_of(TRUTHS, "pendulum", "tip_x", 0.125)), 1)
+        self.assertIsNone(figures.quantity(site, case, "tip_x", "figure"))
+
+    def test_words(self):
+        self.assertEqual(words.between([2.04e-5, 1.96e-5], "{:.0e}"), "2e-05")
+        self.assertEqual(words.between([1, 3], "{:.1f}"), "1.0 to 3.0")
+        self.assertEqual(words.whenever("displacement of a along x, 0.125 s after the begin of the "
+                                        "motion, plus 1"), "displacement of a along x, plus 1")
+
     def test_stored_truths_are_read(self):
         """Every case of the packed truths can be asked."""
         with h5py.File(TRUTHS) as file:
