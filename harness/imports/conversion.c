@@ -42,6 +42,10 @@ static const symbol known[] = {
     {"kN", {1e3, {1, 1, -2}}},
     {"MN", {1e6, {1, 1, -2}}},
     {"lbf", {4.4482216152605, {1, 1, -2}}},
+    {"J", {1, {2, 1, -2}}},
+    {"mJ", {1e-3, {2, 1, -2}}},
+    {"kJ", {1e3, {2, 1, -2}}},
+    {"MJ", {1e6, {2, 1, -2}}},
     {"Pa", {1, {-1, 1, -2}}},
     {"kPa", {1e3, {-1, 1, -2}}},
     {"MPa", {1e6, {-1, 1, -2}}},
@@ -123,7 +127,7 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
     if (!read_unit(from, &a))
         return fault_set(f, STATUS_REFUSED,
                          "unit '%.40s' is unknown; write a product as N, kN, N/mm, N mm, mm/N, "
-                         "rad/(N m), MPa, Hz, deg, %%, 1",
+                         "rad/(N m), MPa, J, kg m/s, Hz, deg, %%, 1",
                          from);
     if (!read_unit(to, &b) || memcmp(a.power, b.power, sizeof a.power) != 0)
         return fault_set(f, STATUS_REFUSED, "unit '%.40s' cannot be converted to '%.40s'", from,

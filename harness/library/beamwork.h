@@ -82,9 +82,9 @@ BW_API void bw_scene_free(bw_scene *scene); /* NULL: nothing; its results stay *
  * solve` does. elements: of each member; 0: the coarsest of the scene's meshes at which no value
  * changes by more than 0.1 %, or the finest where one still does. options (NULL: none): a JSON
  * object with any of "keep_all" (true: nothing is left out), "steps" (between stations, to begin
- * with: easy ones are made longer), "shapes" (most states of a path whose shapes are kept),
- * "threads". After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a
- * result all the same, with what could be found. */
+ * with: easy ones are made longer), "shapes" (most states of a path whose shapes are kept; of
+ * a motion so many instants, 60 where 5 or fewer are asked for), "threads". After NOT_CONVERGED,
+ * SINGULAR and NO_VALUE *out is a result all the same, with what could be found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
 BW_API void bw_result_free(bw_result *result); /* NULL: nothing */
@@ -103,6 +103,9 @@ BW_API const char *bw_result_unit(const bw_result *result, int quantity);
 BW_API double bw_result_value(const bw_result *result, const char *quantity);
 /* (value - truth)/|truth|, as `beamwork solve` shows it; NaN: there is no truth. */
 BW_API double bw_result_error(const bw_result *result, const char *quantity);
+/* Where it was taken: of a largest or least value of a motion, or of one at an instant, the time
+ * [s], along other paths the path parameter; NaN: nowhere in particular, or no value. */
+BW_API double bw_result_at(const bw_result *result, const char *quantity);
 /* Points of a curve; 0: the quantity is none. The arrays [points] are the result's. */
 BW_API size_t bw_result_curve(const bw_result *result, const char *quantity, const double **x,
                               const double **y);
@@ -110,14 +113,18 @@ BW_API size_t bw_result_curve(const bw_result *result, const char *quantity, con
  * "correction", ...); their number, 0: there are none, or no such column. The array is the
  * result's. */
 BW_API size_t bw_result_steps(bw_result *result, const char *column, const double **values);
+/* A column of numbers of its motions in time, a row for the begin and for where each step ended, as
+ * `beamwork schema` names them ("time", "step", "kinetic", "strain", "work", "drift", "px", "lz",
+ * ...); their number, 0: nothing moves in time, or no such column. The array is the result's. */
+BW_API size_t bw_result_motion(bw_result *result, const char *column, const double **values);
 /* Shapes that were asked for: *points of all centre lines together; *position [states x points x
  * 3] [m]; the number of states, the first of them undeformed. */
 BW_API size_t bw_result_shapes(bw_result *result, size_t *points, const double **position);
 /* *first [members + 1]: the point where each member begins; the number of members. */
 BW_API size_t bw_result_members(const bw_result *result, const int **first);
-/* What a state is: "path", "buckling", ...; NULL: there is no such state. */
+/* What a state is: "path", "buckling", "motion", ...; NULL: there is no such state. */
 BW_API const char *bw_result_shape_kind(const bw_result *result, size_t state);
-/* Its path parameter, load factor or frequency [Hz]; NaN: there is no such state. */
+/* Its path parameter, load factor, frequency [Hz] or time [s]; NaN: there is no such state. */
 BW_API double bw_result_shape_value(const bw_result *result, size_t state);
 
 /* Formulations side by side, as `beamwork converge --format json`. formulations: separated by

@@ -82,6 +82,16 @@ double bw_result_value(const bw_result *r, const char *quantity)
     return found != NULL && found->status == STATUS_OK ? found->value : NAN;
 }
 
+double bw_result_at(const bw_result *r, const char *quantity)
+{
+    const quantity_result *found = found_of(r, quantity);
+    if (found == NULL || found->status != STATUS_OK || found->curve.points > 0)
+        return NAN;
+    const scene *s = result_handle_scene(r);
+    const scene_quantity *q = quantity_at(r, index_of(r, quantity));
+    return scene_path_of(&s->analysis[q->analysis]) != NULL ? found->x : NAN;
+}
+
 double bw_result_error(const bw_result *r, const char *quantity)
 {
     const int i = index_of(r, quantity);

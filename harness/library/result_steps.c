@@ -5,11 +5,11 @@
 
 #include "harness/library/result_handle.h"
 
-/* The field of a step, among those that are numbers; -1: none. */
-static int field_of(const char *name, const schema_field **out)
+/* The field of a type, among those that are numbers; -1: none. */
+static int field_of(const record_type *type, const char *name, const schema_field **out)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
-    const int count = schema_fields(&record_step, 0, list);
+    const int count = name != NULL ? schema_fields(type, 0, list) : 0;
     for (int i = 0; i < count && i < RESULT_COLUMNS; i++)
         if (strcmp(list[i]->name, name) == 0 && list[i]->kind != FIELD_TEXT &&
             list[i]->kind != FIELD_ENUM && list[i]->count == 0) {
@@ -26,11 +26,11 @@ static double number_of(const subject *s, const schema_field *field)
     return field->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
 }
 
-static double *read_column(const bw_result *r, const schema_field *field)
+static double *read_column(const bw_result *r, const record_type *type, const schema_field *field)
 {
     const gathering g = {&r->sweep, NULL, r->truths};
     subjects list = {0};
-    gather_mesh(&g, &record_step, 0, 0, &list);
+    gather_mesh(&g, type, 0, 0, &list);
     double *out = list.bad ? NULL : malloc(((size_t)list.count + 1) * sizeof *out);
     for (int i = 0; out != NULL && i < list.count; i++)
         out[i] = number_of(&list.row[i], field);
@@ -38,16 +38,30 @@ static double *read_column(const bw_result *r, const schema_field *field)
     return out;
 }
 
-size_t bw_result_steps(bw_result *r, const char *column, const double **values)
+/* Of `rows` records of a type; kept[RESULT_COLUMNS]: those that were asked for before. */
+static size_t column_of(const bw_result *r, const record_type *type, double *kept[], int rows,
+                        const char *name, const double **values)
 {
     const schema_field *field = NULL;
-    const int i = r != NULL && column != NULL ? field_of(column, &field) : -1;
-    if (i >= 0 && r->column[i] == NULL)
-        r->column[i] = read_column(r, field);
-    const double *found = i >= 0 ? r->column[i] : NULL;
+    const int i = rows > 0 ? field_of(type, name, &field) : -1;
+    if (i >= 0 && kept[i] == NULL)
+        kept[i] = read_column(r, type, field);
+    const double *found = i >= 0 ? kept[i] : NULL;
     if (values != NULL)
         *values = found;
-    return found != NULL ? (size_t)result_handle_solution(r)->steps : 0;
+    return found != NULL ? (size_t)rows : 0;
+}
+
+size_t bw_result_steps(bw_result *r, const char *column, const double **values)
+{
+    return column_of(r, &record_step, r != NULL ? r->step : NULL,
+                     r != NULL ? result_handle_solution(r)->steps : 0, column, values);
+}
+
+size_t bw_result_motion(bw_result *r, const char *column, const double **values)
+{
+    return column_of(r, &record_motion, r != NULL ? r->motion : NULL,
+                     r != NULL ? result_handle_solution(r)->motions : 0, column, values);
 }
 
 static const shapes *shapes_of(const bw_result *r)

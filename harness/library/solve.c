@@ -136,8 +136,10 @@ void bw_result_free(bw_result *r)
     truths_free(&r->own);
     source_release(r->from);
     free(r->error);
-    for (int i = 0; i < RESULT_COLUMNS; i++)
-        free(r->column[i]);
+    for (int i = 0; i < RESULT_COLUMNS; i++) {
+        free(r->step[i]);
+        free(r->motion[i]);
+    }
     free(r->position);
     free(r);
 }

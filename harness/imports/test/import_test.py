@@ -13,6 +13,27 @@ HEAD = """# beamwork-import: 1
 """
 COLUMNS = "quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"
 ROWS = "C_xx, mm/N, 2, 24, 2.1e-3, , 3.9408e-4,\nC_xx, mm/N, 4, 48, 3.3e-3, , 3.97064e-4, 1e-9\n"
+FLYING = """beamwork: 1
+sections: {rod: {rectangle: {width: 0.02, thickness: 0.01}, young: 70e9, shear_modulus: 26e9, density: 2700}}
+nodes: {a: {at: [0, 0, 0]}, b: {at: [1, 0, 0]}}
+members: {rod: {from: a, to: b, section: rod, y: [0, 1, 0]}}
+analyses: {fly: {motion: {stations: [1], step: 0.1, start: {spin: [0, 0, 1]}}}}
+quantities:
+  vx: {rate: {analysis: fly, node: b, component: ux}}
+  vy: {rate: {analysis: fly, node: b, component: uy}}
+  Lx: {momentum: {analysis: fly, component: lx}}
+  Ly: {momentum: {analysis: fly, component: ly}}
+  pz: {momentum: {analysis: fly, component: pz}}
+  kinetic: {energy: {analysis: fly, of: kinetic}}
+  top_x: {displacement: {analysis: fly, node: b, component: ux, take: max}}
+  top_y: {displacement: {analysis: fly, node: b, component: uy, take: max}}
+  low_x: {displacement: {analysis: fly, node: b, component: ux, take: min}}
+  low_y: {displacement: {analysis: fly, node: b, component: uy, take: min}}
+  R_xy: {orientation: {analysis: fly, node: b, row: x, column: y}}
+  R_yx: {orientation: {analysis: fly, node: b, row: y, column: x}}
+  rise: {displacement: {analysis: fly, node: b, component: ux, take: crossing}, when: {level: 0.1, direction: rising}}
+  fall: {displacement: {analysis: fly, node: b, component: uy, take: crossing}, when: {level: -0.1, direction: falling}}
+"""
 DATA = pathlib.Path(__file__).parent / "data"
 MAPS = pathlib.Path(__file__).parents[1] / "maps"
 SELECT = "sheet_cantilever and C_xx and shear_factor"
@@ -106,6 +127,21 @@ class Import(ProgramTest):
         self.assertEqual({row["quantity"]: row["value"]
                           for row in self.stored()},
                          {b"C_ux_Mz": -3, b"C_uy_Mz": 4, b"C_thz_Mz": 5})
+
+    def test_a_motion_in_other_axes(self):
+        """Rates, momenta, turns and energies of a motion, and largest values that become least ones."""
+        (self.folder / "fly.yaml").write_text(FLYING, encoding="utf-8")
+        rows = "".join(f"{name}, {unit}, 2,,,, {value},\n" for name, unit, value in (
+            ("vx", "mm/s", 3), ("vy", "mm/s", 4), ("Ly", "kg m^2/s", 5), ("pz", "N s", 6),
+            ("kinetic", "mJ", 7), ("top_y", "m", 8), ("low_y", "m", 9), ("R_xy", "1", 0.5),
+            ("rise", "ms", 10),
+            ("top_x", "m", 11)))
+        self.read("# beamwork-import: 1\n# program: other\n# case: fly.yaml\n"
+                  "# axes: x=-y y=x z=z\n" + COLUMNS + rows)
+        self.assertEqual({row["quantity"].decode(): row["value"] for row in self.stored("fly")},
+                         {"vy": -0.003, "vx": 0.004, "Lx": 5, "pz": 6, "kinetic": 0.007, "top_x": 8,
+                          "low_x": 9, "R_yx": -0.5, "fall": 0.01,
+                          "low_y": -11})
 
     def test_two_programs_in_one_file(self):
         self.read(HEAD + COLUMNS + ROWS + "# program: other\n" + ROWS)

@@ -22,11 +22,15 @@ class Curve(NamedTuple):
 class Shapes(NamedTuple):
     """Centre lines. position: [states, points, 3] m, the first state undeformed; first: [members +
     1] point where each member begins; kinds, values: [states] what a state is ("path", "buckling",
-    ...), and its path parameter, load factor or frequency [Hz]."""
+    "motion", ...), and its path parameter, load factor, frequency [Hz] or time [s]."""
     position: numpy.ndarray
     first: numpy.ndarray
     kinds: list
     values: numpy.ndarray
+
+
+MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain", "work",
+          "dissipated", "drift", "px", "py", "pz", "lx", "ly", "lz")
 
 
 class _Memory:
@@ -44,6 +48,7 @@ class Result:
     """Answers of one cell. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
 
     values: {quantity: value}; errors: {quantity: relative error against its truth}; units.
+    at: {quantity: where its value was taken}: of a motion the time [s], as of a largest value.
     curves: names of the quantities that are curves.
     case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
     document: all as `beamwork solve --format json` writes it (read once, when it is asked for).
@@ -53,7 +58,7 @@ class Result:
 
     def __init__(self, handle: Owned):
         self._handle = handle
-        values, errors, units, curves = {}, {}, {}, []
+        values, errors, units, curves, at = {}, {}, {}, [], {}
         with handle.lock:
             for i in range(ask("result_quantities", handle.pointer)):
                 raw = ask("result_name", handle.pointer, i)
@@ -66,9 +71,13 @@ class Result:
                 error = ask("result_error", handle.pointer, raw)
                 if not math.isnan(error):
                     errors[name] = error
+                place = ask("result_at", handle.pointer, raw)
+                if not math.isnan(place):
+                    at[name] = place
         self.values = types.MappingProxyType(values)
         self.errors = types.MappingProxyType(errors)
         self.units = types.MappingProxyType(units)
+        self.at = types.MappingProxyType(at)
         self.curves = tuple(curves)
         self.formulation = ask("result_formulation", handle.pointer).decode()
         self.elements = ask("result_elements", handle.pointer)
@@ -150,6 +159,22 @@ class Result:
     def iterations(self):
         """{column: [iterations] array}: step, iteration, residual, correction, ..."""
         return self._columns("iterations")
+
+    @property
+    def motion(self):
+        """Of a motion in time, {column: [steps + 1] array}, the begin and where each step ended:
+        time and step [s], iterations, rejected, error, kinetic, strain, work, dissipated and drift
+        [J] (drift: what is missing), px to pz [kg m/s], lx to lz [kg m^2/s]. {}: nothing moves.
+        Read-only views of the result's own arrays."""
+        found = {}
+        with self._open().lock:
+            for name in MOTION:
+                values = ctypes.POINTER(ctypes.c_double)()
+                count = ask("result_motion", self._open().pointer, name.encode(),
+                            ctypes.byref(values))
+                if count:
+                    found[name] = numpy.asarray(_Memory(self._handle, values, count))
+        return found
 
     def _columns(self, key):
         rows = self.document.get(key, [])
