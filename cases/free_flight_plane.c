@@ -3,7 +3,7 @@
  * along the rod: meshes follow it slowly.  The smooth load has the same impulse. */
 #include <stddef.h>
 
-#include "cases/shared/timed.h"
+#include "cases/shared/thrown.h"
 
 enum { LOAD = TIMED_PARAMETERS, STIFFENING };
 enum { SMOOTH, STEP };
@@ -18,23 +18,20 @@ static const parameter_type parameters[] = {
 
 static status build(const double value[], scene *s, fault *f)
 {
-    static const double y_axis[] = {4, 3, 0};
     (void)f;
-    const double k = value[STIFFENING];
-    const section_spec spec = timed_profile(&(timed_section){
-        .EA = 1e4 * k, .GA = 1e4 * k, .GJ = 100, .EI = 100, .mass = 1, .polar = 20, .rotary = 10});
-    const int profile = scene_add_section(s, &spec), A = scene_add_node(s, 0, 8, 0),
-              B = scene_add_node(s, 6, 0, 0);
-    scene_add_member(s, A, B, profile, y_axis);
-    const int loads[] = {scene_add_load(s, SCENE_FORCE, B, 8, 0, 0),
-                         scene_add_load(s, SCENE_MOMENT, B, 0, 0, -80)};
+    const thrown rod = thrown_add(s, &(thrown_rod){.stiffening = value[STIFFENING],
+                                                   .bending = 100,
+                                                   .A = {0, 8, 0},
+                                                   .y = {4, 3, 0},
+                                                   .force = {8, 0, 0},
+                                                   .moment = {0, 0, -80}});
     for (int i = 0; i < 2; i++) {
-        scene_load_piece(s, loads[i], 2.5, value[LOAD] == SMOOTH ? "2*sin(pi*t/2.5)^2" : "1");
-        scene_load_piece(s, loads[i], 0, "0");
+        scene_load_piece(s, rod.load[i], 2.5, value[LOAD] == SMOOTH ? "2*sin(pi*t/2.5)^2" : "1");
+        scene_load_piece(s, rod.load[i], 0, "0");
     }
     const int motion = timed_add(s, value, SCENE_NONE);
-    timed_places(s, motion, A, 1, (const char *const[]){"A_x", "A_y", NULL});
-    timed_places(s, motion, B, 1, (const char *const[]){"B_x", "B_y", NULL});
+    timed_places(s, motion, rod.A, 1, (const char *const[]){"A_x", "A_y", NULL});
+    timed_places(s, motion, rod.B, 1, (const char *const[]){"B_x", "B_y", NULL});
     scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
     scene_add_quantity(s, "px", "kg m/s", motion, scene_balance_of(SCENE_PX));
     scene_add_quantity(s, "Lz", "kg m^2/s", motion, scene_balance_of(SCENE_LZ));

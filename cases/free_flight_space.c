@@ -1,7 +1,7 @@
 /* A flexible rod that a force and a moment throw and that then flies freely in space. */
 #include <stddef.h>
 
-#include "cases/shared/timed.h"
+#include "cases/shared/thrown.h"
 
 enum { STIFFENING = TIMED_PARAMETERS };
 
@@ -14,25 +14,22 @@ static const parameter_type parameters[] = {
 
 static status build(const double value[], scene *s, fault *f)
 {
-    static const double y_axis[] = {0, 1, 0};
-    (void)f;
     static const char *const at_A[] = {"A_x", "A_y", "A_z"}, *const at_B[] = {"B_x", "B_y", "B_z"};
-    const double k = value[STIFFENING];
-    const section_spec spec = timed_profile(&(timed_section){
-        .EA = 1e4 * k, .GA = 1e4 * k, .GJ = 500, .EI = 500, .mass = 1, .polar = 20, .rotary = 10});
-    const int profile = scene_add_section(s, &spec), A = scene_add_node(s, 0, 0, 8),
-              B = scene_add_node(s, 6, 0, 0);
-    scene_add_member(s, A, B, profile, y_axis);
-    const int loads[] = {scene_add_load(s, SCENE_FORCE, B, 0.1, 0, 0),
-                         scene_add_load(s, SCENE_MOMENT, B, 0, 1, 0.5)};
+    (void)f;
+    const thrown rod = thrown_add(s, &(thrown_rod){.stiffening = value[STIFFENING],
+                                                   .bending = 500,
+                                                   .A = {0, 0, 8},
+                                                   .y = {0, 1, 0},
+                                                   .force = {0.1, 0, 0},
+                                                   .moment = {0, 1, 0.5}});
     for (int i = 0; i < 2; i++) {
-        scene_load_piece(s, loads[i], 2.5, "80*t");
-        scene_load_piece(s, loads[i], 5, "400 - 80*t");
-        scene_load_piece(s, loads[i], 0, "0");
+        scene_load_piece(s, rod.load[i], 2.5, "80*t");
+        scene_load_piece(s, rod.load[i], 5, "400 - 80*t");
+        scene_load_piece(s, rod.load[i], 0, "0");
     }
     const int motion = timed_add(s, value, SCENE_NONE);
-    timed_places(s, motion, A, 1, at_A);
-    timed_places(s, motion, B, 1, at_B);
+    timed_places(s, motion, rod.A, 1, at_A);
+    timed_places(s, motion, rod.B, 1, at_B);
     scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
     static const char *const momentum[] = {"px", "py", "pz", "Lx", "Ly", "Lz"};
     for (int i = 0; i < 6; i++) {
