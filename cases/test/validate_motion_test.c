@@ -21,6 +21,21 @@ static scene_motion *moves(scene *s)
     return moves_from(s, 0);
 }
 
+/* Driven in time, from 1 s on by another function; NULL: by one alone. */
+static void drives(scene *s, const char *first, const char *then)
+{
+    moves(s);
+    scene_drive_piece(s, 0, then != NULL ? 1 : 0, first);
+    if (then != NULL)
+        scene_drive_piece(s, 0, 0, then);
+}
+
+static void asks(scene *s, scene_extract what)
+{
+    moves(s);
+    scene_add_quantity(s, "asked", "1", 1, what);
+}
+
 static void step_of_nothing(scene *s)
 {
     moves(s)->step = 0;
@@ -116,34 +131,27 @@ static void factors_over_no_path(scene *s)
 
 static void begins_elsewhere(scene *s)
 {
-    moves(s);
-    scene_drive_piece(s, 0, 0, "t^2");
+    drives(s, "t^2", NULL);
 }
 
 static void driver_jumps(scene *s)
 {
-    moves(s);
-    scene_drive_piece(s, 0, 1, "1 + t^2");
-    scene_drive_piece(s, 0, 0, "3*t - 0.5");
+    drives(s, "1 + t^2", "3*t - 0.5");
 }
 
 static void driver_hits(scene *s)
 {
-    moves(s);
-    scene_drive_piece(s, 0, 1, "1 + t^2");
-    scene_drive_piece(s, 0, 0, "2");
+    drives(s, "1 + t^2", "2");
 }
 
 static void driver_without_acceleration(scene *s)
 {
-    moves(s);
-    scene_drive_piece(s, 0, 0, "1 + t^1.5");
+    drives(s, "1 + t^1.5", NULL);
 }
 
 static void driver_unread(scene *s)
 {
-    moves(s);
-    scene_drive_piece(s, 0, 0, "1 + x");
+    drives(s, "1 + x", NULL);
 }
 
 static void pieces_fall(scene *s)
@@ -167,20 +175,17 @@ static void idle_function(scene *s)
 
 static void relative_to_itself(scene *s)
 {
-    moves(s);
-    scene_add_quantity(s, "lag", "m", 1, scene_relative_to(TIP, SCENE_UX, TIP));
+    asks(s, scene_relative_to(TIP, SCENE_UX, TIP));
 }
 
 static void orientation_of_nothing(scene *s)
 {
-    moves(s);
-    scene_add_quantity(s, "R", "1", 1, scene_orientation_entry(TIP, 3, 0));
+    asks(s, scene_orientation_entry(TIP, 3, 0));
 }
 
 static void rate_of_nothing(scene *s)
 {
-    moves(s);
-    scene_add_quantity(s, "v", "m/s", 1, scene_rate(9, SCENE_UX));
+    asks(s, scene_rate(9, SCENE_UX));
 }
 
 static void rate_at_rest(scene *s)
@@ -190,8 +195,7 @@ static void rate_at_rest(scene *s)
 
 static void frequency_of_motion(scene *s)
 {
-    moves(s);
-    scene_add_quantity(s, "f", "Hz", 1, scene_frequency(0, SCENE_ANY));
+    asks(s, scene_frequency(0, SCENE_ANY));
 }
 
 static const refusal refusals[] = {
@@ -220,11 +224,11 @@ static const refusal refusals[] = {
     {pieces_fall, "load 0: ", "the end of piece 2, 1 s, is not behind"},
     {load_without_value, "load 0: ", "at 0 s its factor is not finite"},
     {idle_function, "load 0: ", "no analysis is in time"},
-    {relative_to_itself, "quantity lag: ", "no such relative coordinate"},
-    {orientation_of_nothing, "quantity R: ", "no such entry of a rotation matrix"},
-    {rate_of_nothing, "quantity v: ", "no such coordinate"},
+    {relative_to_itself, "quantity asked: ", "no such relative coordinate"},
+    {orientation_of_nothing, "quantity asked: ", "no such entry of a rotation matrix"},
+    {rate_of_nothing, "quantity asked: ", "no such coordinate"},
     {rate_at_rest, "quantity v: ", "does not have it"},
-    {frequency_of_motion, "quantity f: ", "does not have it"},
+    {frequency_of_motion, "quantity asked: ", "does not have it"},
 };
 
 static void accepts(void (*how)(scene *), const char *what)
@@ -244,9 +248,7 @@ static void held(scene *s)
 
 static void goes_on(scene *s)
 {
-    moves(s);
-    scene_drive_piece(s, 0, 1, "1 + t^2");
-    scene_drive_piece(s, 0, 0, "2*t");
+    drives(s, "1 + t^2", "2*t");
     scene_load_piece(s, 0, 1, "1");
     scene_load_piece(s, 0, 0, "sqrt(t)");
 }

@@ -81,6 +81,23 @@ static void check_same(scene_scheme by)
              answer_of(&plain, "late"));
 }
 
+/* A rod along x, held at its root. */
+typedef struct rod {
+    int profile, root, tip, member;
+} rod;
+
+static rod add_rod(scene *s, const char *name)
+{
+    rod out;
+    scene_init(s, name);
+    out.profile = add_section(s);
+    out.root = scene_add_node(s, 0, 0, 0);
+    out.tip = scene_add_node(s, length, 0, 0);
+    out.member = scene_add_member(s, out.root, out.tip, out.profile, y_axis);
+    scene_hold_all(s, out.root);
+    return out;
+}
+
 /* A body at the tip of a rod that weighs next to nothing: one mode, whose frequency `modal` knows.
  */
 static void check_frequency(scene_scheme by, double step, double tolerance)
@@ -88,13 +105,10 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
     const double one[1] = {1}, first = sqrt(3 * EI / 50);
     scene s;
     answer a;
-    scene_init(&s, "one mode");
-    const int profile = add_section(&s), root = scene_add_node(&s, 0, 0, 0),
-              tip = scene_add_node(&s, length, 0, 0);
-    scene_add_member(&s, root, tip, profile, y_axis);
-    scene_hold_all(&s, root);
+    const rod is = add_rod(&s, "one mode");
+    const int tip = is.tip;
     scene_node_at(&s, tip)->body = (scene_body){.mass = 50, .inertia = {1e-3, 1e-3, 1e-3}};
-    s.section[profile].density *= 1e-6;
+    s.section[is.profile].density *= 1e-6;
     const int load = scene_add_load(&s, SCENE_FORCE, tip, 0, 1e-4, 0);
     const int bent = scene_add_static(&s, 1, one, 1), modal = scene_add_modal(&s, SCENE_NONE);
     scene_add_quantity(&s, "f", "Hz", modal, scene_frequency(0, SCENE_ANY));
@@ -121,21 +135,17 @@ static double base(scene_scheme by, int moves)
     const double at[1] = {0.7};
     scene s;
     answer a;
-    scene_init(&s, "base");
-    const int profile = add_section(&s), root = scene_add_node(&s, 0, 0, 0),
-              tip = scene_add_node(&s, length, 0, 0),
-              member = scene_add_member(&s, root, tip, profile, y_axis);
-    scene_hold_all(&s, root);
+    const rod is = add_rod(&s, "base");
     if (moves) {
         const int driver = scene_add_moving_driver(&s, "base");
         scene_drive_piece(&s, driver, 0, "t^3");
-        scene_drive(&s, root, SCENE_UY, driver);
+        scene_drive(&s, is.root, SCENE_UY, driver);
     } else
-        scene_load_piece(&s, scene_add_load(&s, SCENE_GRAVITY, member, 0, -1, 0), 0, "6*t");
+        scene_load_piece(&s, scene_add_load(&s, SCENE_GRAVITY, is.member, 0, -1, 0), 0, "6*t");
     const int motion = scene_add_motion(
         &s, SCENE_NONE, 1, at,
         (scene_motion){.scheme = by, .alpha = scene_alpha_of_radius(0.9), .step = 0.01});
-    scene_add_quantity(&s, "u", "m", motion, scene_relative_to(tip, SCENE_UY, root));
+    scene_add_quantity(&s, "u", "m", motion, scene_relative_to(is.tip, SCENE_UY, is.root));
     ask_scene(&s, &element_geometrically_exact, NULL, 4, &a);
     scene_free(&s);
     return answer_of(&a, "u");
@@ -188,11 +198,7 @@ static void check_massless(void)
     for (int i = 0; i < 2; i++) {
         scene s;
         answer a;
-        scene_init(&s, "massless");
-        const int profile = add_section(&s), root = scene_add_node(&s, 0, 0, 0),
-                  tip = scene_add_node(&s, length, 0, 0);
-        scene_add_member(&s, root, tip, profile, y_axis);
-        scene_hold_all(&s, root);
+        const int tip = add_rod(&s, "massless").tip;
         scene_load_piece(&s, scene_add_load(&s, SCENE_FORCE, tip, 0, 1, 0), 0, "sin(9*t)");
         const int motion =
             scene_add_motion(&s, SCENE_NONE, 1, at,
