@@ -100,14 +100,17 @@ def draw_curve(site, extreme, keys, all_cells):
 
 
 def findings(record):
-    """[(extreme, formulation, outcome, values, proof)] of what is neither a value nor coarse, values of x together."""
-    rows = {}
+    """[(extreme, formulations, outcome, values, proof)] of what is neither a value nor coarse, values of x together, and formulations of which all that is alike."""
+    rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):
             rows.setdefault((o["extreme"], o["formulation"], o["outcome"], o["proof"] or
                              "not expected: " + o["reason"]), set()).add(o["x"])
-    return [(*key[:3], ", ".join(f"{x:g}" for x in sorted(found)), key[3])
-            for key, found in rows.items()]
+    for (extreme, formulation, outcome, proof), found in rows.items():
+        values = ", ".join(f"{x:g}" for x in sorted(found))
+        told.setdefault((extreme, outcome, values, proof), []).append(formulation)
+    return [(extreme, keys, outcome, values, proof)
+            for (extreme, outcome, values, proof), keys in told.items()]
 
 
 def stored(site):

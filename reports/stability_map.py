@@ -6,6 +6,7 @@ from markupsafe import escape
 from reports.figures import FONT, Image
 
 WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # a field, the names on top, the names on the left
+MOST = 22  # extremes beside each other
 
 
 def text(x, y, words, more=""):
@@ -53,6 +54,22 @@ def paint(kind, colour):
     return ("currentColor", "var(--paper,#fff)") if kind == "wrong" else (colour, "#111418")
 
 
+def draw_band(fields, extremes, keys, all_cells, top):
+    """Names of extremes above, of formulations on the left, and their fields."""
+    out = ""
+    for column, extreme in enumerate(extremes):
+        x = LEFT + (column + 0.5) * WIDE
+        out += (f'<text transform="translate({x:.1f} {top - 6}) rotate(-55)">'
+                f'{escape(extreme["name"])}</text>')
+    for row, key in enumerate(keys):
+        y = top + row * TALL
+        out += text(LEFT - 8, y + TALL / 2 + 4, key, 'text-anchor="end" font-size="11"')
+        for column, extreme in enumerate(extremes):
+            fields.strip(all_cells.get((extreme["name"], key)), extreme["values"],
+                         LEFT + column * WIDE, y)
+    return out
+
+
 def draw(record, all_cells, look, meaning):
     """The Image. look: {kind: (colour, sign)}; meaning: {kind: words}."""
     extremes = record["extremes"]
@@ -67,18 +84,14 @@ def draw(record, all_cells, look, meaning):
         out += f'<path fill="{fill}" d="M{LEFT} {18 * i + 2}h14v13h-14z"/>'
         out += text(LEFT + 7, 18 * i + 12, sign, f'text-anchor="middle" font-size="8" fill="{ink}"')
         out += text(LEFT + 22, 18 * i + 13, f"{k}: {meaning[k]}")
-    for column, extreme in enumerate(extremes):
-        x = LEFT + (column + 0.5) * WIDE
-        out += (f'<text transform="translate({x:.1f} {top - 6}) rotate(-55)">'
-                f'{escape(extreme["name"])}</text>')
     fields = Fields(look)
-    for row, key in enumerate(keys):
-        y = top + row * TALL
-        out += text(LEFT - 8, y + TALL / 2 + 4, key, 'text-anchor="end" font-size="11"')
-        for column, extreme in enumerate(extremes):
-            fields.strip(all_cells.get((extreme["name"], key)), extreme["values"],
-                         LEFT + column * WIDE, y)
-    width, height = LEFT + WIDE * len(extremes) + HEAD // 2, top + TALL * len(keys) + 6
+    columns = -(-len(extremes) // -(-len(extremes) // MOST)) if extremes else 0
+    band = HEAD + TALL * len(keys)
+    for first in range(0, len(extremes), max(columns, 1)):
+        out += draw_band(fields, extremes[first:first + columns], keys, all_cells,
+                         top + first // columns * band)
+    width = LEFT + WIDE * columns + HEAD // 2
+    height = top - HEAD + band * -(-len(extremes) // max(columns, 1)) + 6
     return Image("stability_map.svg",
                  f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
                  f'fill="currentColor" font-size="10" font-family="{FONT}">'

@@ -1,9 +1,10 @@
 """The page of stability: what a sweep of extremes found is on it; without one there is none."""
 import json
+import re
 import unittest
 
 from harness.test.program import TRUTHS, ProgramTest, read_json, run
-from reports import environment, stability
+from reports import environment, stability, stability_map
 from reports.site import Site
 
 
@@ -61,6 +62,32 @@ class Stability(ProgramTest):
         }
         (self.folder / "stress.json").write_text(json.dumps(record), encoding="utf-8")
         self.assertIn("1 in all: 1 survived", self.page())
+
+    def test_findings_that_are_alike(self):
+        """Stand in one row: extreme, outcome, values and proof the same."""
+        def outcome(formulation, x, proof):
+            return {"extreme": "thin", "formulation": formulation, "x": x, "outcome": "wrong",
+                    "proof": proof, "reason": ""}
+
+        found = stability.findings({"outcomes": [
+            outcome("a", 2, "p"), outcome("a", 1, "p"), outcome("b", 1, "p"), outcome("b", 2, "p"),
+            outcome("c", 1, "p"), outcome("d", 1, "q")]})
+        self.assertEqual(found, [("thin", ["a", "b"], "wrong", "1, 2", "p"),
+                                 ("thin", ["c"], "wrong", "1", "p"),
+                                 ("thin", ["d"], "wrong", "1", "q")])
+
+    def test_bands_of_the_map(self):
+        """Many extremes stand in bands, each with its names and all formulations."""
+        many = [{"name": f"extreme_{i}", "values": [1.0]} for i in range(stability_map.MOST + 1)]
+        cell = stability.Cell([{"outcome": "value", "error": 0.1, "condition": 1, "iterations": 1,
+                                "reason": "", "as_expected": True}])
+        record = {"extremes": many, "formulations": [{"formulation": "beamw"}]}
+        markup = stability_map.draw(record, {(e["name"], "beamw"): {1.0: cell} for e in many},
+                                    stability.LOOK, stability.MEANING).markup
+        self.assertEqual(markup.count(">beamw<"), 2)
+        self.assertEqual(markup.count(">extreme_"), len(many))
+        width = float(re.search(r'width="(\d+)"', markup)[1])
+        self.assertTrue(all(float(x) < width for x in re.findall(r"M([\d.]+) ", markup)))
 
 
 if __name__ == "__main__":

@@ -51,6 +51,7 @@ class Words(unittest.TestCase):
         """What is not reached is told, not left out."""
         ways = [{"error": paces.LEVEL, "cost": cost, "integrator": name}
                 for name, cost in (("slow", 2), ("quick", 1))]
+        ways += [{"error": 1e2 * paces.LEVEL, "cost": 0.1, "integrator": "rough"}]
         self.assertEqual(paces.soonest([{"reached": ways}, {"reached": ways}, {"reached": []}]),
                          "quick 2, none 1")
 
