@@ -13,14 +13,14 @@
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && frame < m->first_release; i++)
         count += held[i] = m->vertex[frame].coordinate[i] == NONE;
     return count < 3 ? count : 0;
 }
 
 static int only_turns(const model *m, int frame)
 {
-    int held[3];
+    int held[3] = {0};
     return held_of(m, frame, held) == 0 && held[0];
 }
 
@@ -49,7 +49,7 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
     frame_rates r;
     carried_step_centre(m, one, out->centre, out->J);
     out->rides = held_of(m, one->frame, out->held);
-    forms_rates(m, from->state, one->frame, from->v, NULL, &r);
+    inertia_rates(m, from->state, one->frame, from->v, NULL, &r);
     memcpy(out->Rn, r.R, sizeof r.R);
     rotation_matrix(&now->q[4 * one->frame], out->R1);
     mat3_mul_vec(out->Rn, out->centre, out->before);
@@ -61,8 +61,14 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
     vec3_cross(out->c, out->mean, swept);
     mat3_transpose_mul_vec(out->Rn, r.w, out->W0);
     mat3_transpose_mul_vec(out->Rn, out->c, body);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         out->v0[i] = r.v[i] + turned[i];
+    if (one->frame >= m->first_release && from->ends_known) {
+        const double *own = from->ends + 6 * (one->frame - m->first_release);
+        memcpy(out->v0, own, sizeof out->v0);
+        memcpy(out->W0, own + 3, sizeof out->W0);
+    }
+    for (int i = 0; i < 3; i++) {
         out->v1[i] = 2 * (dr[i] + swept[i]) / h - out->v0[i];
         out->W1[i] = 2 * body[i] / h - out->W0[i];
     }

@@ -78,6 +78,16 @@ void conserving_predict(conserving *s, const instant *from, double h)
         s->step[c] = h * from->v[c];
     drive_at(m, from->state, from->time + h, s->step, NULL, NULL);
     memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx); /* drivers may move several nodes */
+    for (int i = m->first_release; i < m->vertices; i++) {
+        const int *at = m->vertex[i].coordinate + SCENE_RX;
+        double R[9], own[3], c[3];
+        if (release_of(m, i)->turns < 3)
+            continue;
+        rotation_matrix(&from->state->q[4 * i], R);
+        vector_of(s->step, at, own);
+        mat3_mul_vec(R, own, c);
+        put_vector(c, at, s->step);
+    }
     for (int i = 0; i < m->first_release; i++) {
         const int *at = m->vertex[i].coordinate;
         frame_rates r;

@@ -5,6 +5,9 @@
 #include "elements/math/dense.h"
 #include "harness/conserving/carried_step.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/release.h"
+
+enum { BALL = 3 };
 
 /* N: onto the axes about which J[9] is zero; how many they are. */
 static int null_space(const double J[9], double N[9])
@@ -99,16 +102,6 @@ static void angle_rate(const model *m, int vertex, instant *to, const double w[3
     to->v[at] = vec3_dot(b[0], w);
 }
 
-/* What released ends keep to themselves has no inertia: means of the step. */
-static void released_rates(const conserving *s, double h, instant *to)
-{
-    const model *m = s->of.c->model;
-    for (int i = m->first_release; i < m->vertices; i++)
-        for (int c = 0; c < 6; c++)
-            if (m->vertex[i].coordinate[c] != NONE)
-                to->v[m->vertex[i].coordinate[c]] = s->step[m->vertex[i].coordinate[c]] / h;
-}
-
 /* Rates without inertia would change their signs with every step: they become those of the mean.
  * N[9] projects turns onto those; NULL: there is no mass either. */
 static void without_inertia(const carried_mass *one, const double N[9], carried_step *p)
@@ -124,6 +117,55 @@ static void without_inertia(const carried_mass *one, const double N[9], carried_
         memcpy(back, mean, sizeof back);
     for (int i = 0; i < 3; i++)
         p->W1[i] += back[i];
+}
+
+/* Which of the coordinates that an end keeps to itself move its mass. */
+static void heavy_ones(const model *m, const carried_mass *one, const carried_step *p,
+                       const model_state *s, int heavy[6])
+{
+    const double nothing = 1e-12;
+    double b[3][3];
+    release_turn_axes(m, s, one->frame, b);
+    for (int i = 0, turns = 0; i < 3; i++) {
+        double body[3];
+        heavy[i] = one->mass > 0;
+        heavy[3 + i] = 0;
+        if (m->vertex[one->frame].coordinate[3 + i] == NONE)
+            continue;
+        mat3_transpose_mul_vec(p->R1, b[turns++], body);
+        heavy[3 + i] = dense_quadratic(3, one->inertia, body) >
+                       nothing * (one->inertia[0] + one->inertia[4] + one->inertia[8]);
+    }
+}
+
+/* Masses of released ends go on with velocities of their own, so that these keep energy and momenta
+ * as those of nodes do: they follow from the coordinates but for what is of second order in a step.
+ */
+static void released_rates(const conserving *s, const instant *from, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    const carried *all = s->of.masses;
+    for (int k = 0; k < all->masses; k++) {
+        const carried_mass *one = &all->mass[k];
+        const int *at = m->vertex[one->frame].coordinate;
+        carried_step p;
+        int heavy[6];
+        if (one->frame < m->first_release)
+            continue;
+        carried_step_of(s, from, to->state, h, one, &p);
+        without_inertia(one, s->massless + (size_t)(9 * k), &p);
+        double *own = to->ends + 6 * (one->frame - m->first_release);
+        memcpy(own, p.v1, sizeof p.v1);
+        memcpy(own + 3, p.W1, sizeof p.W1);
+        heavy_ones(m, one, &p, to->state, heavy);
+        for (int c = 0; c < 6; c++)
+            if (at[c] != NONE)
+                to->v[at[c]] =
+                    heavy[c] ? 2 * s->step[at[c]] / h - from->v[at[c]] : s->step[at[c]] / h;
+        for (int c = 0; c < 3 && release_of(m, one->frame)->turns == BALL; c++)
+            to->v[at[SCENE_RX + c]] = p.W1[c];
+    }
+    to->ends_known = 1;
 }
 
 /* Of frames with a mass by their centres, of the others by themselves. */
@@ -159,7 +201,8 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
         const double mean = s->step[c] / h;
         to->v[c] = all->warping[c] > 0 ? 2 * mean - from->v[c] : mean;
     }
-    released_rates(s, h, to);
+    if (m->releases > 0)
+        released_rates(s, from, h, to);
     for (int c = 0; c < s->free; c++)
         to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
 }

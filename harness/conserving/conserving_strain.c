@@ -137,7 +137,8 @@ static status stress_spring(conserving *s, const instant *from, model_state *now
 static double size_of_energy(const conserving *s, const instant *from)
 {
     inertia_balance moving;
-    inertia_of(s->of.c->model, s->of.masses, from->state, from->v, &moving);
+    inertia_of(s->of.c->model, s->of.masses, from->state, from->v,
+               from->ends_known ? from->ends : NULL, &moving);
     double sum = moving.kinetic;
     for (int i = 0; i < deformable_count(s); i++)
         sum += fabs(s->energy[i]);

@@ -26,12 +26,12 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* What a vertex carries goes to the frame that moves it; ends 1: a released end keeps its own. */
-static void take(const model *m, int ends, int vertex, double mass, const double moment[3],
+/* What a vertex carries goes to the frame that moves it; a released end keeps its own. */
+static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
     const mesh_vertex *v = &m->vertex[vertex];
-    const int released = ends && vertex >= m->first_release;
+    const int released = vertex >= m->first_release;
     const double none[3] = {0, 0, 0}, *offset = released ? none : v->offset;
     carried_mass *to = &of[released ? vertex : v->body];
     double moved[9];
@@ -84,14 +84,13 @@ void carried_share(const model *m, const mesh_element *el, int node, carried_mas
     *warping = share * whole.warping;
 }
 
-static void add_element(const model *m, int ends, const mesh_element *el, carried_mass of[],
-                        double warping[])
+static void add_element(const model *m, const mesh_element *el, carried_mass of[], double warping[])
 {
     for (int k = 0; k < el->nodes; k++) {
         carried_mass share;
         double of_warping;
         carried_share(m, el, k, &share, &of_warping);
-        take(m, ends, el->vertex[k], share.mass, share.moment, share.inertia, of);
+        take(m, el->vertex[k], share.mass, share.moment, share.inertia, of);
         if (el->warp[k] != NONE)
             warping[m->warp[el->warp[k]].coordinate] += of_warping;
     }
@@ -106,7 +105,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
     shift(b->mass, none, b->centre, tensor);
     for (int i = 0; i < 3; i++)
         moment[i] = b->mass * b->centre[i];
-    take(m, 0, d->el.vertex[0], b->mass, moment, tensor, of);
+    take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
 /* Frames without mass are left out. */
@@ -124,7 +123,7 @@ static void keep_heavy(const model *m, carried_mass of[], carried *out)
     }
 }
 
-static status alloc(const model *m, int ends, carried *out, fault *f)
+status carried_alloc(const model *m, carried *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->mass = calloc((size_t)m->vertices + 1, sizeof *out->mass);
@@ -134,21 +133,11 @@ static status alloc(const model *m, int ends, carried *out, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for masses");
     }
     for (int i = 0; i < m->elements; i++)
-        add_element(m, ends, &m->element[i], out->mass, out->warping);
+        add_element(m, &m->element[i], out->mass, out->warping);
     for (int i = 0; i < m->discretes - m->springs; i++)
         add_body(m, &m->discrete[i], out->mass);
     keep_heavy(m, out->mass, out);
     return STATUS_OK;
-}
-
-status carried_alloc(const model *m, carried *out, fault *f)
-{
-    return alloc(m, 0, out, f);
-}
-
-status carried_alloc_ends(const model *m, carried *out, fault *f)
-{
-    return alloc(m, 1, out, f);
 }
 
 void carried_free(carried *c)

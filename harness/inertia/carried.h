@@ -21,10 +21,8 @@ typedef struct carried {
 } carried;
 
 /* Elements of two nodes carry a half at each, of three Simpson's shares (J Eq. 73). What an end has
- * that is released from its node counts at the node, */
+ * that is released from its node moves with turns and shifts of its own. */
 status carried_alloc(const model *, carried *, fault *);
-/* or at the end itself, which moves with turns and shifts of its own. */
-status carried_alloc_ends(const model *, carried *, fault *);
 void carried_free(carried *);
 /* Of one node of an element, about it, and of its warping amplitude [kg m^4]. */
 struct mesh_element;

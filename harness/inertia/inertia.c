@@ -259,7 +259,7 @@ void inertia_add_tangent(const model *m, const carried *all, const model_state *
 }
 
 void inertia_of(const model *m, const carried *all, const model_state *s, const double v[],
-                inertia_balance *out)
+                const double ends[], inertia_balance *out)
 {
     memset(out, 0, sizeof *out);
     for (int k = 0; k < all->masses; k++) {
@@ -269,6 +269,8 @@ void inertia_of(const model *m, const carried *all, const model_state *s, const 
         double w_c[3], p[3], Jw[3], c_v[3], position[3], r_p[3];
         inertia_rates(m, s, one->frame, v, NULL, &r);
         at_frame(one, r.R, &at);
+        if (ends != NULL && one->frame >= m->first_release)
+            released_moving(ends + 6 * (one->frame - m->first_release), one->mass, at.c, &r);
         kinematics_position(m, s, one->frame, position);
         vec3_cross(r.w, at.c, w_c);
         mat3_mul_vec(at.J, r.w, Jw);

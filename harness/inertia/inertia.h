@@ -57,7 +57,9 @@ typedef struct inertia_balance {
     double momentum[3]; /* [kg m/s] */
     double angular[3];  /* about the origin [kg m^2/s] */
 } inertia_balance;
+/* ends[released ends x 6]: velocities of the centres of their masses, and in their axes angular
+ * velocities; NULL: those of v. */
 void inertia_of(const model *, const carried *, const model_state *, const double v[],
-                inertia_balance *out);
+                const double ends[], inertia_balance *out);
 
 #endif

@@ -108,6 +108,15 @@ void released_rates(const model *m, const model_state *s, int vertex, const doub
     add_cross(out->w, sliding, 2, out->a);
 }
 
+void released_moving(const double own[6], double mass, const double moment[3], frame_rates *r)
+{
+    double turned[3];
+    mat3_mul_vec(r->R, own + 3, r->w);
+    vec3_cross(r->w, moment, turned);
+    for (int i = 0; i < 3; i++)
+        r->v[i] = own[i] - (mass > 0 ? turned[i] / mass : 0);
+}
+
 void released_add_force(const model *m, const model_state *s, int vertex, const double F[6],
                         double out[])
 {

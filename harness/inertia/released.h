@@ -22,6 +22,10 @@ void released_rates(const model *, const model_state *, int vertex, const double
 void released_add_force(const model *, const model_state *, int vertex, const double F[6],
                         double out[]);
 
+/* Velocities of the frame whose mass with its first moment [kg m] moves by own[6]: velocity of the
+ * centre, angular velocity in the frame's axes. */
+void released_moving(const double own[6], double mass, const double moment[3], frame_rates *);
+
 /* out[6 x count]: T, whose columns are multiplied: by `plain`, those of turns in the axes of body
  * and end by matrices [3 x 3] from the right. */
 void released_motion(const released *, double plain, const double body[9], const double ball[9],

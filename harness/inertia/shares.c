@@ -19,7 +19,7 @@ status shares_node(const model *m, const model_state *s, const double v[], const
 {
     carried all;
     double place[3], rho[3];
-    TRY(carried_alloc_ends(m, &all, f));
+    TRY(carried_alloc(m, &all, f));
     kinematics_position(m, s, node, place);
     for (int k = 0; k < all.masses; k++) {
         const int frame = all.mass[k].frame;

@@ -26,7 +26,7 @@ status balance_of(model *m, const carried *masses, const instant *at, double out
                   fault *f)
 {
     inertia_balance moving;
-    inertia_of(m, masses, at->state, at->v, &moving);
+    inertia_of(m, masses, at->state, at->v, at->ends_known ? at->ends : NULL, &moving);
     TRY(stored(m, at->state, &out[SCENE_STRAIN], f));
     out[SCENE_KINETIC] = moving.kinetic;
     out[SCENE_ENERGY] = out[SCENE_KINETIC] + out[SCENE_STRAIN];

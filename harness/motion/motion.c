@@ -235,8 +235,7 @@ static status solve(motion *w, fault *f)
     scene_rotating_frame frame;
     const model *m = w->c->model;
     TRY(checks_of(w->c, w->how, f));
-    TRY(w->how->scheme == SCENE_CONSERVING ? carried_alloc(m, &w->masses, f)
-                                           : carried_alloc_ends(m, &w->masses, f));
+    TRY(carried_alloc(m, &w->masses, f));
     TRY(damping_begin(w->c->model, &w->damping, f));
     TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};

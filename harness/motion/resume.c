@@ -21,21 +21,20 @@ static void measure(const model *m, const instant *now, outcome_end *out)
     out->states = now->state->size;
     out->coordinates = (size_t)m->free + (size_t)m->driven;
     out->strains = now->strain != NULL ? (size_t)m->elements * (size_t)m->strains : 0;
+    out->released = now->ends_known ? instant_ends(m) : 0;
 }
 
 /* Where the parts of an instant lie among the numbers of an end, and how many each has. */
-enum { PARTS = 5 };
+enum { PARTS = 6 };
 typedef struct part {
     double *of;
     size_t count;
 } part;
 static void parts_of(const instant *now, const outcome_end *e, part out[PARTS])
 {
-    const part list[PARTS] = {{now->state->block, e->states},
-                              {now->v, e->coordinates},
-                              {now->a, e->coordinates},
-                              {now->algorithm, e->coordinates},
-                              {now->strain, 2 * e->strains}};
+    const part list[PARTS] = {{now->state->block, e->states}, {now->v, e->coordinates},
+                              {now->a, e->coordinates},       {now->algorithm, e->coordinates},
+                              {now->strain, 2 * e->strains},  {now->ends, e->released}};
     memcpy(out, list, sizeof list);
 }
 
@@ -109,7 +108,7 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     part of[PARTS];
     measure(c->model, now, &here);
     if (here.states != e->states || here.coordinates != e->coordinates ||
-        here.strains != e->strains)
+        here.strains != e->strains || (e->released > 0 && e->released != instant_ends(c->model)))
         return fault_set(f, STATUS_REFUSED,
                          "the motion that this one goes on from has %zu numbers, this mesh %zu: "
                          "take its formulation and elements",
@@ -121,6 +120,7 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
             memcpy(of[i].of, from, of[i].count * sizeof *from);
             from += of[i].count;
         }
+    now->ends_known = e->released > 0;
     now->state->path = e->path;
     now->time = e->time;
     now->work = e->work;

@@ -12,7 +12,7 @@
 #include "harness/truth/handles.h"
 
 static const char kind[] = "beamwork-motion-end-1";
-enum { RUN = 3, NUMBERS = 14, MOST_ENDS = 1000 };
+enum { RUN = 3, NUMBERS = 15, MOST_ENDS = 1000 };
 
 static void to_numbers(const outcome_end *e, double out[NUMBERS])
 {
@@ -29,7 +29,8 @@ static void to_numbers(const outcome_end *e, double out[NUMBERS])
                                   e->quiet,
                                   (double)e->states,
                                   (double)e->coordinates,
-                                  (double)e->strains};
+                                  (double)e->strains,
+                                  (double)e->released};
     memcpy(out, list, sizeof list);
 }
 
@@ -48,7 +49,8 @@ static void of_numbers(const double in[NUMBERS], outcome_end *e)
                        .quiet = (int)in[10],
                        .states = (size_t)in[11],
                        .coordinates = (size_t)in[12],
-                       .strains = (size_t)in[13]};
+                       .strains = (size_t)in[13],
+                       .released = (size_t)in[14]};
 }
 
 static void put_values(record *r, const char *name, size_t count, const double value[])

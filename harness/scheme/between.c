@@ -213,6 +213,7 @@ void between_places(const between *b, double time, instant *at)
     memcpy(at->algorithm, at->a, (size_t)all * sizeof *at->a);
     increment_apply(m, b->from->state, inc, time, at->state);
     at->time = time;
+    at->ends_known = 0;
 }
 
 void between_at(const between *b, double time, instant *at)

@@ -19,6 +19,11 @@ static size_t coordinates_of(const model *m)
     return (size_t)size.free + (size_t)size.driven;
 }
 
+size_t instant_ends(const model *m)
+{
+    return 6 * (size_t)m->releases;
+}
+
 status instant_alloc(const model *m, instant *out, fault *f)
 {
     const size_t n = coordinates_of(m) + 1;
@@ -33,7 +38,10 @@ status instant_alloc(const model *m, instant *out, fault *f)
             return fault_set(f, STATUS_FAULT, "out of memory for damping");
         out->strain2 = out->strain + strains_of(m);
     }
-    if (out->v == NULL || out->a == NULL || out->algorithm == NULL)
+    if (instant_ends(m) > 0)
+        out->ends = calloc(instant_ends(m), sizeof *out->ends);
+    if (out->v == NULL || out->a == NULL || out->algorithm == NULL ||
+        (instant_ends(m) > 0 && out->ends == NULL))
         return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
     return kinematics_state_alloc(m, &out->state, f);
 }
@@ -43,6 +51,7 @@ void instant_free(instant *i)
     free(i->v);
     free(i->a);
     free(i->algorithm);
+    free(i->ends);
     free(i->strain);
     kinematics_state_free(i->state);
 }
@@ -58,6 +67,9 @@ void instant_copy(const model *m, const instant *from, instant *to)
     memcpy(to->v, from->v, bytes);
     memcpy(to->a, from->a, bytes);
     memcpy(to->algorithm, from->algorithm, bytes);
+    to->ends_known = from->ends_known;
+    if (from->ends_known)
+        memcpy(to->ends, from->ends, instant_ends(m) * sizeof *to->ends);
     if (from->strain != NULL)
         memcpy(to->strain, from->strain, 2 * strains_of(m) * sizeof *to->strain);
     kinematics_state_copy(m, from->state, to->state);

@@ -87,10 +87,11 @@ typedef struct outcome_end {
     double largest, origin;     /* [J] largest energy so far; that of the begin */
     double stress, contraction; /* of arrival.h */
     int quiet;                  /* steps since what acts was last smooth no longer */
-    size_t states, coordinates, strains;
-    double *value; /* [states + 3 coordinates + 2 strains]; NULL: there is none. The state; rates,
-                      their derivatives, and what generalized-alpha has of these; rates of damped
-                      strains and their derivatives */
+    size_t states, coordinates, strains, released;
+    double *value; /* [states + 3 coordinates + 2 strains + released]; NULL: there is none. The
+                      state; rates, their derivatives, and what generalized-alpha has of these;
+                      rates of damped strains and their derivatives; rates of released ends as
+                      conserving steps have them */
 } outcome_end;
 /* How many numbers `value` has. */
 size_t outcome_end_values(const outcome_end *);

@@ -126,7 +126,8 @@ static inline double flight_strain_energy(const flight *f)
 static inline inertia_balance flight_inertia(const flight *f)
 {
     inertia_balance b;
-    inertia_of(f->m, &f->masses, f->now.state, f->now.v, &b);
+    inertia_of(f->m, &f->masses, f->now.state, f->now.v, f->now.ends_known ? f->now.ends : NULL,
+               &b);
     return b;
 }
 

@@ -39,7 +39,7 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
         (analysis_context){.scene = s, .model = f->m, .options = &f->options, .result = &f->result};
     context_set_frame(&f->c, 0);
     const scene_motion *how = scene_motion_of(&s->analysis[0]);
-    TRY(carried_alloc_ends(f->m, &f->masses, &f->why));
+    TRY(carried_alloc(f->m, &f->masses, &f->why));
     TRY(damping_begin(f->m, &f->damping, &f->why));
     TRY(work_alloc(f->m, &f->masses, &f->work, &f->why));
     const scheme_request request = {

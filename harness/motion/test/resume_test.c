@@ -5,7 +5,7 @@
 
 #include "harness/motion/test/swung.h"
 
-enum { INTEGRATOR, TOLERANCE, PARTS, PARAMETERS };
+enum { INTEGRATOR, TOLERANCE, PARTS, JOINT, PARAMETERS };
 enum { MOST_PARTS = 3 };
 
 /* A load that jumps at 0.5 s: there steps end, whoever walks across. */
@@ -15,6 +15,13 @@ static status build(const double value[], scene *s, fault *f)
     const int parts = (int)value[PARTS];
     (void)f;
     const swung of = swung_build(s);
+    if (value[JOINT] > 0) { /* a rod at the tip that turns and slides there */
+        static const double z_axis[] = {0, 0, 1};
+        const int rod = scene_add_member(s, of.tip, scene_add_node(s, 1.4, 0.9, 0.3),
+                                         scene_member_at(s, of.member)->section, z_axis);
+        scene_release_end(s, rod, 0, SCENE_RX);
+        scene_release_end(s, rod, 0, SCENE_UZ);
+    }
     const int kick = scene_add_load(s, SCENE_FORCE, of.base, 0, 0, 1);
     scene_load_piece(s, kick, 0.5, "0");
     scene_load_piece(s, kick, 0, "1.5");
@@ -40,14 +47,15 @@ static const parameter_type table[] = {
     [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
     [TOLERANCE] = {"tolerance", "1", 0, 0, 1, NULL, "0: all steps are alike"},
     [PARTS] = {"parts", "1", 1, 1, MOST_PARTS, NULL, "of the motion"},
+    [JOINT] = {"joint", "1", 0, 0, 1, NULL, "1: with released ends"},
     {0}};
 static const case_type parted = {.name = "parted", .parameters = {table}, .build = build};
 
-static void same(const char *name, int scheme, double tolerance, int parts)
+static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
-    swung_solve(&parted, (const double[]){scheme, tolerance, 1}, PARAMETERS, &one);
-    swung_solve(&parted, (const double[]){scheme, tolerance, parts}, PARAMETERS, &more);
+    swung_solve(&parted, (const double[]){scheme, tolerance, 1, joint}, PARAMETERS, &one);
+    swung_solve(&parted, (const double[]){scheme, tolerance, parts, joint}, PARAMETERS, &more);
     for (int i = 0; i < one.solve.quantities; i++) {
         gsl_test(one.solve.quantity[i].status != STATUS_OK, "%s: %s: %s", name,
                  one.scene.quantity[i].name, one.solve.quantity[i].reason);
@@ -65,6 +73,11 @@ static void same(const char *name, int scheme, double tolerance, int parts)
     cell_result_free(&more);
 }
 
+static void same(const char *name, int scheme, double tolerance, int parts)
+{
+    same_linked(name, scheme, tolerance, parts, 0);
+}
+
 int main(void)
 {
     same("alpha", SCENE_ALPHA, 0, 3);
@@ -73,5 +86,7 @@ int main(void)
     same("explicit", SCENE_EXPLICIT, 0, 3);
     same("alpha", SCENE_ALPHA, 1e-5, 2);
     same("radau", SCENE_RADAU, 1e-7, 2);
+    same_linked("alpha with a joint", SCENE_ALPHA, 0, 3, 1);
+    same_linked("conserving with a joint", SCENE_CONSERVING, 0, 3, 1);
     return gsl_test_summary();
 }
