@@ -45,12 +45,7 @@ static status direction(conserving *s, const instant *from, model_state *now, do
             s->dx[c] -= part * s->column[c];
         count->solutions++;
     }
-    const factor_counts counts = factor_count(s->factor);
-    count->factorisations += counts.factorisations - s->counted;
-    s->counted = counts.factorisations;
-    count->solutions++;
-    count->factor_entries = counts.entries;
-    count->factor_flops += counts.flops;
+    context_count_solution(s->of.c, s->factor, 1, &s->counted);
     return STATUS_OK;
 }
 

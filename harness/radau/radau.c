@@ -18,17 +18,6 @@
 
 enum { MAX_ITERATIONS = 15 };
 
-static void count_work(radau *r, int fresh)
-{
-    counters *count = model_counters(r->of.c->model);
-    const factor_counts counts = factor_count(r->factor);
-    count->factorisations += counts.factorisations - r->counted;
-    r->counted = counts.factorisations;
-    count->solutions++;
-    count->factor_entries = counts.entries;
-    count->factor_flops += fresh ? counts.flops : 0;
-}
-
 static double advance(radau *r, const instant *from, double h, const step_record *record,
                       advance_stress *stress)
 {
@@ -60,7 +49,7 @@ static status iterate(radau *r, const instant *from, double h, step_record *reco
         if (fresh)
             TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
         factor_solve(r->factor, r->residual);
-        count_work(r, fresh);
+        context_count_solution(r->of.c, r->factor, fresh, &r->counted);
         const double correction = advance(r, from, h, record, &stress);
         radau_rates(r, from, h);
         model_counters(r->of.c->model)->iterations++;

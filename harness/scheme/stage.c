@@ -60,18 +60,12 @@ static void rates_of(const stage *s, stage_rates *r)
 
 status stage_direction(stage *s, int fresh, fault *f)
 {
-    counters *count = model_counters(s->c->model);
     if (fresh)
         TRY(context_factor(s->c, s->factor, &s->S, f));
     memcpy(s->dx, s->residual, (size_t)s->free * sizeof *s->dx);
     memset(s->dx + s->free, 0, (size_t)(s->all - s->free) * sizeof *s->dx);
     factor_solve(s->factor, s->dx);
-    const factor_counts counts = factor_count(s->factor);
-    count->factorisations += counts.factorisations - s->counted;
-    s->counted = counts.factorisations;
-    count->solutions++;
-    count->factor_entries = counts.entries;
-    count->factor_flops += fresh ? counts.flops : 0;
+    context_count_solution(s->c, s->factor, fresh, &s->counted);
     return STATUS_OK;
 }
 

@@ -63,6 +63,17 @@ void context_count_condition(const analysis_context *c, factor *fa, const sparse
     }
 }
 
+void context_count_solution(const analysis_context *c, const factor *fa, int fresh, long *counted)
+{
+    counters *n = model_counters(c->model);
+    const factor_counts counts = factor_count(fa);
+    n->factorisations += counts.factorisations - *counted;
+    *counted = counts.factorisations;
+    n->solutions++;
+    n->factor_entries = counts.entries;
+    n->factor_flops += fresh ? counts.flops : 0;
+}
+
 void context_count_eigen(const analysis_context *c, const eigen_result *e)
 {
     counters *n = model_counters(c->model);

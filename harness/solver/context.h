@@ -36,6 +36,9 @@ void context_leave_factor(analysis_context *, factor *);
 factor *context_take_factor(analysis_context *);
 /* When it was asked for: the condition of a matrix just factored, into the counters. */
 void context_count_condition(const analysis_context *, factor *, const sparse *K);
+/* The work of a solution with a factor, into the counters; fresh 0: its numbers are those of a
+ * solution before. *counted: factorisations of it that are there already, and then are all. */
+void context_count_solution(const analysis_context *, const factor *, int fresh, long *counted);
 /* The work of an eigenvalue problem, into the counters. */
 void context_count_eigen(const analysis_context *, const eigen_result *);
 
