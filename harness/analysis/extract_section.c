@@ -77,10 +77,16 @@ typedef struct moving_state {
     const outcome_instant *at;
 } moving_state;
 
-static void add_inertia(const void *context, int element, double ends[2][7])
+static void inertia_at_ends(const void *context, int element, double ends[2][7])
 {
     const moving_state *of = context;
     shares_ends(of->m, of->s, of->at->rate, of->at->acceleration, element, ends);
+}
+
+static void inertia_along(const void *context, int element, double density[ELEMENT_MAX_NODES][6])
+{
+    const moving_state *of = context;
+    shares_along(of->m, of->s, of->at->rate, of->at->acceleration, element, density);
 }
 
 double extract_section_state(const analysis_context *c, const scene_quantity *q,
@@ -88,10 +94,9 @@ double extract_section_state(const analysis_context *c, const scene_quantity *q,
                              quantity_result *r)
 {
     const moving_state of = {c->model, s, moving};
-    const internal_state at = {.s = s,
-                               .path = kinematics_state_path(s),
-                               .moving = moving != NULL ? add_inertia : NULL,
-                               .context = &of};
+    const internal_inertia inertia = {inertia_at_ends, inertia_along, &of};
+    const internal_state at = {
+        .s = s, .path = kinematics_state_path(s), .moving = moving != NULL ? &inertia : NULL};
     double value = NAN;
     fault f = {""};
     const status outcome = value_in(c, q, &at, &value, &f);

@@ -56,7 +56,7 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
     }
     if (s->moving != NULL)
-        s->moving(s->context, i, ends);
+        s->moving->ends(s->moving->context, i, ends);
 }
 
 /* The element has a section of its own where it changes along the member, whose axes are not those
@@ -124,26 +124,55 @@ static void take_ends(model *m, const internal_state *s, int i, span_end end[2])
     }
 }
 
+/* What acts along an element. */
+typedef struct between {
+    distributed loads;
+    int acts, nodes; /* 0 nodes: nothing moves */
+    double density[ELEMENT_MAX_NODES][6];
+} between;
+
+/* Shares of the nodes, evenly along the element, at x in [0, 1]. */
+static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
+{
+    for (int k = 0; k < nodes; k++) {
+        part[k] = 1;
+        for (int j = 0; j < nodes; j++)
+            part[k] *= j == k ? 1 : (x * (nodes - 1) - j) / (k - j);
+    }
+}
+
+static void between_at(void *context, double x, const span_frame *at, span_load *out)
+{
+    between *of = context;
+    double part[ELEMENT_MAX_NODES];
+    memset(out, 0, sizeof *out);
+    if (of->acts)
+        distributed_at(&of->loads, x, at, out);
+    interpolate(of->nodes, x, part);
+    for (int k = 0; k < of->nodes; k++)
+        for (int i = 0; i < 3; i++) {
+            out->force[i] -= part[k] * of->density[k][i];
+            out->moment[i] -= part[k] * of->density[k][3 + i];
+        }
+}
+
 static status recover(model *m, const internal_state *s, int i, const span_grid *g,
                       span_fields *out, fault *f)
 {
     const mesh_kind *kind = &m->kind[m->element[i].kind];
-    distributed loads = {m, i, s->path};
+    between loads = {.loads = {m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
     element_request request = {
         .section = &m->section[kind->section], .length = kind->length, .options = m->options};
     span_problem problem = {
         .request = &request, .linear = s->x != NULL, .context = &loads, .load = NULL};
-    if (s->moving != NULL)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "member %d: in a motion there are resultants at its two ends and no stresses; "
-            "divide it where others are wanted",
-            m->element[i].member);
     TRY(features_of_section(m, kind->section, &request.features, f));
     memcpy(request.curvature, kind->curvature, sizeof request.curvature);
     memcpy(request.strain, kind->strain, sizeof request.strain);
-    if (distributed_acts(&loads))
-        problem.load = distributed_at;
+    loads.acts = distributed_acts(&loads.loads);
+    if (loads.nodes > 0)
+        s->moving->along(s->moving->context, i, loads.density);
+    if (loads.acts || loads.nodes > 0)
+        problem.load = between_at;
     take_ends(m, s, i, problem.end);
     return span_recover(g, &problem, out, f);
 }

@@ -17,10 +17,19 @@ typedef struct internal_state {
     const double *x; /* of a linear solution about s, which is undeformed: its displacements [free +
                         driven]; NULL: s is in equilibrium */
     double path;     /* parameter of the loads */
-    /* of a motion: adds to ends[2][7] the forces of inertia of an element; NULL: nothing moves */
-    void (*moving)(const void *context, int element, double ends[2][7]);
-    const void *context;
+    /* of a motion, else NULL */
+    const struct internal_inertia *moving;
 } internal_state;
+
+/* Forces of inertia of one element of a motion. */
+typedef struct internal_inertia {
+    /* ends[2][7] += those of its lumped masses at its first and its last node */
+    void (*ends)(const void *context, int element, double ends[2][7]);
+    /* of a mass that lies evenly along it and moves as each node does, per initial length, in fixed
+     * axes: density[nodes][force, moment about the node's frame] */
+    void (*along)(const void *context, int element, double density[ELEMENT_MAX_NODES][6]);
+    const void *context;
+} internal_inertia;
 
 /* Of what lies towards `to` on what lies towards `from`, in the principal axes of the turned
  * section, moments about its centroid: N, Qy, Qz [N], Mx, My, Mz [N m], bimoment [N m^2] (work:
@@ -28,8 +37,10 @@ typedef struct internal_state {
 void internal_at_end(model *, const internal_state *, int member, int end, double out[7]);
 
 /* The same at a place of a member, 0 from .. 1 to of its initial length, and what else span.h has:
- * out[SPAN_VALUES]. NOT_CONVERGED: as span_recover. REFUSED: of a motion, between the ends of the
- * member, where nothing tells how the inertia lies along an element. */
+ * out[SPAN_VALUES]. NOT_CONVERGED: as span_recover. Of a motion the mass lies evenly along an
+ * element again, with accelerations that are interpolated between its nodes: the sum of its forces
+ * is that of the lumped masses, which the ends have in them, so that values go through from element
+ * to element, and converge as they do (order 2). Warping inertia acts at nodes. */
 status internal_at(model *, const internal_state *, int member, double place, double out[],
                    fault *);
 

@@ -57,6 +57,34 @@ static void rates_of(const model *m, const model_state *s, int vertex, const dou
         out->a[i] += moved[i];
 }
 
+/* Of node k of an element; *warping: of its amplitude [kg m^4]. */
+static void force_of(const model *m, const model_state *s, const double v[], const double a[],
+                     const mesh_element *el, int k, double F[6], carried_mass *share,
+                     double *warping)
+{
+    frame_rates r;
+    carried_share(m, el, k, share, warping);
+    rates_of(m, s, el->vertex[k], v, a, &r);
+    inertia_force_at(share, &r, F);
+}
+
+/* The share of node k lies evenly along its share of the length, which is that of the mass. */
+void shares_along(const model *m, const model_state *s, const double v[], const double a[],
+                  int element, double density[ELEMENT_MAX_NODES][6])
+{
+    const mesh_element *el = &m->element[element];
+    carried_mass share[ELEMENT_MAX_NODES];
+    double whole = 0, warping;
+    for (int k = 0; k < el->nodes; k++) {
+        force_of(m, s, v, a, el, k, density[k], &share[k], &warping);
+        whole += share[k].mass;
+    }
+    for (int k = 0; k < el->nodes; k++)
+        for (int i = 0; i < 6; i++)
+            density[k][i] *=
+                share[k].mass > 0 ? whole / share[k].mass / m->kind[el->kind].length : 0;
+}
+
 void shares_ends(const model *m, const model_state *s, const double v[], const double a[],
                  int element, double ends[2][7])
 {
@@ -64,11 +92,8 @@ void shares_ends(const model *m, const model_state *s, const double v[], const d
     for (int e = 0; e < 2; e++) {
         const int k = e ? el->nodes - 1 : 0;
         carried_mass share;
-        frame_rates r;
         double F[6], warping;
-        carried_share(m, el, k, &share, &warping);
-        rates_of(m, s, el->vertex[k], v, a, &r);
-        inertia_force_at(&share, &r, F);
+        force_of(m, s, v, a, el, k, F, &share, &warping);
         for (int i = 0; i < 6; i++)
             ends[e][i] += F[i];
         if (el->warp[k] != NONE)
