@@ -74,14 +74,21 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
+/* Vector of the turn over the step, in the vertex's axes at its begin. */
+static void turn_of(const between *b, int vertex, double t[3])
+{
+    double back[4], q[4];
+    rotation_conjugate(&b->from->state->q[4 * vertex], back);
+    rotation_compose(back, &b->to->state->q[4 * vertex], q);
+    rotation_log(q, t);
+}
+
 static void put_turn(const between *b, int vertex, double h)
 {
     const int *at = b->m->vertex[vertex].coordinate + SCENE_RX;
     const instant *end[2] = {b->from, b->to};
-    double back[4], q[4], t[2][3] = {{0}}, rate[2][3], second[2][3];
-    rotation_conjugate(&b->from->state->q[4 * vertex], back);
-    rotation_compose(back, &b->to->state->q[4 * vertex], q);
-    rotation_log(q, t[1]);
+    double t[2][3] = {{0}}, rate[2][3], second[2][3];
+    turn_of(b, vertex, t[1]);
     for (int i = 0; i < 2; i++) {
         double W[3], Wd[3];
         for (int k = 0; k < 3; k++) {
@@ -99,10 +106,8 @@ static void put_turn(const between *b, int vertex, double h)
 static void put_ball(const between *b, int vertex)
 {
     const int *at = b->m->vertex[vertex].coordinate + SCENE_RX;
-    double back[4], q[4], t[3];
-    rotation_conjugate(&b->from->state->q[4 * vertex], back);
-    rotation_compose(&b->to->state->q[4 * vertex], back, q);
-    rotation_log(q, t);
+    double t[3];
+    turn_of(b, vertex, t);
     for (int k = 0; k < 3; k++)
         put(b, at[k], &(ends){t[k], {t[k], t[k]}, {0, 0}});
 }
