@@ -24,6 +24,7 @@ typedef struct flying {
     mesh_damping damping;
     scheme *scheme;
     instant now, next;
+    double error; /* that the last step has estimated */
     fault why;
 } flying;
 
@@ -65,10 +66,9 @@ static inline void flying_end(flying *f)
 /* One step of h [s], backwards if negative, to `next`. */
 static inline status flying_try(flying *f, double h)
 {
-    double error;
     step_record record = {.path = f->now.time + h, .increment = h};
     const status outcome =
-        f->scheme->step(f->scheme, &f->now, h, &f->next, &error, &record, &f->why);
+        f->scheme->step(f->scheme, &f->now, h, &f->next, &f->error, &record, &f->why);
     history_drop_step(&f->result, &record);
     f->next.time = record.path;
     return outcome;
@@ -86,7 +86,9 @@ static inline status flying_step(flying *f, double h)
 /* All numbers of an instant; returns how many there are, numbers NULL: only that. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
-    const size_t n = (size_t)(f->m->free + f->m->driven), size = at->state->size;
+    const size_t n = (size_t)(f->m->free + f->m->driven), size = at->state->size,
+                 rates = at->strain != NULL ? 2 * (size_t)(f->m->elements * f->m->strains) : 0,
+                 ends = instant_ends(f->m);
     if (numbers != NULL) {
         memcpy(numbers, at->v, n * sizeof *numbers);
         memcpy(numbers + n, at->a, n * sizeof *numbers);
@@ -95,8 +97,23 @@ static inline size_t flying_numbers(const flying *f, const instant *at, double *
         numbers[3 * n + size] = at->time;
         numbers[3 * n + size + 1] = at->work;
         numbers[3 * n + size + 2] = at->dissipated;
+        numbers[3 * n + size + 3] = at->stress;
+        numbers[3 * n + size + 4] = at->contraction;
+        numbers[3 * n + size + 5] = at->ends_known;
+        if (rates > 0)
+            memcpy(numbers + 3 * n + size + 6, at->strain, rates * sizeof *numbers);
+        if (ends > 0)
+            memcpy(numbers + 3 * n + size + 6 + rates, at->ends, ends * sizeof *numbers);
     }
-    return 3 * n + size + 3;
+    return 3 * n + size + 6 + rates + ends;
+}
+
+/* All numbers of where it is, to be freed. */
+static inline double *flying_all(const flying *f)
+{
+    double *all = malloc(flying_numbers(f, &f->now, NULL) * sizeof *all);
+    flying_numbers(f, &f->now, all);
+    return all;
 }
 
 #endif

@@ -30,9 +30,9 @@ static inline swung swung_build(scene *s)
     return out;
 }
 
-static inline scene_motion swung_motion(scene_scheme scheme, double step)
+static inline scene_motion swung_motion(scene_scheme by, double step)
 {
-    return (scene_motion){.scheme = scheme,
+    return (scene_motion){.scheme = by,
                           .alpha = scene_alpha_of_radius(0.9),
                           .step = step,
                           .start = {.velocity = {0.3, 0, -0.2}, .spin = {0.8, -1.5, 1.1}}};

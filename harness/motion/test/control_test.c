@@ -1,0 +1,72 @@
+/* How long steps are: halved where one fails and twice as long behind those that do not, at most
+ * what was asked for; by the estimate of the last one where a tolerance says so. */
+#include <math.h>
+
+#include "harness/motion/test/swung.h"
+
+enum { INTEGRATOR, STEP, TOLERANCE, SPIN, PARAMETERS };
+
+static status build(const double value[], scene *s, fault *f)
+{
+    static const double end[] = {2};
+    (void)f;
+    const swung of = swung_build(s);
+    scene_set_body(s, of.base, (scene_body){.mass = 100, .inertia = {100, 100, 100}});
+    scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]);
+    how.tolerance = value[TOLERANCE];
+    how.start = (scene_start){.spin = {0, value[SPIN], 0}};
+    const int motion = scene_add_motion(s, SCENE_NONE, 1, end, how);
+    scene_add_quantity(s, "x", "m", motion, scene_coordinate(of.tip, SCENE_UX));
+    return STATUS_OK;
+}
+
+static const parameter_type table[] = {
+    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
+    [STEP] = {"step", "s", 0.1, 1e-6, 1, NULL, "of it"},
+    [TOLERANCE] = {"tolerance", "1", 0, 0, 1, NULL, "of the error of a step"},
+    [SPIN] = {"spin", "rad/s", 0, 0, 10, NULL, "of all"},
+    {0}};
+static const case_type turned = {.name = "turned", .parameters = {table}, .build = build};
+
+/* A radian is the most of a step: of 3 rad/s a step of 0.5 s is halved whenever it is tried. */
+static void halve(void)
+{
+    cell_result r;
+    swung_solve(&turned, (const double[]){SCENE_ALPHA, 0.5, 0, 3}, PARAMETERS, &r);
+    gsl_test_int(r.solve.motions, 9, "records of steps");
+    for (int i = 1; i < r.solve.motions; i++) {
+        const outcome_step *one = &r.solve.motion[i].at;
+        gsl_test(!(fabs(one->step - 0.25) < 1e-12), "step %d is %g s long", i, one->step);
+        gsl_test_int(one->rejected, i % 2, "step %d: tries of a longer one", i);
+    }
+    cell_result_free(&r);
+}
+
+/* Orders of the errors of one step. */
+static void follow(scene_scheme by, double order, double tolerance)
+{
+    cell_result r;
+    swung_solve(&turned, (const double[]){by, 0.1, tolerance, 1}, PARAMETERS, &r);
+    const int last = r.solve.motions - 1;
+    gsl_test(last < 8, "scheme %d: %d steps", by, last);
+    for (int i = 1; i < last - 1; i++) {
+        const outcome_step *one = &r.solve.motion[i].at, *next = &r.solve.motion[i + 1].at;
+        const double ratio = 0.9 * pow(tolerance / one->error, 1 / order),
+                     expected = one->step * fmin(2, fmax(0.3, ratio));
+        gsl_test(!(one->error <= tolerance), "scheme %d, step %d: error %g", by, i, one->error);
+        gsl_test(next->rejected == 0 && !(fabs(next->step / expected - 1) < 1e-9),
+                 "scheme %d: step %d is %g s long, not %g", by, i + 1, next->step, expected);
+        gsl_test(next->rejected > 0 && !(next->step < expected),
+                 "scheme %d: step %d is as long as what was rejected", by, i + 1);
+    }
+    cell_result_free(&r);
+}
+
+int main(void)
+{
+    halve();
+    follow(SCENE_ALPHA, 3, 1e-5);
+    follow(SCENE_CONSERVING, 3, 1e-5);
+    follow(SCENE_RADAU, 4, 1e-8);
+    return gsl_test_summary();
+}
