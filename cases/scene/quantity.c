@@ -120,11 +120,16 @@ void scene_set_passing(scene_quantity *q, scene_reduction reduction, scene_passi
 
 int scene_is_passed(const scene_quantity *q, scene_analysis_kind analysis)
 {
-    const scene_quantity_kind kind = q->what.kind;
-    return analysis == SCENE_MOTION &&
-           (q->reduction > SCENE_CURVE || q->reduction == SCENE_MAX || q->reduction == SCENE_MIN) &&
-           (kind == SCENE_COORDINATE || kind == SCENE_RATE || kind == SCENE_RELATIVE ||
-            kind == SCENE_ORIENTATION || kind == SCENE_DRIVER_VALUE);
+    static const int kinematic = 1 << SCENE_COORDINATE | 1 << SCENE_RATE | 1 << SCENE_RELATIVE |
+                                 1 << SCENE_ORIENTATION | 1 << SCENE_DRIVER_VALUE,
+                     forces = 1 << SCENE_REACTION | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS |
+                              1 << SCENE_BALANCE;
+    const int extreme = q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
+                        q->reduction == SCENE_MAX_TIME || q->reduction == SCENE_MIN_TIME;
+    if (analysis != SCENE_MOTION)
+        return 0;
+    return (kinematic >> q->what.kind & 1 && (extreme || q->reduction > SCENE_CURVE)) ||
+           (forces >> q->what.kind & 1 && extreme);
 }
 
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant)

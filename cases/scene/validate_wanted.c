@@ -219,8 +219,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
                          q->name);
     if (q->reduction > SCENE_CURVE && !scene_is_passed(q, a->kind))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: only places and rates are followed between stations; ask "
-                         "for its largest or least value at stations, or for a curve",
+                         "quantity %s: crossings, periods and means are those of places and "
+                         "rates; ask for its largest or least value, or for a curve",
                          q->name);
     if (!scene_is_passed(q, a->kind))
         return STATUS_OK;

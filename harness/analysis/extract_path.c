@@ -3,12 +3,9 @@
 #include <math.h>
 
 #include "elements/math/pi.h"
-#include "harness/analysis/extract_section.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
-#include "harness/inertia/shares.h"
 #include "harness/model/kinematics.h"
 #include "harness/motion/reading.h"
+#include "harness/motion/resultants.h"
 #include "harness/solver/modes.h"
 #include "harness/solver/quantity.h"
 
@@ -32,23 +29,24 @@ static double growth_of(const rotation_modes *modes)
     return modes->count > 0 ? largest : NAN;
 }
 
-/* moving: of a motion; else NULL. */
-static double reaction_of(const analysis_context *c, const scene_component *what,
-                          const model_state *s, const outcome_instant *moving)
-{
-    double F[6], L[6];
-    linearise_node_force(c->model, s, what->node, F);
-    loads_at_node(c->model, s, what->node, L);
-    if (moving != NULL && shares_node(c->model, s, moving->rate, moving->acceleration, what->node,
-                                      F, NULL) != STATUS_OK)
-        return NAN;
-    return F[what->component] - L[what->component];
-}
-
 /* NULL: not of a motion. */
 static const outcome_instant *moving_at(const analysis_outcome *o, int i)
 {
     return o->kind == SCENE_MOTION ? &outcome_motion_of(o)->instant[i] : NULL;
+}
+
+static double force_at(const analysis_context *c, const scene_quantity *q,
+                       const analysis_outcome *o, int i, quantity_result *r)
+{
+    const outcome_instant *moving = moving_at(o, i);
+    double value = NAN;
+    fault f = {""};
+    const status outcome = resultants_of(c->model, q, outcome_path_of(o)->state[i],
+                                         moving != NULL ? moving->rate : NULL,
+                                         moving != NULL ? moving->acceleration : NULL, &value, &f);
+    if (outcome != STATUS_OK)
+        quantity_no_value(r, outcome, f.text);
+    return outcome == STATUS_OK ? value : NAN;
 }
 
 /* NULL: no quantity asked for them. */
@@ -73,8 +71,6 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_COORDINATE:
         return kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
                                     scene_component_of(q)->component);
-    case SCENE_REACTION:
-        return reaction_of(c, scene_component_of(q), path->state[i], moving_at(o, i));
     case SCENE_COMPLIANCE_ENTRY:
         return outcome_compliance_of(o)
             ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
@@ -88,9 +84,10 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
         return modes_at(o, i) != NULL ? growth_of(modes_at(o, i)) : NAN;
     case SCENE_FACTOR_AT:
         return kinematics_state_path(path->state[i]);
+    case SCENE_REACTION:
     case SCENE_INTERNAL:
     case SCENE_STRESS:
-        return extract_section_state(c, q, path->state[i], moving_at(o, i), r);
+        return force_at(c, q, o, i, r);
     case SCENE_RELATIVE:
     case SCENE_RATE:
     case SCENE_ORIENTATION:

@@ -12,6 +12,7 @@
 #include "harness/motion/frames.h"
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"
+#include "harness/motion/peaks.h"
 #include "harness/motion/resume.h"
 #include "harness/motion/stations.h"
 #include "harness/motion/watches.h"
@@ -38,6 +39,7 @@ typedef struct motion {
     double h, least; /* [s] next step; the shortest */
     stations stations;
     watches watches;
+    peaks peaks;
     frames frames;
     outcome_motion *out;
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
@@ -74,7 +76,8 @@ static status record_step(motion *w, const step_record *record, double error, fa
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
 
-static status keep_step(motion *w, const step_record *record, double error, fault *f)
+/* last: what acts is smooth no longer behind it, or nothing follows. */
+static status keep_step(motion *w, const step_record *record, double error, int last, fault *f)
 {
     TRY(history_add_step(w->c->result, record, f));
     model_counters(w->c->model)->steps++;
@@ -82,7 +85,8 @@ static status keep_step(motion *w, const step_record *record, double error, faul
     TRY(watches_step(&w->watches, &w->now, &w->next, f));
     TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
     instant_copy(w->c->model, &w->next, &w->now);
-    return record_step(w, record, error, f);
+    TRY(record_step(w, record, error, f));
+    return peaks_here(&w->peaks, &w->now, w->balance, last, f);
 }
 
 /* 1: its error allows the step; the next one has the length that this one should have had. */
@@ -140,7 +144,7 @@ static status take_step(motion *w, double target, fault *f)
         if (right && outcome == STATUS_OK && !grows) {
             lengthen(w, step, whole, rejected);
             w->next.time = record.path;
-            return keep_step(w, &record, error, f);
+            return keep_step(w, &record, error, last, f);
         }
         history_drop_step(w->c->result, &record);
         w->looked_ahead = 0;
@@ -158,6 +162,14 @@ static status take_step(motion *w, double target, fault *f)
     }
 }
 
+/* What acts is another from here on. */
+static status jump(motion *w, fault *f)
+{
+    TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
+    peaks_jump(&w->peaks);
+    return peaks_here(&w->peaks, &w->now, w->balance, 0, f);
+}
+
 static status integrate(motion *w, fault *f)
 {
     const scene_path *path = &w->how->path;
@@ -170,7 +182,7 @@ static status integrate(motion *w, fault *f)
         TRY(take_step(w, fmin(end, kink), f));
         w->quiet *= w->now.time != kink;
         if (w->now.time == kink)
-            TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
+            TRY(jump(w, f));
         TRY(stations_here(&w->stations, &w->now, w->balance, f));
     }
     return resume_keep(w->c, w->analysis, &w->now,
@@ -250,6 +262,12 @@ static status solve(motion *w, fault *f)
     w->watches = (watches){.c = w->c, .analysis = w->analysis, .scheme = w->scheme, .out = w->out};
     TRY(stations_alloc(&w->stations, f));
     TRY(watches_alloc(&w->watches, f));
+    w->peaks = (peaks){.c = w->c,
+                       .analysis = w->analysis,
+                       .scheme = w->scheme,
+                       .masses = &w->masses,
+                       .out = w->out};
+    TRY(peaks_alloc(&w->peaks, f));
     TRY(begin(w, &frame, f));
     w->frames = (frames){.m = m,
                          .to = &w->out->frames,
@@ -260,6 +278,7 @@ static status solve(motion *w, fault *f)
     if (w->from == NULL)
         TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
+    TRY(peaks_here(&w->peaks, &w->now, w->balance, 0, f));
     return integrate(w, f);
 }
 
@@ -278,8 +297,10 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     instant_free(&w.now);
     instant_free(&w.next);
     watches_end(&w.watches);
+    peaks_end(&w.peaks);
     stations_free(&w.stations);
     watches_free(&w.watches);
+    peaks_free(&w.peaks);
     frames_free(&w.frames);
     integrator_free(w.scheme);
     carried_free(&w.masses);

@@ -64,7 +64,7 @@ static int reads_forces(const stations *s, double time)
             (kind == SCENE_REACTION || kind == SCENE_INTERNAL || kind == SCENE_STRESS ||
              kind == SCENE_BALANCE) &&
             (q->reduction == SCENE_AT ? fabs(q->at - time) <= same_instant * fmax(1, fabs(time))
-                                      : q->reduction != SCENE_LAST))
+                                      : q->reduction == SCENE_CURVE))
             return 1;
     }
     return 0;

@@ -36,7 +36,8 @@ status watches_alloc(watches *s, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for what a motion passes through");
     for (int i = 0; i < what->quantities; i++)
         if (what->quantity[i].analysis == s->analysis &&
-            scene_is_passed(&what->quantity[i], SCENE_MOTION))
+            scene_is_passed(&what->quantity[i], SCENE_MOTION) &&
+            reading_is_kinematic(what->quantity[i].what.kind))
             begin(s, &s->one[s->count++], &what->quantity[i]);
     return STATUS_OK;
 }
