@@ -49,7 +49,7 @@ typedef struct judgement {
     int unmet; /* truths that speak of no case, point or quantity there is (whole runs only) */
     /* truths that every formulation skips, or of one that is not here (whole runs only) */
     int waiting;
-    int unread; /* truths of motions at other instants than the run reads (whole runs only) */
+    int unread; /* truths of motions at instants that the run does not read (whole runs only) */
 } judgement;
 
 /* 1: verdicts of the series may turn on the noise of its finest mesh, which is then worth

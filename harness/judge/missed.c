@@ -79,35 +79,19 @@ int missed_rules(const sweep *s, truths *t, int whole)
     return count;
 }
 
-/* Of a point, was it looked at another time? Its motion of that quantity ends at `end`, and so does
- * one of its parameters. */
-static int differs_by_time(const point *p, const truth *row, double end)
+static int moves(const scene *s)
 {
-    double value[CASE_MAX_PARAMETERS];
-    const int count = parameter_count(p->type->parameters);
-    for (int k = 0; k < count; k++) {
-        if (p->parameter[k] != end)
-            continue;
-        memcpy(value, p->parameter, sizeof value);
-        value[k] = row->parameter[k];
-        if (truth_holds(row, p->type, value))
-            return 1;
-    }
-    return 0;
+    int found = 0;
+    for (int i = 0; i < s->analyses; i++)
+        found |= s->analysis[i].kind == SCENE_MOTION;
+    return found;
 }
 
-static int is_read_elsewhen(const point *p, const truth *row)
+static int has_quantity(const scene *s, const char *name)
 {
-    const scene *one = &p->scene;
-    for (int q = 0; q < one->quantities; q++) {
-        const int analysis = one->quantity[q].analysis;
-        if (strcmp(one->quantity[q].name, row->quantity) != 0 || analysis >= one->analyses ||
-            one->analysis[analysis].kind != SCENE_MOTION)
-            continue;
-        const scene_path *path = scene_path_of(&one->analysis[analysis]);
-        if (differs_by_time(p, row, path->value[path->stations - 1]))
+    for (int q = 0; q < s->quantities; q++)
+        if (strcmp(s->quantity[q].name, name) == 0)
             return 1;
-    }
     return 0;
 }
 
@@ -115,7 +99,7 @@ static int is_unread(const sweep *s, const truth *row)
 {
     for (int i = 0; i < s->points; i++)
         if (s->point[i].type == row->type && s->point[i].status == STATUS_OK &&
-            is_read_elsewhen(&s->point[i], row))
+            moves(&s->point[i].scene) && has_quantity(&s->point[i].scene, row->quantity))
             return 1;
     return 0;
 }

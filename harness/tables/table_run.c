@@ -153,11 +153,11 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
     if (j->waiting > 0)
         fprintf(to, "%d truths wait for a formulation that offers what they need\n", j->waiting);
     if (j->unread > 0)
-        fprintf(
-            to,
-            "%d truths of motions are not checked here, at other times than those of the cases: "
-            "make motions checks them\n",
-            j->unread);
+        fprintf(to,
+                "%d truths of motions, at times and of structures that are not run here, are "
+                "checked by "
+                "make motions\n",
+                j->unread);
     if (contradicted > 0)
         fprintf(
             to,
