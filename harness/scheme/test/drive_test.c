@@ -66,7 +66,7 @@ int main(void)
 {
     scene s;
     model *m;
-    model_state *now, *to;
+    model_state *now = NULL, *to = NULL;
     formulation chosen;
     frame_rates at;
     fault f = {""};
