@@ -63,4 +63,5 @@ const element_type element_beamw_consistent = {
     .lanes = LANES_TOGETHER,
     .geometric = beamw_variants_geometric,
     .inertia = beamw_inertia_of,
+    .spreads = 1,
 };

@@ -21,6 +21,7 @@
 #include <stddef.h>
 
 #include "elements/feature.h"
+#include "elements/output.h"
 #include "elements/section/section.h"
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
@@ -115,60 +116,11 @@ typedef struct element_rotating_frame {
     double centre[3]; /* a point of its axis [m] */
 } element_rotating_frame;
 
-/* What `strain` fills. */
-typedef struct strain_output {
-    double *e;       /* [strains] [m] */
-    double *J;       /* [strains x 7 nodes] de/dx */
-    const double *s; /* in: [strains] stresses for H; NULL: H not wanted */
-    double *H;       /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2, overwritten */
-} strain_output;
-
-/* What `stress` fills. */
-typedef struct stress_output {
-    double *energy;   /* [1] [J] */
-    double *sigma;    /* [strains] [N]; with inner unknowns: after eliminating their residual */
-    double *C;        /* [strains x strains] dsigma/de [N/m], inner unknowns eliminated */
-    double *residual; /* [1] dimensionless size of the inner residual (0 without inner unknowns) */
-    double *memory; /* [memory] filled by stress, read by update: the eliminated inner equations */
-} stress_output;
-
-/* What `inertia` fills. */
-typedef struct inertia_output {
-    double *M; /* [7n x 7n] mass matrix: translations [kg] */
-    /* In a rotating frame; zero without one. */
-    double *potential; /* [1] centrifugal: -1/2 int |Omega x r|^2 dm [J] */
-    double *force;     /* [7n] centrifugal, outward: -d potential/dx [N, N m, N m^2] */
-    double *N;         /* [7n x 7n] d2 potential/dx2, symmetric: centrifugal softening */
-    double *G;         /* [7n x 7n] gyroscopic, skew: M x'' + G x' + (K + N) x = 0 */
-} inertia_output;
-
 /* Sizes and orders that no option changes. */
 typedef struct element_constants {
     int nodes, strains;                    /* 0: 2 nodes, 8 strains */
     element_order order[ELEMENT_ANALYSES]; /* highest 0: least 2, highest 4 */
 } element_constants;
-
-/* Of the whole element, for types without strains and stresses of their own. */
-typedef struct force_output {
-    double *energy; /* [1] [J] */
-    double
-        *F; /* [7 nodes] d energy/dx: forces on the nodes [N], moments [N m], bimoments [N m^2] */
-    double *K; /* [7 nodes x 7 nodes] dF/dx; only its symmetric part counts, so that it may be the
-                  derivative of F along spatial increments or the second one of the energy in the
-                  exponential chart */
-} force_output;
-
-/* What `equations_many` fills: the mixed equations of an element, condensed (N section 4). */
-typedef struct equations_output {
-    double *J;               /* [strains x 7 nodes] de/dx */
-    double *C;               /* [strains x strains] dsigma/de [N/m] */
-    double *memory;          /* [memory] as stress gives it */
-    double *incompatibility; /* [strains] D(x) - e [m] */
-    double *sigma;           /* [strains] stress(e) + C (D(x) - e) [N] */
-    double *force;           /* [7 nodes] J^T sigma */
-    double *present;         /* [7 nodes] J^T s */
-    double *K; /* [7 nodes x 7 nodes] sum_i s_i d2e_i/dx2 + J^T C J; NULL: not wanted */
-} equations_output;
 
 /* What is optional is NULL or 0 where it is left out, and then means what stands behind it. */
 typedef struct element_type {
@@ -261,6 +213,9 @@ typedef struct element_type {
     void (*equations_many)(int count, const element_data *const data[], const node_state x[],
                            const double *const e[], const double *const inner[],
                            const double *const s[], equations_output out[], status outcome[]);
+    /* Optional: 1: `inertia` gives what motions in time with consistent mass need (rate and what
+     * stands below it). 0: they have the mass lumped at the nodes. */
+    int spreads;
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,

@@ -13,168 +13,20 @@
 
 #include <string.h>
 
+#include "elements/beamw/inertia_point.h"
 #include "elements/beamw/modes.h"
+#include "elements/beamw/modes_rates.h"
 #include "elements/math/dense.h"
-#include "elements/math/quadrature.h"
-#include "elements/shared/moving.h"
 
-enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
-enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* the last: warping amplitude */
-
-static void functionals_at(const section *c, double l, const beamw_stiffness_fields *s, double x,
-                           double field[BEAMW_FIELDS][8])
-{
-    const double e2[8] = {0, 1}, sum_y[8] = {0, 0, 1, 1}, sum_z[8] = {0, 0, 0, 0, 1, 1};
-    const double bend_y[8] = {0, 0, 1 - x, -x},
-                 bend_z[8] = {0, 0, 0, 0, 1 - x, -x}; /* slope of the chord less lin(theta) */
-    const double b = x * (1 - x), cubic = b * (1 - 2 * x), db = 1 - 2 * x, dcubic = 1 - 6 * b;
-    for (int k = 0; k < 8; k++) {
-        const double chi_x = (b * s->A[k] - cubic * s->tw[k]) / l;
-        field[CHI_X][k] = chi_x;
-        field[NU_Y][k] = c->zs * chi_x - b / 2 * sum_z[k] - l * cubic * s->hg[0][k];
-        field[NU_Z][k] = -c->ys * chi_x + b / 2 * sum_y[k] - l * cubic * s->hg[1][k];
-        field[CHI_Z][k] = (bend_z[k] - db / 2 * sum_z[k]) / l - c->zs * e2[k] / (l * l) -
-                          dcubic * s->hg[0][k] - s->g[0][k];
-        field[CHI_Y][k] = (bend_y[k] - db / 2 * sum_y[k]) / l - c->ys * e2[k] / (l * l) +
-                          dcubic * s->hg[1][k] + s->g[1][k];
-        field[PSI][k] = (e2[k] + db * s->A[k] - dcubic * s->tw[k]) / (l * l) - s->g[2][k];
-    }
-}
-
-void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
-                           const beamw_stiffness_fields *fields, element_data *d)
-{
-    d->lumped = lumped_of(c, features, d->l0 / 2);
-    static const double share[] = {
-        [BEAMW_INERTIA_LUMPED] = 0, [BEAMW_INERTIA_CONSISTENT] = 1, [BEAMW_INERTIA_AVERAGED] = 0.5};
-    d->share = share[kind];
-    quadrature_points(BEAMW_GAUSS, d->at, d->weight); /* exact for the square of a cubic */
-    if (d->share > 0)
-        for (int g = 0; g < BEAMW_GAUSS; g++) {
-            functionals_at(c, d->l0, fields, d->at[g], d->field[g]);
-            if (!(features & FEATURE_WARPING))
-                for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 follow e2 */
-                    d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
-                    d->field[g][k][6] = d->field[g][k][7] = 0;
-                }
-        }
-}
-
-/* The element's state, and what the points gather for the second derivatives. */
-typedef struct configuration {
-    double vector[2][3][3]; /* node, direction: unit vectors */
-    double mean[3][3];      /* m_k */
-    double e[8], J[8 * N];
-    double s[8];       /* F . m_k of the functionals: stresses of the strains */
-    double turn[6][8]; /* d(F . m_k)/dtheta of p and q, with them */
-    const node_state *x;
-    const element_rotating_frame *frame;
-    inertia_output *out;
-} configuration;
-
-/* The functionals at a point: their values and gradients. */
-typedef struct point_values {
-    double x, mass; /* mass: weight */
-    const double (*field)[8];
-    double value[BEAMW_FIELDS], gradient[BEAMW_FIELDS][N];
-} point_values;
-
-/* What is not zero in the gradients of the strains: all modes but twist depend on where q is from
- * p, two of four bending modes turn with each node. */
-static void gradient_of(const double J[8 * N], const double f[8], double out[N])
-{
-    for (int i = 0; i < 3; i++) {
-        const double *r = J + RQ + i, *p = J + TP + i, *q = J + TQ + i;
-        out[RQ + i] =
-            f[0] * r[0] + f[2] * r[2 * N] + f[3] * r[3 * N] + f[4] * r[4 * N] + f[5] * r[5 * N];
-        out[RP + i] = -out[RQ + i];
-        out[TP + i] = f[1] * p[N] + f[2] * p[2 * N] + f[4] * p[4 * N];
-        out[TQ + i] = f[1] * q[N] + f[3] * q[3 * N] + f[5] * q[5 * N];
-    }
-    out[AP] = f[6] * J[6 * N + AP];
-    out[AQ] = f[7] * J[7 * N + AQ];
-}
-
-static void values_at(const configuration *c, const element_data *d, int g, point_values *out)
-{
-    out->x = d->at[g];
-    out->mass = d->share * 2 * d->weight[g];
-    out->field = d->field[g];
-    for (int k = 0; k < BEAMW_FIELDS; k++) {
-        const double *field = d->field[g][k];
-        out->value[k] = 0;
-        for (int i = 0; i < 8; i++)
-            out->value[k] += field[i] * c->e[i];
-        gradient_of(c->J, field, out->gradient[k]);
-    }
-}
-
-enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
-
-/* y = lin(a vector of the nodes) + sum sign m_k field. */
-typedef struct interpolation {
-    int director; /* unit vector, or one of the above */
-    int terms;
-    struct {
-        int k, field;
-        double sign;
-    } term[TERMS];
-} interpolation;
-
-static const interpolation position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
-                           director[3] = {{0, 2, {{1, CHI_Z, 1}, {2, CHI_Y, -1}}},
-                                          {1, 2, {{0, CHI_Z, -1}, {2, CHI_X, 1}}},
-                                          {2, 2, {{0, CHI_Y, 1}, {1, CHI_X, -1}}}},
-                           warping = {NOTHING, 1, {{0, PSI, 1}}};
-
-/* dy/dx but for what turns with the nodes. */
-static void gradient_of_fields(const configuration *c, const point_values *at,
-                               const interpolation *y, double T[3 * N])
-{
-    static const double none[N] = {0};
-    const double *g[TERMS] = {at->gradient[y->term[0].field],
-                              y->terms > 1 ? at->gradient[y->term[1].field] : none};
-    for (int i = 0; i < 3; i++) {
-        const double m[TERMS] = {y->term[0].sign * c->mean[y->term[0].k][i],
-                                 y->term[1].sign * c->mean[y->term[1].k][i]};
-        const double p = (1 - at->x) + m[0] * g[0][RP + i], q = at->x + m[0] * g[0][RQ + i];
-        for (int j = 0; j < N; j++)
-            T[N * i + j] = m[0] * g[0][j] + m[1] * g[1][j];
-        if (y->director == POSITION) {
-            T[N * i + RP + i] = p + m[1] * g[1][RP + i];
-            T[N * i + RQ + i] = q + m[1] * g[1][RQ + i];
-        }
-    }
-}
-
-/* Where it is in the frame; and the vectors fixed to the nodes, with their weights. */
-static void place(const configuration *c, const point_values *at, const interpolation *y,
-                  double r[3], double fixed[2][3])
-{
-    const double weight[2] = {1 - at->x, at->x};
-    for (int i = 0; i < 3; i++) {
-        r[i] = 0;
-        for (int node = 0; node < 2; node++) {
-            fixed[node][i] = 0;
-            if (y->director >= 0) {
-                fixed[node][i] = weight[node] * c->vector[node][y->director][i];
-                r[i] += fixed[node][i];
-            } else if (y->director == POSITION && c->frame != NULL) {
-                r[i] += weight[node] * (c->x[node].r[i] - c->frame->centre[i]);
-            }
-        }
-        for (int k = 0; k < y->terms; k++) {
-            const double amplitude = y->term[k].sign * at->value[y->term[k].field];
-            r[i] += c->mean[y->term[k].k][i] * amplitude;
-            for (int node = 0; node < 2; node++)
-                fixed[node][i] += amplitude / 2 * c->vector[node][y->term[k].k][i];
-        }
-    }
-}
+static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
+                                  director[3] = {{0, 2, {{1, CHI_Z, 1}, {2, CHI_Y, -1}}},
+                                                 {1, 2, {{0, CHI_Z, -1}, {2, CHI_X, 1}}},
+                                                 {2, 2, {{0, CHI_Y, 1}, {1, CHI_X, -1}}}},
+                                  warping = {NOTHING, 1, {{0, PSI, 1}}};
 
 /* Of F . m_k (field . e): what its second derivatives are made of. */
-static void gather_curvature(configuration *c, const double F[3], const point_values *at,
-                             const interpolation *y)
+static void gather_curvature(beamw_inertia_state *c, const double F[3],
+                             const beamw_inertia_values *at, const beamw_inertia_vector *y)
 {
     for (int k = 0; k < y->terms; k++) {
         const double *field = at->field[y->term[k].field],
@@ -190,44 +42,70 @@ static void gather_curvature(configuration *c, const double F[3], const point_va
     }
 }
 
-static void add_interpolated(configuration *c, const point_values *at, const interpolation *y,
-                             double mass)
+/* Room for columns, or NULL. */
+static double *zeroed(int wanted, double A[3 * N])
 {
-    double T[3 * N], fixed[2][3], F[3];
+    if (!wanted)
+        return NULL;
+    memset(A, 0, 3 * N * sizeof *A);
+    return A;
+}
+
+static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values *at,
+                             const beamw_inertia_vector *y, double mass)
+{
+    double T[3 * N], rates[3 * N], displacement[3 * N], fixed[2][3],
+        F[3], *const stiffness = moving_stiffness(c->frame, c->out);
     moving_vector v = {.mass = mass, .at = 0, .columns = N, .T = T};
-    place(c, at, y, v.y, fixed);
-    gradient_of_fields(c, at, y, T);
+    beamw_inertia_place(c, at, y, v.y, fixed);
+    beamw_inertia_gradient(c, at, y, T);
     moving_rotation_gradient(fixed[0], TP, N, T);
     moving_rotation_gradient(fixed[1], TQ, N, T);
+    if (c->in_time) {
+        v.rates = zeroed(c->out->C != NULL, rates);
+        v.displacement = zeroed(c->out->K != NULL, displacement);
+        beamw_inertia_convective(c, at, y, fixed, v.convective, c->out->C != NULL ? rates : NULL,
+                                 c->out->K != NULL ? displacement : NULL);
+    }
     moving_add(&v, c->frame, N, c->out, F);
-    if (c->out->N == NULL || c->frame == NULL)
+    if (stiffness == NULL)
         return;
-    moving_rotation_stiffness(F, fixed[0], TP, N, c->out->N);
-    moving_rotation_stiffness(F, fixed[1], TQ, N, c->out->N);
+    moving_rotation_stiffness(F, fixed[0], TP, N, stiffness);
+    moving_rotation_stiffness(F, fixed[1], TQ, N, stiffness);
     gather_curvature(c, F, at, y);
 }
 
 /* A twist whose rate has a mass and which no rotating frame acts on. */
-static void add_twist(const configuration *c, const point_values *at, double mass)
+static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
     double row[N];
-    if (c->out->M == NULL)
-        return;
+    moving_twist t = {.mass = mass,
+                      .row = row,
+                      .nodes = 2,
+                      .at = {TP, TQ},
+                      .weight = {1 - at->x, at->x},
+                      .slope = at->slope[CHI_X]};
     memcpy(row, at->gradient[CHI_X], sizeof row);
     for (int i = 0; i < 3; i++) {
         row[TP + i] += (1 - at->x) * c->vector[0][0][i];
         row[TQ + i] += at->x * c->vector[1][0][i];
     }
-    for (int i = 0; i < N; i++)
+    memcpy(t.axis[0], c->vector[0][0], sizeof t.axis[0]);
+    memcpy(t.axis[1], c->vector[1][0], sizeof t.axis[1]);
+    if (c->in_time) {
+        t.curvature = at->curvature[CHI_X];
+        moving_add_twist(&t, N, c->out);
+    }
+    for (int i = 0; i < N && c->out->M != NULL; i++)
         for (int j = 0; j < N; j++)
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-static void add_point(configuration *c, const element_data *d, int g)
+static void add_point(beamw_inertia_state *c, const element_data *d, int g)
 {
-    point_values at;
+    beamw_inertia_values at;
     double j[3];
-    values_at(c, d, g, &at);
+    beamw_inertia_values_at(c, d, g, &at);
     const double weight = at.mass;
     add_interpolated(c, &at, &position, weight * d->lumped.mass);
     if (!d->lumped.turns) {
@@ -241,12 +119,12 @@ static void add_point(configuration *c, const element_data *d, int g)
         add_interpolated(c, &at, &warping, weight * d->lumped.warping);
 }
 
-/* N -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
+/* N or K -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
  * strains' own second derivatives do. */
-static void add_curvature(const element_data *d, const configuration *c)
+static void add_curvature(const element_data *d, const beamw_inertia_state *c)
 {
     static const int row[6] = {TP, TP + 1, TP + 2, TQ, TQ + 1, TQ + 2};
-    double H[N * N], *out = c->out->N;
+    double H[N * N], *const out = moving_stiffness(c->frame, c->out);
     for (int i = 0; i < 6; i++) {
         double product[N] = {0};
         dense_add_transpose_mul(N, 8, 1, c->J, c->turn[i], product);
@@ -260,10 +138,26 @@ static void add_curvature(const element_data *d, const configuration *c)
         out[i] -= H[i];
 }
 
+static void set_rates(const element_data *d, beamw_inertia_state *c)
+{
+    moving_turn_of(c->out, TP, &c->node[0]);
+    moving_turn_of(c->out, TQ, &c->node[1]);
+    for (int k = 0; k < 3; k++) {
+        double p[3], q[3];
+        vec3_cross(c->node[0].w, c->vector[0][k], p);
+        vec3_cross(c->node[1].w, c->vector[1][k], q);
+        for (int i = 0; i < 3; i++)
+            c->mean_rate[k][i] = (p[i] + q[i]) / 2;
+    }
+    beamw_modes_slopes(d->l0, c->x, c->J, c->out->rate, c->slope);
+    dense_mul_vec(8, N, c->slope, c->out->rate, c->ec);
+}
+
 static void add_consistent(const element_data *d, const node_state x[2],
                            const element_rotating_frame *frame, inertia_output *out)
 {
-    configuration c = {.x = x, .frame = frame, .out = out};
+    beamw_inertia_state c = {
+        .x = x, .frame = frame, .out = out, .in_time = moving_in_time(frame, out)};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) {
             for (int node = 0; node < 2; node++)
@@ -271,9 +165,11 @@ static void add_consistent(const element_data *d, const node_state x[2],
             c.mean[k][i] = (c.vector[0][k][i] + c.vector[1][k][i]) / 2;
         }
     beamw_modes_evaluate(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
+    if (c.in_time)
+        set_rates(d, &c);
     for (int g = 0; g < BEAMW_GAUSS; g++)
         add_point(&c, d, g);
-    if (out->N != NULL && frame != NULL)
+    if (moving_stiffness(frame, out) != NULL)
         add_curvature(d, &c);
 }
 

@@ -44,7 +44,7 @@ extern const unsigned beamw_prepare_judged[];
     .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
     .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \
     .strain_many = beamw_variants_strain_many, .stress_many = beamw_variants_stress_many,          \
-    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of
+    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of, .spreads = 1
 enum {
     BEAMW_OFFERS = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
                    FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA

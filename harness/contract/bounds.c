@@ -129,6 +129,27 @@ static void masses(const specimen *s, const node_state x[], claims *c)
     look(&gyroscopic, filled, s, c);
 }
 
+static void in_time(const specimen *s, const node_state x[], claims *c)
+{
+    const int n = s->coordinates;
+    guarded taken, rates, places;
+    double rate[N], acceleration[N];
+    if (s->type.inertia == NULL || !s->type.spreads)
+        return;
+    for (int i = 0; i < n; i++)
+        rate[i] = acceleration[i] = sin(i);
+    inertia_output out = {.rate = rate,
+                          .acceleration = acceleration,
+                          .taken = guard(&taken, "inertia: taken", n),
+                          .C = guard(&rates, "inertia: C", n * n),
+                          .K = guard(&places, "inertia: K", n * n)};
+    claims_doing(c, "inertia in time%s", s->words);
+    const int filled = s->type.inertia(s->data, x, NULL, &out) == STATUS_OK;
+    look(&taken, filled, s, c);
+    look(&rates, filled, s, c);
+    look(&places, filled, s, c);
+}
+
 static void forces(const specimen *s, const node_state x[], claims *c)
 {
     const int n = s->coordinates;
@@ -175,6 +196,7 @@ static void check(const specimen *s, claims *c)
     memcpy(kept, e, (size_t)s->strains * sizeof *e);
     stresses(s, e, c);
     masses(s, x, c);
+    in_time(s, x, c);
     forces(s, x, c);
     data(s, c);
     claims_asks(inputs, memcmp(given, x, (size_t)s->nodes * sizeof *x) == 0,

@@ -15,4 +15,5 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"mass", "mass matrix: symmetric, positive, mass and moments of the beam", checks_mass},
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
+    {"in_time", "forces of inertia in time derive from the kinetic energy", checks_in_time},
 };

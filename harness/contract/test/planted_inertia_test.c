@@ -25,6 +25,11 @@ INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
 INERTIA(not_skew, if (out->G != NULL) out->G[14 * 1 + 1] += out->G[14 + 2])
 INERTIA(half_coriolis, if (out->G != NULL) EACH(196, out->G[i] /= 2))
+INERTIA(half_convective, if (out->taken != NULL) EACH(14, out->taken[i] *= 0.5))
+INERTIA(wrong_rates, if (out->C != NULL) out->C[14 * 4 + 3] *= 1.01)
+INERTIA(fixed_taken,
+        if (out->taken != NULL && out->acceleration != NULL) out->taken[1] += 0.1 * out->taken[0])
+INERTIA(beyond_taken, if (out->taken != NULL) out->taken[14] = 0)
 INERTIA(beyond_M, if (out->M != NULL) out->M[196] = 0)
 
 static status no_frame(const element_data *d, const node_state x[],
@@ -48,6 +53,12 @@ int main(void)
     PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
     PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
     PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
+    PLANT(inertia, half_convective, "in_time", "inertia: taken in coordinate",
+          "differences of the kinetic energy");
+    PLANT(inertia, wrong_rates, "in_time", "C entry 5, 4", "differences of what is taken");
+    PLANT(inertia, fixed_taken, "in_time", "inertia: taken in coordinate 2",
+          "the same element turned as a whole");
+    PLANT(inertia, beyond_taken, "bounds", "inertia: taken: it has 14 entries", "entry 15");
     PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");
     return gsl_test_summary();
 }
