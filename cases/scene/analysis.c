@@ -130,6 +130,11 @@ const scene_motion *scene_motion_of(const scene_analysis *a)
     return &a->of.motion;
 }
 
+int scene_spreads(const scene_analysis *a)
+{
+    return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;
+}
+
 const scene_path *scene_path_of(const scene_analysis *a)
 {
     switch (a->kind) {

@@ -88,6 +88,14 @@ typedef enum scene_scheme {
 
 #define SCENE_SCHEME_CHOICES "alpha|conserving|radau|explicit"
 
+/* How the mass of members lies. */
+typedef enum scene_mass {
+    SCENE_LUMPED,    /* at the nodes, with all formulations alike */
+    SCENE_CONSISTENT /* along the elements, as a formulation has it that offers that */
+} scene_mass;
+
+#define SCENE_MASS_CHOICES "lumped|consistent"
+
 /* Of generalized-alpha: alpha_m, alpha_f by rho, the spectral radius of what is not resolved; or as
  * given. */
 typedef struct scene_alpha {
@@ -108,6 +116,7 @@ typedef struct scene_motion {
     double step;      /* [s] first one; without a tolerance all */
     double tolerance; /* of the error of a step, relative to the size; 0: steps stay */
     scene_start start;
+    scene_mass mass;
 } scene_motion;
 
 typedef struct scene_analysis {
@@ -143,6 +152,8 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
+/* Is it a motion whose elements spread their mass? */
+int scene_spreads(const scene_analysis *a);
 /* NULL: the kind has none. */
 const scene_path *scene_path_of(const scene_analysis *a);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);

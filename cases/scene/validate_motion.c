@@ -36,6 +36,14 @@ static status check_scheme(const scene_motion *m, int i, fault *f)
                          "analysis %d: alpha_m = %g, alpha_f = %g are not stable for every step; "
                          "keep -1 <= alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
                          i, m->alpha.mass, m->alpha.force);
+    if (m->mass != SCENE_LUMPED && m->mass != SCENE_CONSISTENT)
+        return fault_set(f, STATUS_REFUSED, "analysis %d: no such mass; name LUMPED or CONSISTENT",
+                         i);
+    if (m->mass == SCENE_CONSISTENT && m->scheme != SCENE_ALPHA && m->scheme != SCENE_RADAU)
+        return fault_set(f, STATUS_REFUSED,
+                         "analysis %d: the integrator %s has lumped mass only; give mass: lumped, "
+                         "or integrator: alpha or radau",
+                         i, m->scheme == SCENE_CONSERVING ? "conserving" : "explicit");
     for (int k = 0; k < 3; k++)
         if (!isfinite(m->start.velocity[k]) || !isfinite(m->start.spin[k]) ||
             !isfinite(m->start.centre[k]))

@@ -7,6 +7,7 @@
 #include "elements/math/vec3.h"
 #include "harness/conserving/carried_step.h"
 #include "harness/conserving/place.h"
+#include "harness/inertia/vertex_rates.h"
 
 /* How many translations of a frame are held, and not all: those of the centre follow from its turn.
  */

@@ -123,21 +123,32 @@ static void keep_heavy(const model *m, carried_mass of[], carried *out)
     }
 }
 
-status carried_alloc(const model *m, carried *out, fault *f)
+static status alloc(const model *m, int spread, carried *out, fault *f)
 {
     memset(out, 0, sizeof *out);
+    out->spread = spread;
     out->mass = calloc((size_t)m->vertices + 1, sizeof *out->mass);
     out->warping = calloc((size_t)(m->free + m->driven) + 1, sizeof *out->warping);
     if (out->mass == NULL || out->warping == NULL) {
         carried_free(out);
         return fault_set(f, STATUS_FAULT, "out of memory for masses");
     }
-    for (int i = 0; i < m->elements; i++)
+    for (int i = 0; i < m->elements && !spread; i++)
         add_element(m, &m->element[i], out->mass, out->warping);
     for (int i = 0; i < m->discretes - m->springs; i++)
         add_body(m, &m->discrete[i], out->mass);
     keep_heavy(m, out->mass, out);
     return STATUS_OK;
+}
+
+status carried_alloc(const model *m, carried *out, fault *f)
+{
+    return alloc(m, 0, out, f);
+}
+
+status carried_alloc_spread(const model *m, carried *out, fault *f)
+{
+    return alloc(m, 1, out, f);
 }
 
 void carried_free(carried *c)

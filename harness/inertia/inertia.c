@@ -6,7 +6,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/inertia/released.h"
-#include "harness/inertia/turning.h"
+#include "harness/inertia/spread.h"
+#include "harness/inertia/vertex_rates.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 
@@ -48,15 +49,6 @@ void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6]
     }
 }
 
-void inertia_rates(const model *m, const model_state *s, int vertex, const double v[],
-                   const double a[], frame_rates *out)
-{
-    if (vertex >= m->first_release)
-        released_rates(m, s, vertex, v, a, out);
-    else
-        forms_rates(m, s, vertex, v, a, out);
-}
-
 void inertia_force(const model *m, const carried_mass *one, const model_state *s, const double v[],
                    const double a[], double F[6])
 {
@@ -68,6 +60,8 @@ void inertia_force(const model *m, const carried_mass *one, const model_state *s
 void inertia_subtract(const model *m, const carried *all, const model_state *s, const double v[],
                       const double a[], double out[])
 {
+    if (all->spread)
+        spread_subtract(m, s, v, a, out);
     for (int k = 0; k < all->masses; k++) {
         double F[6];
         inertia_force(m, &all->mass[k], s, v, a, F);
@@ -142,20 +136,12 @@ void inertia_frame(const model *m, const carried *all, int index, const model_st
                    const double v[], const double a[], inertia_parts *out)
 {
     const carried_mass *one = &all->mass[index];
-    const mesh_vertex *frame = &m->vertex[one->frame];
     frame_rates r;
-    double F[6], b[3][3];
+    double F[6];
     inertia_rates(m, s, one->frame, v, a, &r);
     inertia_force_at(one, &r, F);
     parts_of(one, &r, F, out);
-    identity(out->turn);
-    memcpy(out->rate, r.R, sizeof out->rate);
-    if (frame->angles == 0)
-        return;
-    kinematics_axes(m, s, one->frame, b);
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            out->turn[3 * i + k] = out->rate[3 * i + k] = k < frame->angles ? b[k][i] : 0;
+    inertia_turns(m, s, one->frame, out->turn, out->rate);
 }
 
 /* A[6 x 6] <- A diag(1, B) */
@@ -178,28 +164,6 @@ void inertia_rows(const double turn[9], double K[36])
         for (int i = 0; i < 3; i++)
             K[6 * (3 + i) + j] = turn[i] * at[0] + turn[3 + i] * at[1] + turn[6 + i] * at[2];
     }
-}
-
-void inertia_turn(const model *m, int vertex, const model_state *s, const double inc[], double E[9])
-{
-    double R[9], N[9];
-    rotation_matrix(&s->q[4 * vertex], R);
-    inertia_chart(m, vertex, inc, R, N);
-    mat3_mul(R, N, E);
-}
-
-void inertia_chart(const model *m, int vertex, const double inc[], const double R[9], double N[9])
-{
-    double at[3], inverse[9];
-    identity(N);
-    if (forms_of(m, vertex) != FORM_BODY)
-        return;
-    for (int i = 0; i < 3; i++)
-        at[i] = inc[m->vertex[vertex].coordinate[SCENE_RX + i]];
-    turning_inverse(at, inverse);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            N[3 * i + j] = vec3_dot(&inverse[3 * i], &R[3 * j]);
 }
 
 /* The same of a released end; its rates' own change with the state (of axes that turn) is left out.
@@ -229,6 +193,8 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
 void inertia_add_tangent(const model *m, const carried *all, const model_state *s, const double v[],
                          const double a[], const inertia_relation *with, sparse *S)
 {
+    if (all->spread)
+        spread_add_tangent(m, s, v, a, with, S);
     for (int k = 0; k < all->masses; k++) {
         const int vertex = all->mass[k].frame;
         const int *at = m->vertex[vertex].coordinate;
@@ -262,6 +228,8 @@ void inertia_of(const model *m, const carried *all, const model_state *s, const 
                 const double ends[], inertia_balance *out)
 {
     memset(out, 0, sizeof *out);
+    if (all->spread)
+        spread_add_balance(m, s, v, &out->kinetic, out->momentum, out->angular);
     for (int k = 0; k < all->masses; k++) {
         const carried_mass *one = &all->mass[k];
         frame_rates r;

@@ -49,13 +49,13 @@ static unsigned needs_of_quantities(const scene *s)
     return needs;
 }
 
-/* Do formulations give their own inertia? A motion in time has that of the section, lumped, with
- * all of them alike. */
+/* Do formulations give their own inertia? A motion in time with lumped mass has that of the
+ * section, with all of them alike. */
 static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MODAL || s->analysis[i].kind == SCENE_ROTATION ||
-            scene_rotates(&s->analysis[i]))
+            scene_rotates(&s->analysis[i]) || scene_spreads(&s->analysis[i]))
             return 1;
     return 0;
 }

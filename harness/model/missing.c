@@ -42,6 +42,15 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
     return 0;
 }
 
+/* A motion asks for it. */
+static int mass_lacks(const scene *s, const element_type *type, char *words, int size)
+{
+    for (int i = 0; i < s->analyses && !type->spreads; i++)
+        if (scene_spreads(&s->analysis[i]))
+            return snprintf(words, (size_t)size, "consistent mass in time") > 0;
+    return 0;
+}
+
 int missing_words(const scene *s, const element_type *type, char *words, int size)
 {
     const unsigned missing = features_needed_of(s, type) & ~type->offers;
@@ -51,7 +60,8 @@ int missing_words(const scene *s, const element_type *type, char *words, int siz
         feature_words(missing, words, size);
         return 1;
     }
-    if (limit_hit(s, type, words, size) || lacks_of(s, type, words, size) > 1)
+    if (mass_lacks(s, type, words, size) || limit_hit(s, type, words, size) ||
+        lacks_of(s, type, words, size) > 1)
         return 1;
     if (size > 0)
         words[0] = '\0';

@@ -1,6 +1,7 @@
 #include "harness/motion/checks.h"
 
 #include "harness/inertia/forms.h"
+#include "harness/model/model_impl.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/massless.h"
 
@@ -17,9 +18,27 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-status checks_of(const analysis_context *c, const scene_motion *how, fault *f)
+/* What consistent mass does not go with. */
+static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
-    TRY(check_newton(c, how, f));
+    const scene_analysis *one = &c->scene->analysis[analysis];
+    const int spreads = scene_spreads(one), follows = one->follows;
+    if (spreads && c->model->releases > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "consistent mass takes no members that are released from their nodes; "
+                         "give mass: lumped");
+    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
+        scene_spreads(&c->scene->analysis[follows]) != spreads)
+        return fault_set(f, STATUS_REFUSED,
+                         "a motion goes on with the mass of the motion before it; give both "
+                         "lumped or both consistent");
+    return STATUS_OK;
+}
+
+status checks_of(const analysis_context *c, int analysis, fault *f)
+{
+    TRY(check_newton(c, scene_motion_of(&c->scene->analysis[analysis]), f));
+    TRY(check_mass(c, analysis, f));
     TRY(forms_check(c->model, f));
     return drive_check(c->model, f);
 }
@@ -29,6 +48,11 @@ status checks_massless(const analysis_context *c, const carried *masses, const s
 {
     int massless;
     TRY(massless_count(c->model, masses, begin, &massless, f));
+    if (massless > 0 && masses->spread)
+        return fault_set(f, STATUS_REFUSED,
+                         "%d coordinates have no inertia, which consistent mass does not go with; "
+                         "give mass: lumped, or mass to all nodes",
+                         massless);
     if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,

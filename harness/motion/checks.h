@@ -5,9 +5,12 @@
 #include "harness/inertia/carried.h"
 #include "harness/solver/context.h"
 
-/* The form of Newton has what the integrator needs; inertia and drivers can be written in time. */
-status checks_of(const analysis_context *, const scene_motion *, fault *);
-/* Without numerical damping accelerations of what has no inertia grow until they overflow. */
+/* The form of Newton has what the integrator needs; inertia and drivers can be written in time,
+ * with the mass that is asked for. */
+status checks_of(const analysis_context *, int analysis, fault *);
+/* What has no inertia is found from balance body by body, and not beside masses that elements
+ * spread. Without numerical damping accelerations of what has no inertia grow until they overflow.
+ */
 status checks_massless(const analysis_context *, const carried *, const scene_motion *,
                        const model_state *begin, fault *);
 

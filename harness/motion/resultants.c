@@ -7,6 +7,7 @@
 #include "harness/equations/loads.h"
 #include "harness/inertia/shares.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 
 static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_QY] = SPAN_QY,
@@ -71,29 +72,29 @@ status resultants_in_section(model *m, const scene_quantity *q, const internal_s
 typedef struct moving_state {
     const model *m;
     const model_state *s;
-    const double *v, *a;
+    shares_motion motion;
 } moving_state;
 
 static void inertia_at_ends(const void *context, int element, double ends[2][7])
 {
     const moving_state *of = context;
-    shares_ends(of->m, of->s, of->v, of->a, element, ends);
+    shares_ends(of->m, of->s, &of->motion, element, ends);
 }
 
 static void inertia_along(const void *context, int element, double density[ELEMENT_MAX_NODES][6])
 {
     const moving_state *of = context;
-    shares_along(of->m, of->s, of->v, of->a, element, density);
+    shares_along(of->m, of->s, &of->motion, element, density);
 }
 
 static status reaction_of(model *m, const scene_component *what, const model_state *s,
-                          const double v[], const double a[], double *out, fault *f)
+                          const shares_motion *motion, double *out, fault *f)
 {
     double F[6], L[6];
     linearise_node_force(m, s, what->node, F);
     loads_at_node(m, s, what->node, L);
-    if (v != NULL)
-        TRY(shares_node(m, s, v, a, what->node, F, f));
+    if (motion->v != NULL)
+        TRY(shares_node(m, s, motion, what->node, F, f));
     *out = F[what->component] - L[what->component];
     return STATUS_OK;
 }
@@ -101,10 +102,10 @@ static status reaction_of(model *m, const scene_component *what, const model_sta
 status resultants_of(model *m, const scene_quantity *q, const model_state *s, const double v[],
                      const double a[], double *out, fault *f)
 {
-    const moving_state of = {m, s, v, a};
+    const moving_state of = {m, s, {v, a, scene_spreads(&m->scene->analysis[q->analysis])}};
     const internal_inertia inertia = {inertia_at_ends, inertia_along, &of};
     if (q->what.kind == SCENE_REACTION)
-        return reaction_of(m, scene_component_of(q), s, v, a, out, f);
+        return reaction_of(m, scene_component_of(q), s, &of.motion, out, f);
     const internal_state at = {
         .s = s, .path = kinematics_state_path(s), .moving = v != NULL ? &inertia : NULL};
     return resultants_in_section(m, q, &at, out, f);

@@ -31,15 +31,26 @@ typedef struct radau {
     long counted, counted_single;
 } radau;
 
-/* radau_equations.c */
+/* radau_rates.c */
 /* Nodes, weights and B of the scheme. */
 void radau_coefficients(radau *);
 /* Of the instant of a stage [s]: the last one is at the end of the step as it was asked for. */
 double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
 /* v and a of all stages, from their increments. */
 void radau_rates(radau *, const instant *from, double h);
+/* What the rates (rate) and accelerations of stage i gain by spatial increments of a vertex in
+ * stage k: scalars of translations, [3 x 3] of its rotation, in the axes of its rates. */
+typedef struct radau_relation {
+    double rate, acceleration, turn_rate[9], turn_acceleration[9];
+} radau_relation;
+void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relation *);
+
+/* radau_equations.c */
 /* The residual of all stages in their present states, and fresh 1: S. */
 status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
+
+/* radau_spread.c: S gains what masses take that elements spread. */
+void radau_spread(radau *, double h);
 
 /* radau_damping.c: residual and, fresh 1, S gain what damped members take. */
 void radau_damp(radau *, int fresh, const instant *from, double h);

@@ -26,10 +26,12 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
 }
 
 /* Columns of stage k after each other; returns the entries. NULL row: they are counted. */
-static int fill(const model *m, const sparse *single, const int frame_of[], const double warping[],
+static int fill(const model *m, const sparse *single, const int frame_of[], const carried *masses,
                 stages_matrix *out, int *row)
 {
-    const int n = out->n, full = m->releases > 0 || m->damping != NULL; /* both couple nodes */
+    const int n = out->n, full = m->releases > 0 || m->damping != NULL ||
+                                 masses->spread; /* they couple nodes */
+    const double *warping = masses->warping;
     int count = 0;
     for (int k = 0; k < STAGES; k++)
         for (int c = 0; c < n; c++) {
@@ -64,7 +66,7 @@ static status make(const model *m, const carried *masses, const sparse *single, 
             if (c != NONE && c < m->free)
                 frame_of[c] = masses->mass[k].frame;
         }
-    const size_t count = (size_t)fill(m, single, frame_of, masses->warping, out, NULL),
+    const size_t count = (size_t)fill(m, single, frame_of, masses, out, NULL),
                  columns = STAGES * (size_t)out->n;
     out->whole.n = STAGES * out->n;
     out->whole.column = malloc((columns + 1) * sizeof *out->whole.column);
@@ -74,7 +76,7 @@ static status make(const model *m, const carried *masses, const sparse *single, 
     if (out->whole.column == NULL || out->whole.row == NULL || out->whole.value == NULL ||
         out->diagonal == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
-    fill(m, single, frame_of, masses->warping, out, out->whole.row);
+    fill(m, single, frame_of, masses, out, out->whole.row);
     return STATUS_OK;
 }
 

@@ -74,7 +74,8 @@ void builder_in_time(const fields *f, int index)
     const int count = fields_values(f, "stations", &stations);
     scene_motion how = {
         .scheme = (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA),
-        .alpha = alpha_of(f)};
+        .alpha = alpha_of(f),
+        .mass = (scene_mass)fields_word(f, "mass", SCENE_MASS_CHOICES, SCENE_LUMPED)};
     check_parameters(f, how.scheme);
     read_steps(f, last_of(count, stations), &how);
     fields_vector(&start, "velocity", 3, how.start.velocity);

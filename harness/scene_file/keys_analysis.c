@@ -87,6 +87,9 @@ static const scene_key in_time[] = {
     {"trapezoidal", KEY_WORD, .group = 1, .words = "no|yes",
      .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison"},
     {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f"},
+    {"mass", KEY_WORD, .words = SCENE_MASS_CHOICES,
+     .summary = "of members: lumped at the nodes, or consistent, of formulations that have it so, "
+                "by alpha and radau; lumped where it is left out"},
     {"about", KEY_NAME,
      .summary =
          "static analysis or rotation from whose last state, or motion that goes on, with its "

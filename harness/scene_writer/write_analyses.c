@@ -97,6 +97,8 @@ static void write_motion(writer *w, const scene_analysis *a)
         fputs(", parameters: ", w->to);
         write_values_numbers(w, 2, alpha);
     }
+    if (m->mass == SCENE_CONSISTENT)
+        fputs(", mass: consistent", w->to);
     if (a->follows != SCENE_NONE)
         fprintf(w->to, ", about: analysis_%d", a->follows);
     write_start(w, &m->start);

@@ -6,6 +6,7 @@
 
 #include "harness/inertia/inertia.h"
 #include "harness/inertia/released.h"
+#include "harness/inertia/spread.h"
 #include "harness/model/model_impl.h"
 
 /* Rank of A[n x n], positive semidefinite, in which `none` is zero; destroys A. */
@@ -49,6 +50,13 @@ static void take_vertex(const model *m, int vertex, body_mass *g)
     }
 }
 
+static void take(const body_mass *g, int row, int column, double mass)
+{
+    const int i = place_in(g, row), j = place_in(g, column);
+    if (i != NONE && j != NONE)
+        g->M[g->count * i + j] += mass * g->unit[i] * g->unit[j];
+}
+
 static double add_mass(const model *m, const carried *all, int index, const model_state *s,
                        const body_mass *g)
 {
@@ -62,13 +70,54 @@ static double add_mass(const model *m, const carried *all, int index, const mode
     released_motion(&of, 1, one, one, motion);
     released_project(&of, p.acceleration, motion, K);
     for (int i = 0; i < of.count; i++)
-        for (int j = 0; j < of.count; j++) {
-            const int row = place_in(g, of.index[i]), column = place_in(g, of.index[j]);
-            if (row != NONE && column != NONE)
-                g->M[g->count * row + column] +=
-                    K[of.count * i + j] * g->unit[row] * g->unit[column];
-        }
+        for (int j = 0; j < of.count; j++)
+            take(g, of.index[i], of.index[j], K[of.count * i + j]);
     return all->mass[index].mass;
+}
+
+/* Of an element that spreads its mass: at the nodes that the body moves, not between these and
+ * others. What is missing here is missing in the whole matrix. */
+static double add_element(const model *m, int element, int body, const model_state *s,
+                          const body_mass *g)
+{
+    const mesh_element *el = &m->element[element];
+    spread_parts p;
+    double largest = 0;
+    int beside = 0;
+    for (int k = 0; k < el->nodes; k++)
+        beside |= m->vertex[el->vertex[k]].body == body;
+    if (!beside)
+        return 0;
+    spread_masses(m, element, s, &p);
+    spread_rows(&p, p.acceleration);
+    for (int k = 0; k < el->nodes; k++) {
+        const int at = NODE_COORDINATES * k;
+        double B[36], turned[36];
+        if (m->vertex[el->vertex[k]].body != body)
+            continue;
+        for (int i = 0; i < 36; i++)
+            B[i] = p.acceleration[p.columns * (at + i / 6) + at + i % 6];
+        inertia_times(B, 1, p.turn[k], turned);
+        for (int i = 0; i < 36; i++)
+            take(g, el->index[at + i / 6], el->index[at + i % 6], turned[i]);
+        largest = fmax(largest, B[0] + B[7] + B[14]);
+    }
+    return largest;
+}
+
+double body_mass_warps(const model *m, const carried *all, int warp, const model_state *s)
+{
+    double mass = all->warping[m->warp[warp].coordinate];
+    for (int i = 0; i < m->elements && all->spread; i++)
+        for (int k = 0; k < m->element[i].nodes; k++) {
+            const int at = NODE_COORDINATES * k + 6;
+            spread_parts p;
+            if (m->element[i].warp[k] != warp)
+                continue;
+            spread_masses(m, i, s, &p);
+            mass += p.acceleration[p.columns * at + at];
+        }
+    return mass;
 }
 
 double body_mass_of(const model *m, const carried *all, int body, const model_state *s,
@@ -84,6 +133,8 @@ double body_mass_of(const model *m, const carried *all, int body, const model_st
     for (int k = 0; k < all->masses; k++)
         if (m->vertex[all->mass[k].frame].body == body)
             largest = fmax(largest, add_mass(m, all, k, s, g));
+    for (int i = 0; i < m->elements && all->spread; i++)
+        largest = fmax(largest, add_element(m, i, body, s, g));
     return largest;
 }
 

@@ -87,12 +87,12 @@ static int visit(const model *m, const carried *all, int body, const model_state
     return rank;
 }
 
-static int warping(const model *m, const carried *all, wish *of)
+static int warping(const model *m, const carried *all, const model_state *s, wish *of)
 {
     int heavy = 0;
     for (int i = 0; i < m->warps; i++) {
         const int c = m->warp[i].coordinate;
-        const double mass = all->warping[c];
+        const double mass = body_mass_warps(m, all, i, s);
         if (c >= m->free)
             continue;
         heavy += mass > 0;
@@ -116,7 +116,7 @@ static status walk(const model *m, const carried *all, const model_state *s, wis
     for (int i = 0; i < m->first_release; i++)
         if (m->vertex[i].body == i)
             heavy += visit(m, all, i, s, &g, of);
-    *out = m->free - heavy - warping(m, all, of);
+    *out = m->free - heavy - warping(m, all, s, of);
     body_mass_free(&g);
     return STATUS_OK;
 }

@@ -2,6 +2,7 @@
  * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
  * along a motion; kinetic energy is that of all masses one by one. */
 #include "harness/inertia/inertia.h"
+#include "harness/inertia/vertex_rates.h"
 
 #include "elements/math/rotation.h"
 #include "harness/inertia/test/masses.h"

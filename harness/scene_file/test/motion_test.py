@@ -115,6 +115,22 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(got[1] / got[2], 1, delta=1e-2)
         self.assertNotEqual(got[0], got[1])
 
+    def test_mass(self):
+        """Consistent mass is written again, is nearer to what fine meshes have, and is not offered by all."""
+        section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
+        text = re.findall(r"```yaml\n(.*?)```", section, re.S)[0]
+        lumped = self.scene(text, "lumped.yaml")
+        path = self.scene(text.replace("radau,", "radau, mass: consistent,"), "consistent.yaml")
+        self.assertIn(", mass: consistent", self.answered("scene", "--scene", path).stdout)
+        self.assertNotIn("mass: ", self.answered("scene", "--scene", lumped).stdout.partition(
+            "analyses:")[2])
+        behind = [values(self.record("solve", "--scene", what, "-f", "beamw", "-n", n))["behind"]
+                  for what, n in ((lumped, 2), (path, 2), (path, 4))]
+        self.assertAlmostEqual(behind[0] / behind[2], 1.033, delta=1e-3)
+        self.assertAlmostEqual(behind[1] / behind[2], 1, delta=3e-5)
+        self.refused(2, "does not offer consistent mass in time", "solve", "--scene", path, "-n", 2,
+                     "-f", "collocation")
+
     def test_forms_of_newton(self):
         """Displacements alone move alike; what an integrator does not have is refused."""
         path = self.block("time: sin(20*t)")

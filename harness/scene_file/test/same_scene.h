@@ -109,7 +109,8 @@ static inline int same_load(const scene_load *a, const scene_load *b)
 
 static inline int same_motion(const scene_motion *a, const scene_motion *b)
 {
-    return a->scheme == b->scheme && same_numbers(1, &a->alpha.mass, &b->alpha.mass) &&
+    return a->scheme == b->scheme && a->mass == b->mass &&
+           same_numbers(1, &a->alpha.mass, &b->alpha.mass) &&
            same_numbers(1, &a->alpha.force, &b->alpha.force) &&
            same_numbers(1, &a->step, &b->step) && same_numbers(1, &a->tolerance, &b->tolerance) &&
            same_numbers(3, a->start.velocity, b->start.velocity) &&

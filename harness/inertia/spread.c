@@ -1,0 +1,282 @@
+#include "harness/inertia/spread.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/offset.h"
+#include "elements/math/vec3.h"
+#include "harness/inertia/vertex_rates.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+
+enum { MOST = ELEMENT_MAX_COORDINATES };
+
+/* Of an element's nodes: states, velocities and accelerations. */
+typedef struct moving_element {
+    node_state x[ELEMENT_MAX_NODES];
+    double rate[MOST], acceleration[MOST];
+} moving_element;
+
+static void gather(const model *m, const mesh_element *el, const model_state *s, const double v[],
+                   const double a[], moving_element *out)
+{
+    kinematics_gather(m, s, el, out->x);
+    for (int k = 0; k < el->nodes; k++) {
+        double *rate = out->rate + NODE_COORDINATES * k,
+               *acceleration = out->acceleration + NODE_COORDINATES * k;
+        const int warp = el->warp[k] != NONE ? m->warp[el->warp[k]].coordinate : NONE;
+        frame_rates r;
+        vertex_rates(m, s, el->vertex[k], v, a, &r);
+        memcpy(rate, r.v, sizeof r.v);
+        memcpy(rate + 3, r.w, sizeof r.w);
+        memcpy(acceleration, r.a, sizeof r.a);
+        memcpy(acceleration + 3, r.wd, sizeof r.wd);
+        rate[6] = warp != NONE ? v[warp] : 0;
+        acceleration[6] = warp != NONE && a != NULL ? a[warp] : 0;
+    }
+}
+
+static void nothing_known(int count, double *A)
+{
+    for (int i = 0; i < count && A != NULL; i++)
+        A[i] = NAN;
+}
+
+static void evaluate(const model *m, int element, const node_state x[], inertia_output *out)
+{
+    const int n = m->coordinates;
+    if (m->type->inertia(m->kind[m->element[element].kind].data, x, NULL, out) == STATUS_OK)
+        return;
+    nothing_known(n, out->taken);
+    nothing_known(n * n, out->M);
+    nothing_known(n * n, out->C);
+    nothing_known(n * n, out->K);
+}
+
+void spread_force(const model *m, int element, const model_state *s, const double v[],
+                  const double a[], double F[])
+{
+    moving_element e;
+    gather(m, &m->element[element], s, v, a, &e);
+    evaluate(m, element, e.x,
+             &(inertia_output){.rate = e.rate, .acceleration = e.acceleration, .taken = F});
+}
+
+void spread_subtract(const model *m, const model_state *s, const double v[], const double a[],
+                     double out[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        double F[MODEL_MAX_COORDINATES];
+        spread_force(m, i, s, v, a, F);
+        for (int k = 0; k < m->coordinates; k++)
+            F[k] = -F[k];
+        eliminate_forces(m, s, &m->element[i], F);
+        assemble_vector(&m->element[i], F, out);
+    }
+}
+
+/* A[columns x columns] += B Q, Q [3 x 3] from the rotations of a node that begins at `at` to its
+ * translations. */
+static void add_through(int columns, int at, const double B[], const double Q[9], double A[])
+{
+    for (int i = 0; i < columns; i++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++)
+                A[columns * i + at + 3 + j] += B[columns * i + at + k] * Q[3 * k + j];
+}
+
+/* The same by rates that turn with the node: dw = d x w. */
+static void add_turning(int columns, int at, const double B[], const double w[3], double A[])
+{
+    for (int i = 0; i < columns; i++) {
+        double turned[3];
+        vec3_cross(w, &B[columns * i + at + 3], turned);
+        for (int j = 0; j < 3; j++)
+            A[columns * i + at + 3 + j] += turned[j];
+    }
+}
+
+/* out = x~ A */
+static void cross_all(const double x[3], const double A[9], double out[9])
+{
+    for (int j = 0; j < 3; j++) {
+        const double column[3] = {A[j], A[3 + j], A[6 + j]};
+        double moved[3];
+        vec3_cross(x, column, moved);
+        for (int i = 0; i < 3; i++)
+            out[3 * i + j] = moved[i];
+    }
+}
+
+/* A node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w x rho).
+ * What its rates gain by w and by turns d of the body beside what their Jacobian has. */
+static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
+                  double C[], double K[])
+{
+    const double *w = e->rate + at + 3, *wd = e->acceleration + at + 3;
+    const double place[9] = {0,      rho[2], -rho[1], -rho[2], 0,
+                             rho[0], rho[1], -rho[0], 0}; /* -rho~ */
+    double w_rho[3], velocity[9], turned[9], gained[9], by_w[9];
+    vec3_cross(w, rho, w_rho);
+    const double apart[9] = {0,        w_rho[2], -w_rho[1], -w_rho[2], 0,
+                             w_rho[0], w_rho[1], -w_rho[0], 0}; /* d x (w x rho) */
+    cross_all(w, place, velocity);
+    cross_all(w, velocity, turned);
+    cross_all(wd, place, gained);
+    for (int i = 0; i < 9; i++) {
+        gained[i] += turned[i];
+        by_w[i] = apart[i] + velocity[i];
+    }
+    add_through(n, at, C, velocity, K);
+    add_through(n, at, M, gained, K);
+    add_through(n, at, M, by_w, C);
+}
+
+/* All of an element from its nodes to the bodies that move them. */
+static void to_bodies(const model *m, const mesh_element *el, const model_state *s,
+                      const moving_element *e, double F[], spread_parts *p)
+{
+    const int n = p->columns;
+    for (int k = 0; k < el->nodes; k++) {
+        const int vertex = el->vertex[k], at = NODE_COORDINATES * k;
+        double rho[3];
+        if (m->vertex[vertex].body != vertex) {
+            kinematics_offset(m, s, vertex, rho);
+            carry(n, at, e, rho, p->acceleration, p->velocity, p->place);
+            offset_matrix(n, at, rho, NULL, p->acceleration);
+            offset_matrix(n, at, rho, NULL, p->velocity);
+            offset_matrix(n, at, rho, F + at, p->place);
+        }
+        add_turning(n, at, p->velocity, e->rate + at + 3, p->place);
+        add_turning(n, at, p->acceleration, e->acceleration + at + 3, p->place);
+    }
+}
+
+static void set_turns(const model *m, const mesh_element *el, const model_state *s, spread_parts *p)
+{
+    for (int k = 0; k < el->nodes; k++)
+        inertia_turns(m, s, m->vertex[el->vertex[k]].body, p->turn[k], p->rate[k]);
+}
+
+void spread_element(const model *m, int element, const model_state *s, const double v[],
+                    const double a[], spread_parts *out)
+{
+    const mesh_element *el = &m->element[element];
+    moving_element e;
+    double F[MOST];
+    gather(m, el, s, v, a, &e);
+    out->columns = m->coordinates;
+    evaluate(m, element, e.x,
+             &(inertia_output){.M = out->acceleration,
+                               .rate = e.rate,
+                               .acceleration = e.acceleration,
+                               .taken = F,
+                               .C = out->velocity,
+                               .K = out->place});
+    to_bodies(m, el, s, &e, F, out);
+    set_turns(m, el, s, out);
+}
+
+void spread_times(int columns, const double A[], const spread_motion motion[], double out[])
+{
+    for (int i = 0; i < columns; i++)
+        for (int at = 0; at < columns; at += NODE_COORDINATES) {
+            const spread_motion *one = &motion[at / NODE_COORDINATES];
+            const double *row = &A[columns * i + at];
+            double *to = &out[columns * i + at];
+            for (int j = 0; j < 3; j++) {
+                to[j] += one->plain * row[j];
+                for (int k = 0; k < 3; k++)
+                    to[3 + j] += row[3 + k] * one->turn[3 * k + j];
+            }
+            to[6] += one->plain * row[6];
+        }
+}
+
+void spread_rows(const spread_parts *p, double K[])
+{
+    const int n = p->columns;
+    for (int at = 3; at < n; at += NODE_COORDINATES)
+        for (int j = 0; j < n; j++) {
+            const double column[3] = {K[n * at + j], K[n * (at + 1) + j], K[n * (at + 2) + j]};
+            double turned[3];
+            mat3_transpose_mul_vec(p->turn[at / NODE_COORDINATES], column, turned);
+            for (int i = 0; i < 3; i++)
+                K[n * (at + i) + j] = turned[i];
+        }
+}
+
+void spread_masses(const model *m, int element, const model_state *s, spread_parts *out)
+{
+    const mesh_element *el = &m->element[element];
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    out->columns = m->coordinates;
+    evaluate(m, element, x, &(inertia_output){.M = out->acceleration});
+    for (int k = 0; k < el->nodes; k++)
+        if (m->vertex[el->vertex[k]].body != el->vertex[k]) {
+            double rho[3];
+            kinematics_offset(m, s, el->vertex[k], rho);
+            offset_matrix(out->columns, NODE_COORDINATES * k, rho, NULL, out->acceleration);
+        }
+    set_turns(m, el, s, out);
+}
+
+/* What the motion of the bodies is by their coordinates. */
+static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
+                       const spread_parts *p, spread_motion place[], spread_motion rates[])
+{
+    for (int k = 0; k < el->nodes; k++) {
+        double N[9];
+        inertia_chart(m, m->vertex[el->vertex[k]].body, with->inc, p->rate[k], N);
+        mat3_mul(p->rate[k], N, rates[k].turn);
+        memcpy(place[k].turn, p->turn[k], sizeof place[k].turn);
+        rates[k].plain = place[k].plain = 1;
+    }
+}
+
+void spread_add_tangent(const model *m, const model_state *s, const double v[], const double a[],
+                        const inertia_relation *with, sparse *S)
+{
+    const mesh_pattern *pattern = assemble_of(m, S);
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        spread_parts p;
+        spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
+        double K[MOST * MOST] = {0};
+        spread_element(m, i, s, v, a, &p);
+        const int all = p.columns * p.columns;
+        for (int k = 0; k < all; k++)
+            p.acceleration[k] = with->b * p.acceleration[k] + with->g * p.velocity[k];
+        motions_of(m, el, with, &p, place, rates);
+        spread_times(p.columns, p.acceleration, rates, K);
+        spread_times(p.columns, p.place, place, K);
+        spread_rows(&p, K);
+        assemble_matrix(pattern, i, K, S);
+    }
+}
+
+void spread_add_balance(const model *m, const model_state *s, const double v[], double *kinetic,
+                        double momentum[3], double angular[3])
+{
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        moving_element e;
+        double M[MOST * MOST], p[MOST];
+        gather(m, el, s, v, NULL, &e);
+        evaluate(m, i, e.x, &(inertia_output){.M = M});
+        dense_mul_vec(m->coordinates, m->coordinates, M, e.rate, p);
+        *kinetic += dense_dot(m->coordinates, e.rate, p) / 2;
+        for (int k = 0; k < el->nodes; k++) {
+            const double *own = p + NODE_COORDINATES * k;
+            double moment[3];
+            vec3_cross(e.x[k].r, own, moment);
+            for (int c = 0; c < 3; c++) {
+                momentum[c] += own[c];
+                angular[c] += moment[c] + own[3 + c];
+            }
+        }
+    }
+}
