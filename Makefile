@@ -156,8 +156,8 @@ truths: needs-truths all ## derive every exact and predicted row again, and soli
 	@$(PYTHON) reference/derive/predicted.py
 
 .PHONY: motions
-motions: needs-truths all ## every stored value of motions in time beside limits of meshes that verify does not run, build/motions.csv; half an hour
-	@$(PYTHON) harness/tools/motions.py $(PROGRAM) -o $(BUILD)/motions.csv
+motions: needs-truths all ## every stored value of motions in time beside limits of meshes, at all times, build/motions.csv: two minutes of one processor; MOTIONS=--fine: finer ones, longer
+	@$(PYTHON) harness/tools/motions.py $(PROGRAM) $(MOTIONS) -o $(BUILD)/motions.csv
 
 causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes, for the report: ten minutes at most; build/causes.json
 	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify

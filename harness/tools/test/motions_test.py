@@ -47,12 +47,21 @@ class Motions(unittest.TestCase):
         judged = list(motions.judge("c", "", [("1", row("3"))], {}, ["1"], 32))
         self.assertEqual(judged[0]["within"], "no")
 
+    def test_what_is_known_to_no_better_than_a_hundredth_is_told(self):
+        rows = [("1", row("3")), ("9", row("0.1"))]
+        found = {"tip_0": (3.2, 3.0, 0.029), "tip_1": (0.1, 0.11, 0.031)}
+        judged = list(motions.judge("c", "", rows, found, ["1", "9"], 32))
+        self.assertEqual([one["within"] for one in judged], ["yes", "yes"])
+        self.assertEqual([motions.is_loose(one, judged) for one in judged], [False, True])
+
     def test_every_case_has_rows_and_times(self):
-        for case in motions.CASES:
-            stored = motions.stored(case)
-            self.assertTrue(stored, case)
-            for structure in motions.CASES[case]:
-                self.assertIn(structure, stored, case)
+        self.assertEqual(list(motions.CASES), list(motions.FINE))
+        for chosen in (motions.CASES, motions.FINE):
+            for case in chosen:
+                stored = motions.stored(case)
+                self.assertTrue(stored, case)
+                for structure in chosen[case]:
+                    self.assertIn(structure, stored, case)
 
     def test_a_body_is_within(self):
         program = os.environ.get("BEAMWORK", str(motions.ROOT / "build" / "beamwork"))
