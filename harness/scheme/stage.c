@@ -46,8 +46,8 @@ void stage_free(stage *s)
 
 int stage_stands(const arrival *a)
 {
-    const double near = 2e-3;
-    return a->correction <= near && a->stress_change <= near;
+    const double near = 1e-4, slow = 0.1;
+    return a->correction <= near && a->stress_change <= near && a->correction <= slow * a->before;
 }
 
 static void rates_of(const stage *s, stage_rates *r)

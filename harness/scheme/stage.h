@@ -11,7 +11,9 @@
 #include "harness/solver/context.h"
 
 /* Do the factors of the last equations serve for the next ones? What they lack is the product of
- * both corrections; those of the stresses (arrival.h) tell where members are stiff. */
+ * both corrections; those of the stresses (arrival.h) tell where members are stiff. Measured with
+ * elongations 1e6 times stiffer: beyond 2e-4 corrections stop to contract and steps of 0.2 s fail,
+ * below as many iterations as with factors of their own. */
 int stage_stands(const arrival *);
 
 typedef struct stage {
