@@ -7,6 +7,7 @@
 #include "elements/exact/alone.h"
 #include "elements/exact/lanes.h"
 #include "elements/exact/prestress.h"
+#include "elements/math/larger.h"
 #include "elements/shared/lanes.h"
 #include "elements/shared/lumped.h"
 
@@ -124,7 +125,7 @@ static double update(const element_data *data, const double de[], const double m
             force =
                 fmax(force,
                      fabs(inner[i])); /* they come first: forces are relative, rotations are not */
-        largest = fmax(largest, fabs(change) / (i < 3 ? force : 1));
+        largest = larger(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;
 }

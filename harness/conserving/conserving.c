@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/larger.h"
 #include "elements/math/vec3.h"
 #include "harness/conserving/deformable.h"
 #include "harness/equations/chunk.h"
@@ -57,10 +58,10 @@ static double size_of(const conserving *s)
         for (int c = 0; c < 6 && m->vertex[i].body == i; c++) {
             const int at = m->vertex[i].coordinate[c];
             if (at != NONE)
-                largest = fmax(largest, fabs(s->dx[at]) / (c < 3 ? m->size : 1));
+                largest = larger(largest, fabs(s->dx[at]) / (c < 3 ? m->size : 1));
         }
     for (int i = 0; i < m->warps; i++)
-        largest = fmax(largest, fabs(s->dx[m->warp[i].coordinate]) * m->size);
+        largest = larger(largest, fabs(s->dx[m->warp[i].coordinate]) * m->size);
     return largest;
 }
 
@@ -77,7 +78,7 @@ static status iterate(conserving *s, const instant *from, double h, instant *to,
             s->step[c] += s->dx[c];
         conserving_increment(s, from->state, inc);
         increment_apply(m, from->state, inc, time, to->state);
-        const double correction = fmax(inner, size_of(s));
+        const double correction = larger(inner, size_of(s));
         m->counters.iterations++;
         const advance_stress stress = {s->largest, s->change};
         arrival_take(correction, &stress, iteration == 1, &s->arrival);

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/larger.h"
 #include "harness/conserving/deformable.h"
 #include "harness/conserving/place.h"
 #include "harness/model/release.h"
@@ -51,8 +52,8 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
             of.sigma[k] = next;
         }
         if (of.spring == NULL && m->type->update != NULL)
-            largest = fmax(largest, m->type->update(m->kind[of.el->kind].data, de, of.memory,
-                                                    &now->inner[(size_t)i * (size_t)m->inner]));
+            largest = larger(largest, m->type->update(m->kind[of.el->kind].data, de, of.memory,
+                                                      &now->inner[(size_t)i * (size_t)m->inner]));
     }
     return largest;
 }

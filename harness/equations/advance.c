@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/larger.h"
 #include "elements/math/rotation.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
@@ -44,7 +45,7 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     for (int c = 0; c < 3; c++) {
         s->u[3 * index + c] += d[c];
         s->angle[3 * index + c] += d[3 + c];
-        largest = fmax(largest, fmax(fabs(d[c]) / m->size, fabs(d[3 + c])));
+        largest = larger(largest, larger(fabs(d[c]) / m->size, fabs(d[3 + c])));
     }
     if (v->angles == 0) {
         rotation_exp(d + 3, q);
@@ -60,18 +61,18 @@ double advance_state(model *m, model_state *s, const double dx[], double path,
     double largest = 0;
     advance_stress of_elements = {0, 0};
     for (int i = 0; i < m->elements; i++)
-        largest = fmax(largest, advance_element(m, s, i, dx, &of_elements));
+        largest = larger(largest, advance_element(m, s, i, dx, &of_elements));
     if (stress != NULL)
         *stress = of_elements;
     phases_lap(&m->phases, PHASE_ELEMENTS);
     for (int i = 0; i < m->vertices; i++)
         if (m->vertex[i].body == i)
-            largest = fmax(largest, advance_vertex(m, s, i, dx));
+            largest = larger(largest, advance_vertex(m, s, i, dx));
     for (int i = m->first_release; i < m->vertices; i++)
-        largest = fmax(largest, release_advance(m, s, i, dx));
+        largest = larger(largest, release_advance(m, s, i, dx));
     for (int i = 0; i < m->warps; i++) {
         s->warp[i] += dx[m->warp[i].coordinate];
-        largest = fmax(largest, fabs(dx[m->warp[i].coordinate]) * m->size);
+        largest = larger(largest, fabs(dx[m->warp[i].coordinate]) * m->size);
     }
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->driver_coordinate[d] != NONE)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/larger.h"
 #include "elements/math/offset.h"
 #include "elements/math/rotation.h"
 #include "harness/model/member_arc.h"
@@ -149,12 +150,12 @@ double release_advance(const model *m, model_state *s, int vertex, const double 
     double largest = 0, turn[3] = {0}, step[4];
     for (int k = 0; k < r->slides; k++) {
         s->shift[3 * (vertex - m->first_release) + k] += dx[coordinate[k]];
-        largest = fmax(largest, fabs(dx[coordinate[k]]) / m->size);
+        largest = larger(largest, fabs(dx[coordinate[k]]) / m->size);
     }
     for (int k = 0; k < r->turns; k++) {
         turn[k] = dx[coordinate[3 + k]];
         s->angle[3 * vertex + k] += turn[k];
-        largest = fmax(largest, fabs(turn[k]));
+        largest = larger(largest, fabs(turn[k]));
     }
     if (r->turns == BALL) {
         rotation_exp(turn, step);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/larger.h"
 #include "harness/algebra/memory.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
@@ -95,7 +96,7 @@ static int allowed(motion *w, double step, double error)
     if (w->how->tolerance <= 0)
         return 1;
     const double ratio =
-        safety * pow(w->how->tolerance / fmax(error, 1e-300), 1.0 / w->scheme->order);
+        safety * pow(w->how->tolerance / larger(error, 1e-300), 1.0 / w->scheme->order);
     w->h = step * fmin(longer, fmax(shorter, ratio));
     return error <= w->how->tolerance;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/larger.h"
 #include "harness/equations/advance.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
@@ -31,8 +32,8 @@ static double advance(radau *r, const instant *from, double h, const step_record
         memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
         m->work = one->work;
         increment_add(m, one->state, r->dx, one->inc);
-        largest = fmax(largest,
-                       advance_state(m, one->state, r->dx, radau_time(r, from, h, i, record), &of));
+        largest = larger(
+            largest, advance_state(m, one->state, r->dx, radau_time(r, from, h, i, record), &of));
         stress->largest = fmax(stress->largest, of.largest);
         stress->change = fmax(stress->change, of.change);
     }

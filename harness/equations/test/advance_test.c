@@ -69,6 +69,8 @@ static void corrections(const element_type *type)
             /* what is inside an element counts too */
             gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
                      "%s: coordinate %d counts as %g", type->name, k, size);
+            gsl_test(!isnan(size_of(m, k, NAN)), "%s: coordinate %d may be no number", type->name,
+                     k);
             translations += translation;
             turns += turn;
             amplitudes += warp;

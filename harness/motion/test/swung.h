@@ -38,18 +38,26 @@ static inline scene_motion swung_motion(scene_scheme by, double step)
                           .start = {.velocity = {0.3, 0, -0.2}, .spin = {0.8, -1.5, 1.1}}};
 }
 
-static inline void swung_solve(const case_type *type, const double parameter[], int parameters,
-                               cell_result *out)
+/* What became of it is its status. */
+static inline status swung_try(const case_type *type, const double parameter[], int parameters,
+                               cell_result *out, fault *f)
 {
     cell_request request = {.type = type, .elements = 2};
     formulation chosen;
-    fault f = {""};
     formulation_default(formulation_find("collocation"), &chosen);
     cell_formulation(&request, &chosen);
     parameters_default(type, request.parameter);
     for (int i = 0; i < parameters; i++)
         request.parameter[i] = parameter[i];
-    gsl_test(cell_run(&request, out, &f) != STATUS_OK, "%s: %s", type->name, out->solve.reason);
+    return cell_run(&request, out, f);
+}
+
+static inline void swung_solve(const case_type *type, const double parameter[], int parameters,
+                               cell_result *out)
+{
+    fault f = {""};
+    gsl_test(swung_try(type, parameter, parameters, out, &f) != STATUS_OK, "%s: %s", type->name,
+             out->solve.reason);
 }
 
 #endif
