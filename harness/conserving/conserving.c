@@ -73,6 +73,7 @@ static status iterate(conserving *s, const instant *from, double h, instant *to,
     for (int iteration = 1;; iteration++) {
         TRY(conserving_stresses(s, from, to->state, iteration, f));
         TRY(direction(s, from, to->state, h, record, f));
+        complement_keep(s->complement, to->state);
         const double inner = conserving_update(s, from, to->state);
         for (int c = 0; c < s->free; c++)
             s->step[c] += s->dx[c];
@@ -100,6 +101,7 @@ static status iterate(conserving *s, const instant *from, double h, instant *to,
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "Newton did not converge in %d iterations at %g s: correction %.1e",
                              iteration, time, correction);
+        complement_strains(s->complement, to->state, iteration, correction);
     }
 }
 
@@ -141,6 +143,7 @@ static void release(scheme *base)
     free(s->step);
     free(s->W);
     free(s->evaluation);
+    complement_free(s->complement);
     free(s);
 }
 
@@ -169,6 +172,8 @@ static status allocate(conserving *s, fault *f)
         calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
                    (size_t)(3 * SPRING_STRAINS * m->springs) + (size_t)(9 * s->of.masses->masses),
                sizeof *s->W);
+    if (s->of.c->options->newton != SOLVE_DISPLACEMENT)
+        TRY(complement_alloc(m, &s->complement, f));
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
     if (s->step == NULL || s->W == NULL || s->evaluation == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");

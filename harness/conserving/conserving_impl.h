@@ -6,6 +6,7 @@
 #include "harness/inertia/inertia.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/spring.h"
+#include "harness/scheme/complement.h"
 #include "harness/scheme/scheme.h"
 #include "harness/solver/arrival.h"
 
@@ -30,6 +31,7 @@ typedef struct conserving {
     double *spring;   /* [springs x 3 x SPRING_STRAINS] e and sigma of the end, sigma_n */
     double *slot;     /* [deformables x slot_size] what one keeps from its evaluation to update */
     int slot_size;
+    complement *complement;
     evaluation *evaluation;         /* [CHUNK_MOST] work space */
     double h;                       /* [s] of the step */
     double k, denominator, missing; /* missing: of sum k_e . gap_e + k_d . gap_d */

@@ -32,6 +32,7 @@ static double advance(radau *r, const instant *from, double h, const step_record
         memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
         m->work = one->work;
         increment_add(m, one->state, r->dx, one->inc);
+        complement_keep(one->complement, one->state);
         largest = larger(
             largest, advance_state(m, one->state, r->dx, radau_time(r, from, h, i, record), &of));
         stress->largest = fmax(stress->largest, of.largest);
@@ -69,6 +70,8 @@ static status iterate(radau *r, const instant *from, double h, step_record *reco
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "Newton did not converge in %d iterations at %g s: correction %.1e",
                              iteration, from->time + h, correction);
+        for (int i = 0; i < STAGES; i++)
+            complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
     }
 }
 
@@ -136,6 +139,7 @@ static void release(scheme *base)
         kinematics_state_free(r->stage[i].state);
         free(r->stage[i].inc);
         free(r->stage[i].work);
+        complement_free(r->stage[i].complement);
     }
     sparse_free_values(&r->K);
     factor_free(r->factor);
@@ -149,7 +153,7 @@ static void release(scheme *base)
 
 static status allocate_stage(radau *r, radau_stage *one, fault *f)
 {
-    const model *m = r->of.c->model;
+    model *m = r->of.c->model;
     const size_t all = (size_t)r->all + 1;
     one->inc = calloc(4 * all, sizeof *one->inc);
     one->work = calloc((size_t)m->elements * (size_t)m->work_size + 1, sizeof *one->work);
@@ -158,6 +162,8 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     one->rate = one->inc + all;
     one->v = one->rate + all;
     one->a = one->v + all;
+    if (r->of.c->options->newton != SOLVE_DISPLACEMENT)
+        TRY(complement_alloc(m, &one->complement, f));
     return kinematics_state_alloc(m, &one->state, f);
 }
 

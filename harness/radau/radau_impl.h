@@ -4,6 +4,7 @@
 
 #include "harness/model/model_impl.h"
 #include "harness/radau/stages.h"
+#include "harness/scheme/complement.h"
 #include "harness/scheme/scheme.h"
 #include "harness/solver/arrival.h"
 
@@ -12,6 +13,7 @@ typedef struct radau_stage {
     model_state *state;
     double *inc, *rate, *v, *a; /* [free + driven]; rate: of inc */
     double *work;               /* of its linearisation: model.work */
+    complement *complement;
 } radau_stage;
 
 typedef struct radau {

@@ -9,6 +9,7 @@
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/scheme/complement.h"
 #include "harness/scheme/kinks.h"
 #include "harness/solver/history.h"
 
@@ -31,6 +32,8 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     s->dx = calloc(all, sizeof *s->dx);
     if (s->residual == NULL || s->dx == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    if (c->options->newton != SOLVE_DISPLACEMENT)
+        TRY(complement_alloc(c->model, &s->complement, f));
     TRY(assemble_pattern_in_time(c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
@@ -40,6 +43,7 @@ void stage_free(stage *s)
 {
     free(s->residual);
     free(s->dx);
+    complement_free(s->complement);
     sparse_free_values(&s->S);
     factor_free(s->factor);
 }
@@ -120,6 +124,7 @@ status stage_solve(stage *s, const model_state *from, double time, stage_rates *
         const int fresh = iteration == 1 || !stage_stands(&s->arrival);
         TRY(direction(s, fresh, time, r, now, record, f));
         increment_add(m, now, s->dx, r->inc);
+        complement_keep(s->complement, now);
         const double correction = advance_state(m, now, s->dx, time, &stress);
         rates_of(s, r);
         model_counters(m)->iterations++;
@@ -129,6 +134,8 @@ status stage_solve(stage *s, const model_state *from, double time, stage_rates *
         record->remaining = s->arrival.remaining;
         TRY(history_add_iteration(s->c->result, record, &one, NAN, f));
         TRY(judge(s, time, correction, before, iteration, &done, f));
+        if (!done)
+            complement_strains(s->complement, now, iteration, correction);
         before = correction;
     }
     return STATUS_OK;

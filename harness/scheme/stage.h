@@ -7,6 +7,7 @@
 
 #include "harness/inertia/carried.h"
 #include "harness/inertia/inertia.h"
+#include "harness/scheme/complement.h"
 #include "harness/solver/arrival.h"
 #include "harness/solver/context.h"
 
@@ -23,6 +24,7 @@ typedef struct stage {
     factor *factor;
     double *residual, *dx; /* [free + driven] */
     arrival arrival;
+    complement *complement;
     int max_iterations, all, free;
     int begins; /* 1: at a kink what acts behind it counts, 0: what acts before */
     long counted;

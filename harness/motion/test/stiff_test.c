@@ -1,0 +1,73 @@
+/* Members that are stiff in elongation cost no iterations, whatever the formulation: a swing of the
+ * pendulum with EA times 1, 1e3 and 1e6, in long steps, of which none is halved. */
+#include "harness/analysis/solve.h"
+#include <math.h>
+
+#include "harness/catalogue/formulation.h"
+#include "harness/catalogue/registry.h"
+#include "harness/model/model_impl.h"
+#include "harness/motion/test/moving.h"
+
+extern const case_type case_pendulum;
+
+enum { ELEMENTS = 4 };
+
+typedef struct swing {
+    double iterations; /* of a step; NAN: the formulation is not for it */
+    long steps;
+} swing;
+
+static swing take(const formulation *with, scene_scheme by, double stiffening, double step)
+{
+    char parameters[64];
+    solve_options options;
+    solve_result result;
+    scene s;
+    model *m;
+    swing out = {NAN, 0};
+    fault f = {""};
+    snprintf(parameters, sizeof parameters, "stiffening=%g", stiffening);
+    moving_case(&case_pendulum, parameters, &s);
+    moving_add(&s, by, step, MOVING_STATIONS * step);
+    memset(&options, 0, sizeof options);
+    memset(&result, 0, sizeof result);
+    const model_request wanted = {
+        .scene = &s, .type = with->type, .options = with->option, .elements = ELEMENTS};
+    if (model_alloc(&wanted, &m, &f) == STATUS_OK) {
+        const status outcome = solve_scene(&s, m, &options, &result, &f);
+        gsl_test(outcome != STATUS_OK, "%s, EA x %g: %s", with->type->name, stiffening, f.text);
+        out.steps = model_counters(m)->steps;
+        out.iterations = (double)model_counters(m)->iterations / (double)out.steps;
+    }
+    model_free(m);
+    result_free(&result);
+    scene_free(&s);
+    return out;
+}
+
+static void compare(const element_type *type, scene_scheme by, double step, double more,
+                    double times)
+{
+    formulation with;
+    formulation_default(type, &with);
+    const swing soft = take(&with, by, 1, step);
+    for (double stiffening = 1e3; isfinite(soft.iterations) && stiffening < 1e7;
+         stiffening *= 1e3) {
+        const swing stiff = take(&with, by, stiffening, step);
+        gsl_test(stiff.steps != soft.steps, "%s, EA x %g: %ld steps, soft %ld", type->name,
+                 stiffening, stiff.steps, soft.steps);
+        gsl_test(!(stiff.iterations < times * soft.iterations + more),
+                 "%s, EA x %g: %.2f iterations a step, soft %.2f", type->name, stiffening,
+                 stiff.iterations, soft.iterations);
+    }
+}
+
+int main(void)
+{
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        compare(registry_formulations[i], SCENE_ALPHA, 0.005, 1, 1);
+        compare(registry_formulations[i], SCENE_RADAU, 0.02, 1, 1);
+        compare(registry_formulations[i], SCENE_CONSERVING, 0.005, 0, 1.5);
+    }
+    return gsl_test_summary();
+}
