@@ -75,8 +75,9 @@ def chosen(path, wanted):
 def words_of(summary, s):
     """What is seen."""
     times = s.value[viewer.frames_of(s)]
-    return (f"{summary[:1].upper()}{summary[1:]}. {times[0]:.4g} to {times[-1]:.4g} s, computed "
-            f"with {s.formulation}, n = {s.n}, at true scale.")
+    what = f"{summary[:1].upper()}{summary[1:]}. " if summary else ""
+    return (f"{what}{times[0]:.4g} to {times[-1]:.4g} s, computed with {s.formulation}, n = {s.n}, "
+            "at true scale.")
 
 
 def page(path, wanted=None):

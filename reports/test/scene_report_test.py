@@ -4,7 +4,14 @@ import unittest
 
 from harness.test.program import ProgramTest, report, run
 from harness.test.scenes import LEAF
-from reports import case, data
+from reports import case, data, film, shapes
+
+SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
+analyses:
+  swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
+quantities:
+  tip: {displacement: {analysis: swing, node: tip, component: uy, take: max}}
+"""
 
 
 class SceneReport(ProgramTest):
@@ -26,6 +33,21 @@ class SceneReport(ProgramTest):
         found = [float(text) for text in re.findall(r'class="n">([0-9.e-]+) ± ', limits)]
         self.assertEqual(sum(abs(value / tip - 1) < 1e-3 for value in found), 2, found)
         self.assertIn("<details open><summary>Limits of quantities without a truth", page)
+
+    def test_motion_without_summary(self):
+        """Only what a file must say is there: pages and film say nothing in the place of the rest."""
+        scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
+        scene.write_text(SWINGS, encoding="utf-8")
+        done = run("verify", "--shapes", "--scene", scene, "-f", "beamw", "-o", results)
+        self.assertEqual(done.returncode, 3, done)
+        drawn = report(results, site)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        page = (site / "motions.html").read_text(encoding="utf-8")
+        self.assertRegex(page, r"<dd>[A-Z]")
+        self.assertTrue((site / "motion_mine.html").is_file())
+        name, summary, point = film.chosen(results, None)
+        said = film.words_of(summary, shapes.read_file(results, name, point))
+        self.assertRegex(said, "^0 to 0.01 s, computed with beamw")
 
     def test_what_has_a_truth_is_left_out(self):
         verdicts = [
