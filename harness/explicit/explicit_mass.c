@@ -81,7 +81,8 @@ static status refuse(const model *m, int vertex, const char *what, fault *f)
         snprintf(whose, sizeof whose, "node %d", vertex);
     return fault_set(f, STATUS_REFUSED,
                      "integrator explicit: the %s of %s has no inertia, so that its acceleration "
-                     "is not determined; alpha and radau take what has none",
+                     "is not determined; give what has none a mass or an inertia (members: needs: "
+                     "[rotary_inertia]), or take alpha, conserving or radau",
                      what, whose);
 }
 
@@ -119,7 +120,7 @@ status explicit_check(const model *m, const carried *masses, fault *f)
     if (m->releases > 0)
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit: released ends of members have no inertia of their "
-                         "own; alpha and radau take them");
+                         "own; alpha, conserving and radau take them");
     int *heavy = calloc(all, sizeof *heavy);
     double *rest = calloc(all, sizeof *rest);
     status outcome = heavy != NULL && rest != NULL
@@ -132,9 +133,10 @@ status explicit_check(const model *m, const carried *masses, fault *f)
             outcome = check_vertex(m, i, heavy, f);
     for (int w = 0; w < m->warps && outcome == STATUS_OK; w++)
         if (m->warp[w].coordinate < m->free && !heavy[m->warp[w].coordinate])
-            outcome = fault_set(f, STATUS_REFUSED,
-                                "integrator explicit: warping has no inertia; alpha and radau take "
-                                "what has none");
+            outcome =
+                fault_set(f, STATUS_REFUSED,
+                          "integrator explicit: warping has no inertia; alpha, conserving and "
+                          "radau take what has none");
     free(heavy);
     free(rest);
     return outcome;

@@ -23,6 +23,12 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
     const int spreads = scene_spreads(one), follows = one->follows;
+    const scene_scheme scheme = scene_motion_of(one)->scheme;
+    if (spreads && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator %s has lumped mass only; alpha and radau take mass: "
+                         "consistent",
+                         scheme == SCENE_CONSERVING ? "conserving" : "explicit");
     if (spreads && c->model->releases > 0)
         return fault_set(f, STATUS_REFUSED,
                          "consistent mass takes no members that are released from their nodes; "
@@ -58,6 +64,6 @@ status checks_massless(const analysis_context *c, const carried *masses, const s
     return fault_set(f, STATUS_REFUSED,
                      "%d coordinates have no inertia: their accelerations would grow by the "
                      "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
-                     "sections rotary inertia",
+                     "sections rotary inertia (needs: [rotary_inertia])",
                      massless);
 }

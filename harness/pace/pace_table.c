@@ -75,9 +75,12 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
 {
     for (int i = g->first; i < g->first + g->runs;) {
         const pace_ladder l = pace_order_of(p, i);
-        if (l.count > 2)
+        if (l.count > 2 && isfinite(l.before) && isfinite(l.order))
             paragraph_say(to, 0, 2, "order of %s: %.2f, %.2f (nominal %d): %s", l.method->name,
                           l.before, l.order, l.method->order, pace_order_name(l.kind));
+        else if (l.count > 2)
+            paragraph_say(to, 0, 2, "order of %s: %s, no errors that tell it (nominal %d)",
+                          l.method->name, pace_order_name(l.kind), l.method->order);
         i += l.count;
     }
 }

@@ -70,8 +70,13 @@ static void read_unit(const fields *f, scene_quantity *q)
 static void read_abscissa(const fields *f, scene_quantity *q)
 {
     const fields x = fields_below(f, "x");
-    scene_set_curve(q, fields_text(&x, "name", "path"), fields_text(&x, "unit", "1"),
-                    fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
+    const scene *s = f->b->scene;
+    const int timed = q->analysis >= 0 && q->analysis < s->analyses &&
+                      s->analysis[q->analysis].kind == SCENE_MOTION;
+    const int seconds = timed && !fields_have(&x, "factor");
+    scene_set_curve(q, fields_text(&x, "name", timed ? "time" : "path"),
+                    fields_text(&x, "unit", seconds ? "s" : "1"), fields_number(&x, "factor", 1),
+                    fields_number(&x, "offset", 0));
 }
 
 /* Which stations: `at` a value, or last, max, min, curve. */

@@ -43,8 +43,9 @@ static int tell_unknown(const fields *f, const document_node *n, int place, int 
 {
     char name[64], remedy[FAULT_TEXT];
     snprintf(name, sizeof name, "%.*s", length, n->text + place);
+    const int is_time = strcmp(name, "time") == 0 || strcmp(name, "T") == 0;
     document_mistake(f->b->mistakes, n, place, "unknown name '%s'%s", name,
-                     mistakes_remedy(scope_nearest(f->names, name),
+                     mistakes_remedy(is_time ? "t" : scope_nearest(f->names, name),
                                      "; a function of time has t, pi, deg, functions such as sin "
                                      "and exp, and the names of 'parameters' and 'let'",
                                      remedy));

@@ -214,8 +214,8 @@ static const scene_key critical_point[] = {
     {"value", KEY_WORD, .words = "factor|coordinate", .summary = "what of it; the load factor"},
     {.name = NULL}};
 
-static const scene_key abscissa[] = {{"name", KEY_TEXT, .summary = "of the abscissa"},
-                                     {"unit", KEY_TEXT, .summary = "of the abscissa"},
+static const scene_key abscissa[] = {{"name", KEY_TEXT, .summary = "left out: path, or time"},
+                                     {"unit", KEY_TEXT, .summary = "left out: 1, of time s"},
                                      {"factor", KEY_NUMBER, .summary = "times the path parameter"},
                                      {"offset", KEY_NUMBER, .summary = "added to it"},
                                      {.name = NULL}};

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "cases/scene/along_path.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 2 };
@@ -98,7 +99,31 @@ static void momentum_line(FILE *to, const extent *e)
                   change_of(e, SCENE_LX));
 }
 
-void table_motion(FILE *to, const solve_result *r)
+/* A load that the path before the motion ends with at one factor, and the motion begins with at
+ * another one. */
+static void jump_lines(FILE *to, const scene *s, int analysis)
+{
+    const int before = s->analysis[analysis].follows;
+    if (before == SCENE_NONE || s->analysis[before].kind != SCENE_STATIC)
+        return;
+    const scene_path *path = &s->analysis[before].of.walk.path;
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *load = &s->load[i];
+        double value[3];
+        if (load->function.pieces == 0)
+            continue;
+        function_at(&load->function, 0, value);
+        const double held = along_path_factor(load, path->value[path->stations - 1]);
+        if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
+            paragraph_say(to, fprintf(to, "load: "), INDENT,
+                          "(%g, %g, %g) is at factor %g where the path ends, at %g where the "
+                          "motion begins: it jumps; one that acts in the motion only has path: "
+                          "[0, 1], factor: [0, 0] beside its function",
+                          load->vector[0], load->vector[1], load->vector[2], held, value[0]);
+    }
+}
+
+void table_motion(FILE *to, const scene *s, const solve_result *r)
 {
     extent e = {.record = r->motion};
     for (e.first = 0; e.first < r->motions; e.first = e.end) {
@@ -106,9 +131,12 @@ void table_motion(FILE *to, const solve_result *r)
         while (e.end < r->motions && r->motion[e.end].analysis == r->motion[e.first].analysis)
             e.end++;
         steps_line(to, &e);
+        jump_lines(to, s, r->motion[e.first].analysis);
         energy_line(to, &e);
         momentum_line(to, &e);
     }
     if (r->motions > 0)
-        fputs("  --format json has every step\n", to);
+        fputs("  --format json has every step and curve; 'beamwork motion' measures the error of "
+              "time\n",
+              to);
 }

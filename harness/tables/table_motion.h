@@ -6,7 +6,7 @@
 
 #include "harness/solver/result.h"
 
-/* Nothing where nothing moves. */
-void table_motion(FILE *to, const solve_result *);
+/* Nothing where nothing moves. Of loads it tells those that jump where the motion begins. */
+void table_motion(FILE *to, const scene *, const solve_result *);
 
 #endif

@@ -1,6 +1,7 @@
 #include "harness/tables/table_solution.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
@@ -30,6 +31,13 @@ static void predictions(FILE *to, const point *p, const truths *t)
     }
 }
 
+/* Has the quantity before it no value for the same reason? */
+static int is_told(const solve_result *r, int index)
+{
+    return index > 0 && r->quantity[index - 1].status != STATUS_OK &&
+           strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
+}
+
 /* To the digit that round-off leaves. */
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
@@ -41,7 +49,8 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     const int column = fprintf(to, "%-*s ", NAME, q->name) + VALUE + 1;
     if (v->status != STATUS_OK) {
         fprintf(to, "%*s ", VALUE, "-");
-        paragraph_write(to, column, INDENT, v->reason);
+        paragraph_write(to, column, INDENT,
+                        is_told(&one->cell[0].solve, index) ? "likewise" : v->reason);
         return;
     }
     table_known(to, VALUE, v->value, fabs(v->value) * fmax(v->rounding, least_rounding));
@@ -97,6 +106,6 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
             quantity_line(to, s, t, i);
     predictions(to, p, t);
     table_path_matrices(to, &c->solve);
-    table_motion(to, &c->solve);
+    table_motion(to, &p->scene, &c->solve);
     table_path_steps(to, &c->solve);
 }

@@ -3,10 +3,12 @@ import csv
 import io
 import json
 import math
+import re
 import unittest
 
 from harness.test import program
 from harness.test.program import ProgramTest
+from harness.test.scenes import LEAF
 
 FLIGHT = ("free_flight_space", "-f", "collocation", "-n", "4", "--set", "time=7.5")
 
@@ -109,6 +111,25 @@ class Words(ProgramTest):
         text = run(*asked).stdout
         self.assertIn("free_flight_space (time=7.5), collocation, n = 4, to 7.5 s", text)
         self.assertIn("for an error of 0.01:", text)
+
+    def test_consistent_mass_is_not_lumped_in_silence(self):
+        """By an integrator that has it lumped only there is no motion, and no order of it."""
+        scene = self.folder / "mine.yaml"
+        scene.write_text(LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
+analyses:
+  swing: {motion: {stations: [0.01], step: 1e-3, mass: consistent}}
+quantities:
+  tip: {displacement: {analysis: swing, node: tip, component: uy}}
+needs: [shear, rotary_inertia]
+""", encoding="utf-8")
+        text = run("--scene", scene, "-f", "beamw", "-n", "1", "--integrator",
+                   "alpha,conserving,explicit", "--step", "1e-3,5e-4,2.5e-4").stdout
+        text = re.sub(r"\n    (?! )", " ", text)
+        for name in ("conserving", "explicit"):
+            self.assertEqual(len(re.findall(rf"  {name} .*stops at 0 s", text)), 3, text)
+            self.assertIn(f"the integrator {name} has lumped mass only", text)
+            self.assertIn(f"order of {name}: undecided, no errors that tell it", text)
+        self.assertNotIn("nan", text)
 
     def test_refusals(self):
         for arguments, words in (

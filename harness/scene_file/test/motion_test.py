@@ -162,6 +162,40 @@ class MotionTest(SceneCase):
         listed = self.answered("list", "--scene", path).stdout
         self.assertIn("0.5 s after the begin of the motion", re.sub(r"\s+", " ", listed))
 
+    def test_loads_that_jump(self):
+        """Where the path holds what the motion has not: told, unless both agree."""
+        follows = ("bent: {static: {stations: [1]}}\n"
+                   "  swing: {motion: {stations: [0.25, 0.5], step: step, about: bent}}")
+        for time, told in (("time: 0", True), ("time: 1 - t", False),
+                           ("path: [0, 1], factor: [0, 0], time: 100*t", False)):
+            path = self.block(time, follows)
+            text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1).stdout
+            self.assertEqual("at factor 1 where the path ends, at 0" in re.sub(r"\s+", " ", text),
+                             told, text)
+
+    def test_time_is_t(self):
+        self.refused(2, "did you mean 't'?", "solve", "--scene", self.block("time: 2*time"))
+
+    def test_curves_are_over_time(self):
+        """Without words of the file; those of the file stay."""
+        path = self.block("time: 1")
+        for x, wanted in (("", ("time", "s")), (", x: {factor: 1000}", ("time", "1")),
+                          (", x: {name: a, unit: s}", ("a", "s"))):
+            path.write_text(path.read_text("utf-8").partition("  u:")[0] +
+                            "  u: {displacement: {analysis: swing, node: block, component: ux, "
+                            f"take: curve}}{x}}}\nneeds: [shear]\n", "utf-8")
+            curve, = self.record("solve", "--scene", path, "-f", "beamw", "-n", 1)["curves"]
+            self.assertEqual((curve["x_name"], curve["x_unit"]), wanted)
+
+    def test_one_reason_once(self):
+        """Quantities that have no value for the reason of the one before."""
+        path = self.block("time: 1")
+        late = "{rate: {analysis: swing, node: block, component: ux, at: 0.9}}"
+        path.write_text(path.read_text("utf-8").replace(
+            "needs:", f"  v: {late}\n  w: {late}\nneeds:"), "utf-8")
+        text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1).stdout
+        self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
+
 
 if __name__ == "__main__":
     unittest.main()
