@@ -19,7 +19,8 @@ static double length_at(const motion_record *r, int of)
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-static void steps_line(FILE *to, const extent *e)
+/* `end`: the last instant that is asked for. */
+static void steps_line(FILE *to, const extent *e, double end)
 {
     const outcome_step *begin = &e->record[e->first].at, *last = &e->record[e->end - 1].at;
     const int steps = e->end - e->first - 1;
@@ -45,6 +46,9 @@ static void steps_line(FILE *to, const extent *e)
     fprintf(text, ", %ld longer rejected", rejected);
     if (iterations > 0)
         fprintf(text, "; %.1f iterations a step, at most %d", (double)iterations / steps, most);
+    if (last->time < end * (1 - 1e-9))
+        fprintf(text, "; it ends before %g s: give a smaller step, a tolerance or more elements",
+                end);
     paragraph_end(&words, at, INDENT);
 }
 
@@ -130,8 +134,10 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
         e.end = e.first + 1;
         while (e.end < r->motions && r->motion[e.end].analysis == r->motion[e.first].analysis)
             e.end++;
-        steps_line(to, &e);
-        jump_lines(to, s, r->motion[e.first].analysis);
+        const int analysis = r->motion[e.first].analysis;
+        const scene_path *path = &s->analysis[analysis].of.motion.path;
+        steps_line(to, &e, path->value[path->stations - 1]);
+        jump_lines(to, s, analysis);
         energy_line(to, &e);
         momentum_line(to, &e);
     }
