@@ -33,7 +33,7 @@ class Rod:
     rotary: float
 
 
-def _lobatto(degree):
+def lobatto(degree):
     """Points and weights on [-1, 1], derivatives there of the polynomials through them."""
     p = legendre.Legendre.basis(degree)
     x = np.concatenate([[-1.0], np.sort(p.deriv().roots().real), [1.0]])
@@ -51,7 +51,7 @@ class Mesh:
     [points], lumped [nodes]."""
 
     def __init__(self, rod, elements, degree):
-        x, w, D = _lobatto(degree)
+        x, w, D = lobatto(degree)
         half, nodes = rod.length / elements / 2, elements * degree + 1
         self.G, self.V = np.zeros((2, elements * (degree + 1), nodes))
         self.weight = np.tile(w * half, elements)

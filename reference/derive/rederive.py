@@ -56,11 +56,22 @@ def is_solid(name):
     return name.startswith("solids.")
 
 
+def kind_of(name):
+    """Of the rows of a program: its KIND, or that of all others."""
+    module = importlib.import_module(f"reference.derive.{name}")
+    return getattr(module, "KIND", "independent" if is_solid(name) else "exact")
+
+
+def confirms(name):
+    """Whether the stored rows have another source, so that the program only holds them to their digits."""
+    return kind_of(name) == "consensus"
+
+
 def derived_rows(name, everything):
     """A program yields (case, parameters, quantity, value, unit[, relative uncertainty[, convention[, at[, formulation]]]]);
     with a formulation: the limit that it must have."""
     module = importlib.import_module(f"reference.derive.{name}")
-    kind, model = ("independent", "other") if is_solid(name) else ("exact", "same")
+    kind, model = kind_of(name), "other" if is_solid(name) else "same"
     for given in module.rows(everything) if is_solid(name) else module.rows():
         case, parameters, quantity, value, unit = given[:5]
         relative = given[5] if len(given) > 5 else 10.0 ** (1 - DIGITS) / 2
@@ -86,6 +97,9 @@ def key_of(folder, row):
 def write(names):
     derived, cases = {}, read_defaults(ROOT / "reference" / "defaults.csv")
     for name in names:
+        if confirms(name):
+            print(f"{name}: confirms rows of another source, which stay as they are")
+            continue
         for row, _ in derived_rows(name, everything=True):
             if folder_of(name) == scenes.FOLDER:
                 print(scenes.line_of(row))
@@ -110,8 +124,9 @@ def write(names):
 
 
 def differences(name, stored, seen, cases, everything):
-    """(rows that agree, lines that say what differs, rows of cases that do not exist yet) of one program."""
-    agree, lines, waiting = 0, [], 0
+    """(rows that agree, lines that say what differs, rows of cases that do not exist yet, largest difference over
+    the uncertainty) of one program."""
+    agree, lines, waiting, largest = 0, [], 0, 0.0
     for row, value in derived_rows(name, everything):
         folder = folder_of(name)
         if row["case"] not in (scenes.names() if folder == scenes.FOLDER else cases):
@@ -120,11 +135,13 @@ def differences(name, stored, seen, cases, everything):
         key = key_of(folder, row)
         seen.add(key)
         known = stored.get(key)
+        off = abs(value - float(known["value"])) if known else 0.0
+        if known and confirms(name):
+            largest = max(largest, off / float(known["uncertainty"]))
         if known is None:
             lines.append(f"{key}: derived {value:.15g} {row['unit']}, not in the table")
         elif known.get("unit",
-                       row["unit"]) != row["unit"] or abs(value - float(known["value"])) > float(
-                           known["uncertainty"]):
+                       row["unit"]) != row["unit"] or off > float(known["uncertainty"]):
             lines.append(
                 f"{key}: derived {value:.15g} {row['unit']}, stored {known['value']} +- {known['uncertainty']} {known.get('unit', '')}"
             )
@@ -134,17 +151,18 @@ def differences(name, stored, seen, cases, everything):
             )
         else:
             agree += 1
-    return agree, lines, waiting
+    return agree, lines, waiting, largest
 
 
 def read_stored():
-    """{key: row} of every row that a program derives."""
+    """{key: row} of every row that a program derives or confirms."""
     stored = {}
     for path in sorted(
             p for folder in FOLDERS for p in (ROOT / "reference" / folder).glob("*.csv")):
         stored.update({
             key_of(path.parent.name, row): row
             for row in read_table(path) if row["source"].startswith("reference/derive/")
+            or row["kind"] == "consensus"
         })
     return {**stored, **{key_of(scenes.FOLDER, row): row for row in scenes.stored()}}
 
@@ -159,15 +177,18 @@ def compare(names, whole, everything):
                 f"{name:<24} skipped: {deck.PROGRAM} is not installed (Debian package calculix-ccx)"
             )
             continue
-        good, lines, waiting = differences(name, stored, seen, cases, everything)
+        good, lines, waiting, largest = differences(name, stored, seen, cases, everything)
         agree, differ = agree + good, differ + len(lines)
         later = f" {waiting:5d} wait for their case" if waiting else ""
+        if confirms(name):
+            later += f"; off by {largest:.2g} of the uncertainty at most"
         print(f"{name:<24} {good:5d} rows agree {len(lines):5d} differ{later}", flush=True)
         for line in lines:
             print(f"  {line}")
     for key in [
             k for k, row in stored.items()
-            if whole and k not in seen and (everything or row["kind"] == "exact")
+            if whole and k not in seen and row["kind"] != "consensus" and
+            (everything or row["kind"] == "exact")
     ]:
         differ += 1
         print(f"  {key}: {stored[key]['kind']}, but no program derives it")

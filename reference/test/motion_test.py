@@ -5,7 +5,8 @@ import numpy as np
 from mpmath import cosh, cos, mp, mpf
 from scipy.integrate import solve_ivp
 
-from reference.derive import impulse, plane_motion, release, rigid_body, spin_up
+from reference.derive import (impulse, plane_motion, rederive, release, rigid_body, space_motion,
+                              spin_up)
 
 
 class RigidBody(unittest.TestCase):
@@ -71,6 +72,37 @@ class Plane(unittest.TestCase):
         q = rng.standard_normal((3, len(mesh.S)))
         force = plane_motion.forces(rod, mesh, q)
         self.assertLess(np.max(np.abs(force[:2].sum(axis=1))), 1e-9 * np.max(np.abs(force)))
+
+
+class Space(unittest.TestCase):
+
+    def test_thrown_rod_is_that_of_two_other_programs(self):
+        stored, at = rederive.read_stored(), f"time=1;{space_motion.ANY}"
+        (found, ) = space_motion.flight(8, 8, ("1", ))
+        for name, value in zip(("A_x", "A_y", "A_z", "B_x", "B_y", "B_z"), found):
+            row = stored[rederive.key_of("tables", {"case": "free_flight_space", "parameters": at,
+                                                    "quantity": name, "at": "", "formulation": "",
+                                                    "kind": space_motion.KIND})]
+            self.assertLess(abs(value - float(row["value"])), float(row["uncertainty"]), name)
+
+    def test_free_of_load_the_energy_stays(self):
+        mesh = space_motion.Mesh(space_motion.THROWN, 3, 5)
+        rng = np.random.default_rng(1)
+        U, S = rng.standard_normal((6, mesh.nodes)), rng.standard_normal((6, mesh.points))
+        step = 1e-3
+        dU, dS = (step * d for d in mesh.rates(U, S, 0))
+        # a quadratic form: its difference about the middle is its rate, exactly
+        change = mesh.energy(U + dU, S + dS) - mesh.energy(U - dU, S - dS)
+        parts = mesh.energy(U + dU, S) - mesh.energy(U - dU, S)
+        self.assertGreater(abs(parts), 1e-3)
+        self.assertLess(abs(change), 1e-10 * abs(parts))
+
+    def test_another_integrator(self):
+        mesh = space_motion.Mesh(space_motion.THROWN, 2, 4)
+        explicit, implicit = (space_motion.move(mesh, [0.5], method)[0]
+                              for method in ("DOP853", "Radau"))
+        for one, other in zip(explicit, implicit):
+            self.assertLess(np.max(np.abs(one - other)), 1e-7)
 
 
 class Closed(unittest.TestCase):
