@@ -1,4 +1,4 @@
-"""The rod that is thrown in space and flies freely: confirms values that other programs gave.
+"""Rods that move in space, the thrown one and the elbow: confirms values of other programs.
 
 Intrinsic equations (D.H. Hodges, Journal of Guidance, Control and Dynamics 26 (2003) 131): unknown
 are velocities v, w and strains g, k in axes of the section, no displacement and no rotation; with
@@ -11,6 +11,7 @@ cancel in the power cancel in each point, so that the energy of the rod changes 
 alone.  Places and quaternions of nodes follow by integration in time.  Time: the explicit
 Runge-Kutta method of order 8 by Dormand and Prince, begun anew at kinks of the load.
 """
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
@@ -21,25 +22,46 @@ from scipy.integrate import solve_ivp
 from reference.derive.plane_motion import ANY, LEAST, lobatto
 
 KIND = "consensus"  # of the stored rows that these are held against
-MESHES = ((10, 10), (8, 8))  # elements, degree
+MESHES = ((10, 10), (8, 8))  # elements of a leg, degree
 TIMES = ("1", "2", "2.5", "4", "5", "7", "7.5", "9", "10")
-KINKS = (2.5, 5.0)  # [s] of the load
+ELBOW_MESHES = ((4, 10), (3, 8))
+ELBOW_TIMES = ("1", "2")  # the first that are stored: axial waves are ten times as fast
 
 
 @dataclass(frozen=True)
 class Rod:
-    """From start along reach; EA = GA = force, EI = GJ = moment; mass [kg/m], inertia about an
-    axis across and along [kg m]."""
+    """From start along legs of one length; EA = GA = force, EI = GJ = moment; mass [kg/m], inertia
+    about an axis across and along [kg m]; a load in axes of space, force and moment of the time,
+    with kinks, at the end of a leg."""
     start: tuple
-    reach: tuple
+    legs: tuple
     force: float
     moment: float
     mass: float
     rotary: float
     polar: float
+    held: bool  # at the start
+    loaded: int
+    load: Callable
+    kinks: tuple
 
 
-THROWN = Rod((0, 0, 8), (6, 0, -8), 1e4, 500, 1, 10, 20)
+def _triangle(slope, peak):
+    """Of the time: up to the peak [s], and down as fast."""
+    return lambda t: slope * max(peak - abs(t - peak), 0.0)
+
+
+def _thrown(t):
+    factor = _triangle(80, 2.5)(t)
+    return factor * np.array([0.1, 0, 0]), factor * np.array([0, 1, 0.5])
+
+
+def _pushed(t):
+    return np.array([0, 0, _triangle(50, 1)(t)]), np.zeros(3)
+
+
+THROWN = Rod((0, 0, 8), ((6, 0, -8), ), 1e4, 500, 1, 10, 20, False, 0, _thrown, (2.5, 5.0))
+ELBOW = Rod((0, 0, 0), ((10, 0, 0), (0, 10, 0)), 1e6, 1e3, 1, 10, 20, True, 0, _pushed, (1.0, 2.0))
 
 
 def cross(a, b):
@@ -56,7 +78,7 @@ def turned(q, v):
 
 
 def _between(x, points):
-    """Values at points, from values at x, of the polynomials through them; derivatives likewise."""
+    """Values at points, from those at x, of the polynomials through them; derivatives likewise."""
     V = legendre.legvander(x, len(x) - 1)
     to = np.linalg.inv(V)
     basis = map(legendre.Legendre.basis, range(len(x)))
@@ -64,29 +86,36 @@ def _between(x, points):
     return legendre.legvander(points, len(x) - 1) @ to, slopes @ to
 
 
+def _each(tensors, vectors):
+    """Of nodes: [nodes, 3, 3] times [3, nodes]."""
+    return (tensors @ vectors.T[:, :, None])[:, :, 0].T
+
+
 class Mesh:
-    """Rod in elements: U [6, nodes] are velocities, S [6, points] strains."""
+    """Rod in elements of each leg: U [6, nodes] are velocities, S [6, points] strains."""
 
     def __init__(self, rod, elements, degree):
-        self.rod, length = rod, float(np.linalg.norm(rod.reach))
+        self.rod, legs = rod, np.array(rod.legs, float)
+        lengths = np.linalg.norm(legs, axis=1)
         x, w, _ = lobatto(degree)
         gauss, weight = legendre.leggauss(degree)
         at, slope = _between(x, gauss)
-        half, self.points = length / elements / 2, elements * degree
+        half, self.points = lengths[0] / elements / 2, len(legs) * elements * degree
         self.nodes = self.points + 1
+        self.ends = np.arange(len(legs) + 1) * elements * degree
+        self.tangent = np.repeat((legs / lengths[:, None]).T, elements * degree, axis=1)
         G, V = np.zeros((2, self.points, self.nodes))
-        self.lumped = np.zeros(self.nodes)
-        for e in range(elements):
-            rows, columns = slice(e * degree, (e + 1) * degree), slice(
-                e * degree, e * degree + degree + 1)
+        self.lumped, self.inertia = np.zeros(self.nodes), np.zeros((self.nodes, 3, 3))
+        for first in range(0, self.points, degree):
+            rows, columns = slice(first, first + degree), slice(first, first + degree + 1)
             G[rows, columns], V[rows, columns] = slope / half, at
-            self.lumped[columns] += w * half
-        self.weight = np.tile(weight * half, elements)
+            t, share = self.tangent[:, first], w * half
+            self.lumped[columns] += share
+            self.inertia[columns] += share[:, None, None] * (
+                rod.rotary * np.eye(3) + (rod.polar - rod.rotary) * np.outer(t, t))
+        self.weight = np.tile(weight * half, self.points // degree)
         self.up = np.concatenate([G, V]).T.copy()
         self.down = np.concatenate([G, V]) * np.tile(self.weight, 2)[:, None]
-        self.tangent = np.array(rod.reach)[:, None] / length
-        t = self.tangent[:, 0]
-        self.inertia = rod.rotary * np.eye(3) + (rod.polar - rod.rotary) * np.outer(t, t)
         self.flexible = np.linalg.inv(self.inertia)
 
     def forces(self, S):
@@ -101,67 +130,84 @@ class Mesh:
             [cross(k, here[:3]) + cross(e, here[3:]),
              cross(k, here[3:])])
         across = np.concatenate([cross(k, N[:3]), cross(k, N[3:]) + cross(e, N[:3])])
-        force = (np.concatenate([-N, across], axis=1) @ self.down + load) / self.lumped
+        force = np.concatenate([-N, across], axis=1) @ self.down + load
         v, w = U[:3], U[3:]
-        return np.concatenate([
-            force[:3] / self.rod.mass - cross(w, v),
-            self.flexible @ (force[3:] - cross(w, self.inertia @ w))
-        ]), strain
+        moment = force[3:] - cross(w, _each(self.inertia, w))
+        rate = np.concatenate([
+            force[:3] / (self.rod.mass * self.lumped) - cross(w, v),
+            _each(self.flexible, moment)
+        ])
+        if self.rod.held:
+            rate[:, 0] = 0
+        return rate, strain
 
     def energy(self, U, S):
         """Kinetic and elastic [J]."""
-        moving = self.rod.mass * (U[:3]**2).sum(0) + (U[3:] * (self.inertia @ U[3:])).sum(0)
-        return (self.lumped @ moving + self.weight @ (S * self.forces(S)).sum(0)) / 2
-
-
-def load(t):
-    """(force [N], moment [N m]) at the end of the thrown rod, in axes of space."""
-    factor = 80 * t if t < KINKS[0] else max(400 - 80 * t, 0.0)
-    return factor * np.array([0.1, 0, 0]), factor * np.array([0, 1, 0.5])
+        moving = self.rod.mass * self.lumped @ (U[:3]**2).sum(0)
+        turning = (U[3:] * _each(self.inertia, U[3:])).sum()
+        return (moving + turning + self.weight @ (S * self.forces(S)).sum(0)) / 2
 
 
 def move(mesh, times, method="DOP853", tolerance=1e-9):
-    """At each time (U, S, r, q): r [3, 2] and q [4, 2] of the first and the last node."""
-    n, m, ends = mesh.nodes, mesh.points, [0, -1]
-    sizes = np.cumsum([6 * n, 6 * m, 6])
+    """At each time (U, S, r, q): r [3, ends] and q [4, ends] of the start and the ends of legs."""
+    n, m, ends, rod = mesh.nodes, mesh.points, mesh.ends, mesh.rod
+    sizes = np.cumsum([6 * n, 6 * m, 3 * len(ends)])
 
     def parts(y):
         U, S, r, q = np.split(y, sizes)
-        return U.reshape(6, n), S.reshape(6, m), r.reshape(3, 2), q.reshape(4, 2)
+        return U.reshape(6, n), S.reshape(6, m), r.reshape(3, -1), q.reshape(4, -1)
 
     def rate(t, y):
         U, S, _, q = parts(y)
         q = q / np.sqrt((q**2).sum(0))
-        back = q[:, 1:] * [[1], [-1], [-1], [-1]]
+        back = q[:, [rod.loaded + 1]] * [[1], [-1], [-1], [-1]]
         loads, w = np.zeros_like(U), U[3:, ends]
-        loads[:, -1] = np.concatenate([turned(back, f[:, None])[:, 0] for f in load(t)])
+        loads[:, ends[rod.loaded + 1]] = np.concatenate(
+            [turned(back, f[:, None])[:, 0] for f in rod.load(t)])
         turning = np.concatenate([-(q[1:] * w).sum(0)[None], q[0] * w + cross(q[1:], w)]) / 2
         return np.concatenate(
             [f.ravel() for f in (*mesh.rates(U, S, loads), turned(q, U[:3, ends]), turning)])
 
-    start, reach = (np.array(v, float) for v in (mesh.rod.start, mesh.rod.reach))
-    place, turn = np.stack([start, start + reach], axis=1), np.array([[1., 1], *[[0, 0]] * 3])
+    place = np.cumsum([rod.start, *rod.legs], axis=0, dtype=float).T
+    turn = np.eye(4, 1) * np.ones(len(ends))
     y, begin, found = np.concatenate([np.zeros(sizes[1]), place.ravel(), turn.ravel()]), 0.0, {}
-    for stop in sorted({*times, *(t for t in KINKS if t < max(times))}):
+    for stop in sorted({*times, *(t for t in rod.kinks if t < max(times))}):
         y = solve_ivp(rate, (begin, stop), y, method, rtol=tolerance, atol=tolerance / 10).y[:, -1]
         begin, found[stop] = stop, parts(y)
     return [found[t] for t in times]
 
 
-@cache
-def flight(elements, degree, times=TIMES):
-    """(A_x, A_y, A_z, B_x, B_y, B_z, energy) at each time."""
-    mesh = Mesh(THROWN, elements, degree)
+def run(rod, elements, degree, times):
+    """At each time: places of the start and of the ends of legs, x, y, z of one after the other,
+    energy."""
+    mesh = Mesh(rod, elements, degree)
     return np.array([[*r.T.ravel(), mesh.energy(U, S)]
                      for U, S, r, _ in move(mesh, [float(t) for t in times])])
 
 
-def rows():
-    fine, coarse = (flight(*mesh) for mesh in MESHES)
-    for time, values, apart in zip(TIMES, fine, np.abs(fine - coarse)):
-        for name, value, doubt in zip(("A_x", "A_y", "A_z", "B_x", "B_y", "B_z", "energy"), values,
-                                      apart):
-            if name != "energy" or float(time) >= KINKS[1]:
-                unit = "J" if name == "energy" else "m"
-                yield ("free_flight_space", f"time={time};{ANY}", name, value, unit,
+@cache
+def flight(elements, degree, times=TIMES):
+    """(A_x, A_y, A_z, B_x, B_y, B_z, energy) at each time."""
+    return run(THROWN, elements, degree, times)
+
+
+@cache
+def elbow(elements, degree, times=ELBOW_TIMES):
+    """(elbow_x, elbow_y, elbow_z, tip_x, tip_y, tip_z, energy) at each time."""
+    return run(ELBOW, elements, degree, times)[:, 3:]
+
+
+def _rows(case, times, nodes, fine, coarse, kept):
+    names = [f"{node}_{axis}" for node in nodes for axis in "xyz"] + ["energy"]
+    for time, values, apart in zip(times, fine, np.abs(fine - coarse)):
+        for name, value, doubt in zip(names, values, apart):
+            if name != "energy" or kept(float(time)):
+                yield (case, f"time={time};{ANY}", name, value, "J" if name == "energy" else "m",
                        max(doubt, LEAST) / abs(value))
+
+
+def rows():
+    yield from _rows("free_flight_space", TIMES, "AB", *(flight(*mesh) for mesh in MESHES),
+                     lambda time: time >= THROWN.kinks[1])
+    yield from _rows("elbow", ELBOW_TIMES, ("elbow", "tip"),
+                     *(elbow(*mesh) for mesh in ELBOW_MESHES), lambda time: False)
