@@ -110,7 +110,7 @@ static void jump_lines(FILE *to, const scene *s, int analysis)
     const int before = s->analysis[analysis].follows;
     if (before == SCENE_NONE || s->analysis[before].kind != SCENE_STATIC)
         return;
-    const scene_path *path = &s->analysis[before].of.walk.path;
+    const scene_path *path = &scene_walk_of(&s->analysis[before])->path;
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
         double value[3];
