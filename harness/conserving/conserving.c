@@ -124,6 +124,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
     drive_at(m, from->state, record->path, NULL, to->v, to->a);
+    conserving_damped(s, from, h, to);
     to->time = record->path;
     to->work += conserving_impulses(s, from, h, to);
     double square = 0; /* of the trapezoidal rule: h^2/12 (a1 - a) */
@@ -165,13 +166,14 @@ static status allocate(conserving *s, fault *f)
     s->strains = m->springs > 0 && m->strains < SPRING_STRAINS ? SPRING_STRAINS : m->strains;
     const int nodes = m->nodes > 2 || m->springs == 0 ? m->nodes : 2;
     const size_t all = (size_t)s->all + 1, count = (size_t)deformable_count(s) + 1,
-                 strains = (size_t)s->strains;
+                 strains = (size_t)s->strains,
+                 elastic = m->damping != NULL ? (size_t)(m->elements * m->strains) : 0;
     s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + m->memory + 1;
     s->step = calloc(6 * all, sizeof *s->step);
-    s->W =
-        calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
-                   (size_t)(3 * SPRING_STRAINS * m->springs) + (size_t)(9 * s->of.masses->masses),
-               sizeof *s->W);
+    s->W = calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
+                      (size_t)(3 * SPRING_STRAINS * m->springs) +
+                      (size_t)(9 * s->of.masses->masses) + elastic,
+                  sizeof *s->W);
     if (s->of.c->options->newton != SOLVE_DISPLACEMENT)
         TRY(complement_alloc(m, &s->complement, f));
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
@@ -188,6 +190,8 @@ static status allocate(conserving *s, fault *f)
     s->slot = s->d + count * strains;
     s->spring = s->slot + count * (size_t)s->slot_size;
     s->massless = s->spring + (size_t)(3 * SPRING_STRAINS * m->springs);
+    if (elastic > 0)
+        s->elastic = s->massless + (size_t)(9 * s->of.masses->masses);
     TRY(conserving_massless(s, f));
     metric_of(m, s->weight);
     TRY(assemble_pattern_in_time(m, &pattern, f));

@@ -27,6 +27,8 @@ typedef struct conserving {
     double *C;        /* [deformables x strains^2] P''(e_n) */
     double *energy;   /* [deformables] P(e_n) */
     double *d;        /* [deformables x strains] */
+    double *elastic;  /* [elements x strains] P'(e_n), where damped members' states have more than
+                         that for a stress; NULL: none is damped */
     double *massless; /* [masses x 9] onto turns without inertia, in the frames' axes */
     double *spring;   /* [springs x 3 x SPRING_STRAINS] e and sigma of the end, sigma_n */
     double *slot;     /* [deformables x slot_size] what one keeps from its evaluation to update */
@@ -76,5 +78,7 @@ void conserving_increment(const conserving *, const model_state *from, double in
 
 /* conserving_work.c: what work and dissipation of `to` have become. */
 status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
+/* Rates of strains at the end; stresses of damped members gain eta S0 e'. */
+void conserving_damped(const conserving *, const instant *from, double h, instant *to);
 
 #endif

@@ -68,8 +68,10 @@ status conserving_begin(conserving *s, const instant *from, fault *f)
         for (int k = 0; k < count; k++) {
             index[k] = i + k;
             e[k] = from->state->e + (size_t)(i + k) * (size_t)m->strains;
-            out[k] = (stress_output){.energy = &s->energy[i + k],
-                                     .C = deformable_at(s, from, from->state, i + k).C_before};
+            out[k] = (stress_output){
+                .energy = &s->energy[i + k],
+                .sigma = s->elastic != NULL ? s->elastic + (size_t)((i + k) * m->strains) : NULL,
+                .C = deformable_at(s, from, from->state, i + k).C_before};
         }
         TRY(stress_of(m, count, index, e, from->state, out, f));
         i += count;

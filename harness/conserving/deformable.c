@@ -33,7 +33,7 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
     if (spring < 0) {
         of.el = &m->element[i];
         of.strains = m->strains;
-        of.before = from->state->sigma + first;
+        of.before = (s->elastic != NULL ? s->elastic : from->state->sigma) + first;
         of.e = now->e + first;
         of.sigma = now->sigma + first;
         of.length = m->kind[of.el->kind].length;

@@ -149,15 +149,11 @@ static status begin(stage *s, const scene_motion *how, instant *now, instant *ro
 {
     model *m = s->c->model;
     int massless;
-    if (now->strain != NULL) {
-        TRY(damping_rates(m, now->state, now->v, now->strain, f));
-        memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
-        damping_follow(m, 0, now->strain, kinematics_strains(now->state));
-    }
+    TRY(damping_now(m, now, f));
     drive_at(m, now->state, now->time, inc, now->v, now->a);
     TRY(check_drivers(m, inc, f));
     TRY(massless_count(m, s->masses, now->state, &massless, f));
-    return massless > 0 ? settle(s, zero, now, f)
+    return massless > 0 ? settle(s, zero, how->step, now, f)
                         : accelerate(s, how->step, now, room, inc, zero, f);
 }
 

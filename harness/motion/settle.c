@@ -3,11 +3,14 @@
 #include "harness/motion/settle.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
+#include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/scheme/damping.h"
 #include "harness/scheme/massless.h"
 #include "harness/scheme/stage.h"
 
@@ -37,7 +40,7 @@ static status forces(stage *s, instant *now, sparse *K, fault *f)
     return STATUS_OK;
 }
 
-static status improve(stage *s, const double zero[], instant *now, double *b,
+static status improve(stage *s, const double zero[], instant *now, double *b, double moved[],
                       advance_stress *stress, double *correction, fault *f)
 {
     model *m = s->c->model;
@@ -51,19 +54,21 @@ static status improve(stage *s, const double zero[], instant *now, double *b,
     TRY(massless_forces(m, s->masses, now->state, s->residual, f));
     TRY(stage_direction(s, 1, f));
     TRY(massless_motion(m, s->masses, now->state, s->dx, f));
+    for (int c = 0; c < s->free; c++)
+        moved[c] += s->dx[c];
     *correction = advance_state(m, now->state, s->dx, now->time, stress);
     m->counters.iterations++;
     return STATUS_OK;
 }
 
-static status balance(stage *s, const double zero[], instant *now, fault *f)
+static status balance(stage *s, const double zero[], instant *now, double moved[], fault *f)
 {
     const double wild = 4;
     double b = 0, correction;
     instant_recall(now, &s->arrival);
     for (int iteration = 1;; iteration++) {
         advance_stress stress;
-        TRY(improve(s, zero, now, &b, &stress, &correction, f));
+        TRY(improve(s, zero, now, &b, moved, &stress, &correction, f));
         arrival_take(correction, &stress, iteration == 1, &s->arrival);
         if (arrival_reached(&s->arrival))
             break;
@@ -78,11 +83,81 @@ static status balance(stage *s, const double zero[], instant *now, fault *f)
     return STATUS_OK;
 }
 
-status settle(stage *s, const double zero[], instant *now, fault *f)
+/* Nodes of elements that are damped for long, against a step h: what of them has no inertia comes
+ * to rest no sooner. of[free]: their coordinates; returns how many. */
+static int creeping(const model *m, double h, unsigned char of[])
+{
+    const double part = 1e-3;
+    int count = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        if (m->scene->member[el->member].damping < part * h)
+            continue;
+        for (int c = 0; c < el->columns; c++)
+            if (el->index[c] != NONE && el->index[c] < m->free) {
+                count += !of[el->index[c]];
+                of[el->index[c]] = 1;
+            }
+    }
+    return count;
+}
+
+/* Balance where positions that damping holds give way by a part of what they move in h. */
+static status give_way(stage *s, const double zero[], double h, double softness, instant *now,
+                       double moved[], fault *f)
+{
+    model *m = s->c->model;
+    memcpy(now->strain2, now->state->e, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
+    damping_follow(m, 1 / (softness * h), now->strain, now->strain2);
+    return balance(s, zero, now, moved, f);
+}
+
+/* First the rates, which a way tells that is long enough to have digits, and as if nothing had been
+ * moved the balance of what no damping holds. */
+static status creep(stage *s, const double zero[], double h, instant *now, double moved[],
+                    const unsigned char of[], fault *f)
+{
+    const double telling = 1e-6, nothing = 1e-12;
+    model *m = s->c->model;
+    model_state *before = NULL;
+    status outcome = kinematics_state_alloc(m, &before, f);
+    if (outcome == STATUS_OK) {
+        kinematics_state_copy(m, now->state, before);
+        outcome = give_way(s, zero, h, telling, now, moved, f);
+    }
+    if (outcome == STATUS_OK) {
+        massless_own_axes(m, now->state, moved);
+        for (int c = 0; c < s->free; c++)
+            now->v[c] += of[c] ? moved[c] / (telling * h) : 0;
+        kinematics_state_copy(m, before, now->state);
+        outcome = damping_now(m, now, f);
+    }
+    kinematics_state_free(before);
+    TRY(outcome);
+    TRY(give_way(s, zero, h, nothing, now, moved, f));
+    return damping_now(m, now, f);
+}
+
+static status find_balance(stage *s, const double zero[], double h, instant *now, fault *f)
+{
+    const model *m = s->c->model;
+    double *moved = calloc((size_t)s->free + 1, sizeof *moved);
+    unsigned char *of = calloc((size_t)s->free + 1, 1);
+    status outcome = fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    if (moved != NULL && of != NULL)
+        outcome = m->damping != NULL && creeping(m, h, of) > 0
+                      ? creep(s, zero, h, now, moved, of, f)
+                      : balance(s, zero, now, moved, f);
+    free(moved);
+    free(of);
+    return outcome;
+}
+
+status settle(stage *s, const double zero[], double h, instant *now, fault *f)
 {
     model *m = s->c->model;
     memset(now->a, 0, (size_t)s->free * sizeof *now->a);
-    TRY(balance(s, zero, now, f));
+    TRY(find_balance(s, zero, h, now, f));
     TRY(forces(s, now, NULL, f));
     TRY(massless_accelerate(m, s->masses, now->state, s->residual, now->a, f));
     memcpy(now->algorithm, now->a, (size_t)s->all * sizeof *now->a);

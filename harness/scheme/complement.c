@@ -11,7 +11,7 @@ enum { MOST = ELEMENT_MAX_STRAINS };
 
 struct complement {
     model *m;
-    double *before; /* [elements x strains] */
+    double *before; /* [elements x strains], from which stresses were advanced */
     double settled; /* the correction after which all elements agreed; 0: not in this step */
 };
 
@@ -169,6 +169,28 @@ static int follow(way *w, const double goal[])
     return part >= shortest;
 }
 
+/* The stresses that the strains of an element are to have: those of the state, or where damping has
+ * a share in these, what the strains alone have of them: P'(e) + P''(e) de, e those before the
+ * increment. NULL: cannot be told. */
+static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
+{
+    model *m = c->m;
+    const size_t first = (size_t)element * (size_t)m->strains;
+    double C[MOST * MOST], de[MOST], more[MOST];
+    if (m->damping == NULL || m->scene->member[m->element[element].member].damping == 0)
+        return s->sigma + first;
+    m->counters.stress_evaluations++;
+    if (m->type->stress(m->kind[m->element[element].kind].data, c->before + first, NULL,
+                        &(stress_output){.sigma = room, .C = C}) != STATUS_OK)
+        return NULL;
+    for (int k = 0; k < m->strains; k++)
+        de[k] = s->e[first + (size_t)k] - c->before[first + (size_t)k];
+    dense_mul_vec(m->strains, m->strains, C, de, more);
+    for (int k = 0; k < m->strains; k++)
+        room[k] += more[k];
+    return room;
+}
+
 static void find(const complement *c, int element, const double sigma[], double e[])
 {
     const size_t n = (size_t)c->m->strains;
@@ -183,9 +205,9 @@ static void find(const complement *c, int element, const double sigma[], double 
         memcpy(e, w.e, n * sizeof *e);
 }
 
-/* Elements of one go whose stresses are those of the state already. */
+/* Elements of one go whose stresses are those asked for already. */
 static void settled(const complement *c, const model_state *s, int count, const int index[],
-                    int is[])
+                    const double *const goal[], int is[])
 {
     const model *m = c->m;
     const element_data *data[CHUNK_MOST];
@@ -203,11 +225,10 @@ static void settled(const complement *c, const model_state *s, int count, const 
         m->type->stress_many(count, data, e, inner, out, outcome);
     else
         outcome[0] = m->type->stress(data[0], e[0], NULL, &out[0]);
-    for (int k = 0; k < count; k++) {
-        const double *goal = &s->sigma[(size_t)index[k] * (size_t)m->strains];
-        is[k] = outcome[k] == STATUS_OK &&
-                gap_of(m->strains, goal, sigma[k], gap) <= near_of(m->strains, goal);
-    }
+    for (int k = 0; k < count; k++)
+        is[k] = goal[k] == NULL ||
+                (outcome[k] == STATUS_OK &&
+                 gap_of(m->strains, goal[k], sigma[k], gap) <= near_of(m->strains, goal[k]));
 }
 
 /* Returns whether all of them were settled. */
@@ -216,11 +237,15 @@ static int follow_stresses(const complement *c, model_state *s, int first, int e
     const size_t n = (size_t)c->m->strains;
     unsigned char done[CHUNK_WINDOW] = {0};
     int index[CHUNK_MOST], is[CHUNK_MOST], count, all = 1;
+    double room[CHUNK_MOST][MOST];
+    const double *goal[CHUNK_MOST];
     while ((count = chunk_next(c->m, first, end, done, index)) > 0) {
-        settled(c, s, count, index, is);
+        for (int k = 0; k < count; k++)
+            goal[k] = goal_of(c, s, index[k], room[k]);
+        settled(c, s, count, index, goal, is);
         for (int k = 0; k < count; k++)
             if (!is[k]) {
-                find(c, index[k], &s->sigma[(size_t)index[k] * n], &s->e[(size_t)index[k] * n]);
+                find(c, index[k], goal[k], &s->e[(size_t)index[k] * n]);
                 all = 0;
             }
     }

@@ -7,6 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/inertia/forms.h"
+#include "harness/model/kinematics.h"
 
 int damping_acts(const scene *s)
 {
@@ -91,6 +92,16 @@ status damping_rates(const model *m, const model_state *s, const double v[], dou
         dense_mul_vec(m->strains, m->coordinates, J, local, rate + (size_t)i * (size_t)m->strains);
     }
     free(dx);
+    return STATUS_OK;
+}
+
+status damping_now(model *m, instant *now, fault *f)
+{
+    if (now->strain == NULL)
+        return STATUS_OK;
+    TRY(damping_rates(m, now->state, now->v, now->strain, f));
+    memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
+    damping_follow(m, 0, now->strain, kinematics_strains(now->state));
     return STATUS_OK;
 }
 

@@ -17,6 +17,8 @@ void damping_end(model *, mesh_damping *);
 void damping_follow(model *, double g, const double known[], const double from[]);
 /* e' = J x' at rates v[free + driven] -> rate[elements x strains]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
+/* Rates of the strains by those of the coordinates, which stay; nothing where nothing is damped. */
+status damping_now(model *, instant *, fault *);
 /* Power that rates of strains lose [W]. */
 double damping_power(const model *, const double rate[]);
 

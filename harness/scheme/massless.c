@@ -153,12 +153,8 @@ status massless_stiffest(const model *m, const carried *all, const model_state *
     return STATUS_OK;
 }
 
-status massless_accelerate(const model *m, const carried *all, const model_state *s,
-                           const double force[], double a[], fault *f)
+void massless_own_axes(const model *m, const model_state *s, double a[])
 {
-    wish of = {.task = ACCELERATE, .given = force, .changed = a};
-    int count;
-    TRY(walk(m, all, s, &of, &count, f));
     for (int i = 0; i < m->vertices; i++) {
         const int *at = m->vertex[i].coordinate + SCENE_RX;
         double R[9], turning[3], own[3];
@@ -172,5 +168,14 @@ status massless_accelerate(const model *m, const carried *all, const model_state
         for (int k = 0; k < 3; k++)
             a[at[k]] = own[k];
     }
+}
+
+status massless_accelerate(const model *m, const carried *all, const model_state *s,
+                           const double force[], double a[], fault *f)
+{
+    wish of = {.task = ACCELERATE, .given = force, .changed = a};
+    int count;
+    TRY(walk(m, all, s, &of, &count, f));
+    massless_own_axes(m, s, a);
     return STATUS_OK;
 }
