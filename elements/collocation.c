@@ -1,6 +1,7 @@
 /* The geometrically exact beam with warping solved inside the element, by Gauss collocation with
  * exact equilibrium of forces (elements/exact/stages.h).  What the stages need is unknown of the
  * element itself, so that the mixed Newton iteration of the structure solves for it on the way. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -111,11 +112,20 @@ static void geometric(const element_data *data, const double sigma[], double G[]
     }
 }
 
+/* What changes of forces are relative to. A force that is stiffness times elongation is known to
+ * its rounding alone: where that is more than 1e-9 of the bending's own unit, against which
+ * iterations end, it is not to keep them from ending. */
+static double force_scale(const beam_constants *c)
+{
+    const double told = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;
+    return fmax(1, DBL_EPSILON / told * stiffness);
+}
+
 static double update(const element_data *data, const double de[], const double memory[],
                      double inner[])
 {
     const exact_stages *s = &data->stages;
-    double largest = 0, force = 1;
+    double largest = 0, force = force_scale(&s->c);
     for (int i = 0; i < s->unknowns; i++) {
         double change = -memory[i * (OUTER + 1) + OUTER];
         for (int j = 0; j < OUTER; j++)

@@ -9,6 +9,7 @@
 #include "harness/motion/test/moving.h"
 
 extern const case_type case_pendulum;
+extern const element_type element_collocation;
 
 enum { ELEMENTS = 4 };
 
@@ -17,7 +18,8 @@ typedef struct swing {
     long steps;
 } swing;
 
-static swing take(const formulation *with, scene_scheme by, double stiffening, double step)
+static swing take(const formulation *with, scene_scheme by, double stiffening, double step,
+                  int elements)
 {
     char parameters[64];
     solve_options options;
@@ -28,11 +30,11 @@ static swing take(const formulation *with, scene_scheme by, double stiffening, d
     fault f = {""};
     snprintf(parameters, sizeof parameters, "stiffening=%g", stiffening);
     moving_case(&case_pendulum, parameters, &s);
-    moving_add(&s, by, step, MOVING_STATIONS * step);
+    moving_add(&s, by, step, (elements == 1 ? 3 : 1) * MOVING_STATIONS * step);
     memset(&options, 0, sizeof options);
     memset(&result, 0, sizeof result);
     const model_request wanted = {
-        .scene = &s, .type = with->type, .options = with->option, .elements = ELEMENTS};
+        .scene = &s, .type = with->type, .options = with->option, .elements = elements};
     if (model_alloc(&wanted, &m, &f) == STATUS_OK) {
         const status outcome = solve_scene(&s, m, &options, &result, &f);
         gsl_test(outcome != STATUS_OK, "%s, EA x %g: %s", with->type->name, stiffening, f.text);
@@ -50,16 +52,27 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
 {
     formulation with;
     formulation_default(type, &with);
-    const swing soft = take(&with, by, 1, step);
+    const swing soft = take(&with, by, 1, step, ELEMENTS);
     for (double stiffening = 1e3; isfinite(soft.iterations) && stiffening < 1e7;
          stiffening *= 1e3) {
-        const swing stiff = take(&with, by, stiffening, step);
+        const swing stiff = take(&with, by, stiffening, step, ELEMENTS);
         gsl_test(stiff.steps != soft.steps, "%s, EA x %g: %ld steps, soft %ld", type->name,
                  stiffening, stiff.steps, soft.steps);
         gsl_test(!(stiff.iterations < times * soft.iterations + more),
                  "%s, EA x %g: %.2f iterations a step, soft %.2f", type->name, stiffening,
                  stiff.iterations, soft.iterations);
     }
+}
+
+/* One element, whose forces have no more digits than eps EA leaves, while its moments do. */
+static void one_element(void)
+{
+    formulation with;
+    formulation_default(&element_collocation, &with);
+    const swing stiff = take(&with, SCENE_CONSERVING, 1e6, 0.002, 1);
+    gsl_test(stiff.steps != 3 * MOVING_STATIONS, "one element, EA x 1e6: %ld steps", stiff.steps);
+    gsl_test(!(stiff.iterations < 8), "one element, EA x 1e6: %g iterations a step",
+             stiff.iterations);
 }
 
 int main(void)
@@ -69,5 +82,6 @@ int main(void)
         compare(registry_formulations[i], SCENE_RADAU, 0.02, 1, 1);
         compare(registry_formulations[i], SCENE_CONSERVING, 0.005, 0, 1.5);
     }
+    one_element();
     return gsl_test_summary();
 }
