@@ -113,13 +113,15 @@ static status give_way(stage *s, const double zero[], double h, double softness,
 }
 
 /* First the rates, which a way tells that is long enough to have digits, and as if nothing had been
- * moved the balance of what no damping holds. */
+ * moved the balance of what no damping holds. What iterations had left between D(x) and e would be
+ * a way, too. */
 static status creep(stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {
-    const double telling = 1e-6, nothing = 1e-12;
+    const double telling = 1e-6, nothing = 1e-9;
     model *m = s->c->model;
     model_state *before = NULL;
+    TRY(linearise_make_compatible(m, now->state, f));
     status outcome = kinematics_state_alloc(m, &before, f);
     if (outcome == STATUS_OK) {
         kinematics_state_copy(m, now->state, before);
