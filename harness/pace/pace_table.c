@@ -93,7 +93,7 @@ static void print_level(FILE *to, const pace *p, int group, double level)
     double behind = 0;
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
-    fprintf(text, "for an error of %g:", level);
+    fprintf(text, "soonest to an error of %g, the first three:", level);
     for (int place = 0; place < 3; place++) {
         pace_reach best = {NULL, INFINITY};
         for (int i = 0; i < count; i++) {

@@ -1,4 +1,6 @@
 /* Motions in time, and what other analyses are about. */
+#include <string.h>
+
 #include "harness/catalogue/choice.h"
 #include "harness/scene_file/builder.h"
 
@@ -52,6 +54,22 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              "%s is of the integrator alpha; leave it out", key[i]);
 }
 
+/* Parameter sets of alpha have names of their own where integrators are compared (motion -u). */
+static scene_scheme scheme_of(const fields *f)
+{
+    static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};
+    const char *given = fields_text(f, "integrator", "");
+    for (int i = 0; i < 2; i++)
+        if (strcmp(given, set[i][0]) == 0) {
+            document_mistake(f->b->mistakes, document_find(f->map, "integrator"), 0,
+                             "integrator: %s is alpha with a parameter; give 'integrator: alpha' "
+                             "and '%s'",
+                             given, set[i][1]);
+            return SCENE_ALPHA;
+        }
+    return (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA);
+}
+
 static double last_of(int count, const double value[])
 {
     return count > 0 && value[count - 1] > 0 ? value[count - 1] : 1;
@@ -72,10 +90,10 @@ void builder_in_time(const fields *f, int index)
     double *stations;
     const fields start = fields_below(f, "start");
     const int count = fields_values(f, "stations", &stations);
-    scene_motion how = {
-        .scheme = (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA),
-        .alpha = alpha_of(f),
-        .mass = (scene_mass)fields_word(f, "mass", SCENE_MASS_CHOICES, SCENE_LUMPED)};
+    scene_motion how = {.scheme = scheme_of(f),
+                        .alpha = alpha_of(f),
+                        .mass =
+                            (scene_mass)fields_word(f, "mass", SCENE_MASS_CHOICES, SCENE_LUMPED)};
     check_parameters(f, how.scheme);
     read_steps(f, last_of(count, stations), &how);
     fields_vector(&start, "velocity", 3, how.start.velocity);

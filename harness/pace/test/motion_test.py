@@ -110,7 +110,7 @@ class Words(ProgramTest):
                          [r["error"] for r in record["cases"][0]["runs"]])
         text = run(*asked).stdout
         self.assertIn("free_flight_space (time=7.5), collocation, n = 4, to 7.5 s", text)
-        self.assertIn("for an error of 0.01:", text)
+        self.assertIn("soonest to an error of 0.01, the first three:", text)
 
     def test_consistent_mass_is_not_lumped_in_silence(self):
         """By an integrator that has it lumped only there is no motion, and no order of it."""
