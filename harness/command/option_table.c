@@ -67,7 +67,7 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, ends)},
     {"restart", '5', "FILE",
      "go on from where the motions of another run stopped, kept by its --ends: the same scene with "
-     "later stations, bit for bit as one run of steps that stay",
+     "later stations, with the bits of one run where steps stay and end there",
      offsetof(command_request, restart)},
     {"markdown", 'M', "FILE", "summary as Markdown, for a pull request",
      offsetof(command_request, markdown)},

@@ -1,4 +1,4 @@
-"""Motions that another run goes on with: as one run, bit for bit where steps stay."""
+"""Motions that another run goes on with: as one run, bit for bit where steps stay and end there."""
 import csv
 import unittest
 

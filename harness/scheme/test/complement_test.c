@@ -21,7 +21,7 @@ static model *leaf(const element_type *type, scene *s)
     static const double y[3] = {0, 1, 0};
     model *m = NULL;
     fault f = {""};
-    const section_spec spec = section_spec_rectangle(2e11, 0.3, 0.04, 0.0005);
+    const section_spec spec = section_spec_rectangle(2e11, 77e9, 0.04, 0.0005);
     scene_init(s, "leaf");
     const int p = scene_add_node(s, 0, 0, 0), q = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, p, q, scene_add_section(s, &spec), y);
