@@ -47,7 +47,9 @@ def best_view(s, states):
                     for k in states),
                    default=0)
 
-    if any(s.kind[k] == FRAME for k in states) and np.ptp(s.position[..., 2]) < FLAT * size_of(s):
+    moved = np.abs(s.position - s.position[0]).max(axis=(0, 1))
+    if any(s.kind[k] == FRAME for k in states) and moved[2] < moved[:2].max() and \
+            np.ptp(s.position[..., 2]) < FLAT * size_of(s):
         return View(-90, 74)  # a motion in the plane of x and y: from above, x to the right
     side, above = View(), View(elevation=52)
     return above if seen(above) > 1.25 * seen(side) else side

@@ -52,9 +52,12 @@ class Geometry(unittest.TestCase):
 
 
     def test_view_of_a_plane(self):
-        """A motion in the plane of x and y is looked at from above, x to the right; in space not."""
+        """A motion in the plane of x and y is looked at from above, x to the right; in space not,
+        nor one along z, however small."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
-        for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24))):
+        lifted = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0.01]]], float)
+        for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24)),
+                               (lifted, (-58, 24))):
             s = types.SimpleNamespace(kind=["undeformed", shapes.FRAME], position=points)
             view = pictures.best_view(s, [1])
             self.assertEqual(view.angles, wanted)
