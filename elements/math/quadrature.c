@@ -1,37 +1,33 @@
 #include "elements/math/quadrature.h"
 
 #include <assert.h>
+#include <gsl/gsl_integration.h>
 #include <math.h>
+#include <pthread.h>
 
-#include "elements/math/pi.h"
+/* GSL has these to full precision; others it computes. They are read-only once they are there. */
+static gsl_integration_glfixed_table *tables[QUADRATURE_MAX_POINTS + 1];
+static pthread_once_t prepared = PTHREAD_ONCE_INIT;
 
-/* Legendre's polynomial of degree n at z, |z| < 1, and its slope. */
-static long double legendre(int n, long double z, long double *slope)
+static void prepare(void)
 {
-    long double p = 1, before = 0;
-    for (int k = 1; k <= n; k++) {
-        const long double next = ((2 * k - 1) * z * p - (k - 1) * before) / k;
-        before = p;
-        p = next;
-    }
-    *slope = n * (z * p - before) / (z * z - 1);
-    return p;
+    for (int n = 1; n <= QUADRATURE_MAX_POINTS; n++)
+        if (quadrature_is_tabulated(n))
+            tables[n] = gsl_integration_glfixed_table_alloc((size_t)n);
+}
+
+int quadrature_is_tabulated(int n)
+{
+    return (n >= 1 && n <= 20) || n == 32 || n == 64;
 }
 
 void quadrature_points(int n, double x[], double w[])
 {
-    enum { STEPS = 6 }; /* of Newton's method, from Tricomi's estimate: it doubles four digits */
-    assert(n > 0 && n <= QUADRATURE_MAX_POINTS);
-    for (int i = 0; i <= (n - 1) / 2; i++) {
-        const int middle = 2 * i + 1 == n;
-        long double z = middle ? 0 : cosl((long double)PI * (i + 0.75L) / (n + 0.5L)), slope;
-        for (int step = 0; step < STEPS && !middle; step++) {
-            const long double p = legendre(n, z, &slope);
-            z -= p / slope;
-        }
-        legendre(n, z, &slope);
-        x[i] = 0.5 - 0.5 * (double)z;
-        x[n - 1 - i] = 0.5 + 0.5 * (double)z;
-        w[i] = w[n - 1 - i] = 0.5 * (double)(2 / ((1 - z * z) * slope * slope));
-    }
+    assert(quadrature_is_tabulated(n));
+    pthread_once(&prepared, prepare);
+    for (int i = 0; i < n; i++)
+        if (tables[n] != NULL)
+            gsl_integration_glfixed_point(0, 1, (size_t)i, &x[i], &w[i], tables[n]);
+        else /* out of memory: no number rather than a wrong one */
+            x[i] = w[i] = NAN;
 }

@@ -1,44 +1,102 @@
-/* The one Gauss rule: GSL's tables to the last digit, and monomials up to its degree. */
+/* The one Gauss rule: points are the roots of Legendre's polynomials and weights those of its
+ * slopes to the last digit, monomials are exact up to its degree, and what threads and forked
+ * processes ask for at once is the same. */
 #include <float.h>
-#include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <pthread.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "elements/math/quadrature.h"
 
-static void against_tables(int n, const double x[], const double w[])
+enum { MOST = QUADRATURE_MAX_POINTS, THREADS = 8 };
+
+typedef struct rule {
+    double x[MOST], w[MOST];
+} rule;
+
+/* How far points and weights are from Newton's correction and from 2/((1 - z^2) P'^2), in long
+ * double. */
+static void against_polynomial(int n, const rule *r)
 {
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc((size_t)n);
     double apart = 0;
     for (int i = 0; i < n; i++) {
-        double at, weight;
-        gsl_integration_glfixed_point(0, 1, (size_t)i, &at, &weight, table);
-        apart = fmax(apart, fmax(fabs(x[i] - at), fabs(w[i] / weight - 1)));
+        const long double z = 2 * (long double)r->x[i] - 1;
+        long double p = 1, before = 0;
+        for (int k = 1; k <= n; k++) {
+            const long double next = ((2 * k - 1) * z * p - (k - 1) * before) / k;
+            before = p;
+            p = next;
+        }
+        const long double slope = n * (z * p - before) / (z * z - 1), step = p / slope,
+                          root = z - step, weight = 1 / ((1 - root * root) * slope * slope),
+                          change =
+                              2 * root / (1 - root * root) * step; /* of the slope, by the ODE */
+        apart = fmax(apart, fabs((double)(step / 2)));
+        apart = fmax(apart, fabs((double)(r->w[i] / weight * (1 - 2 * change) - 1)));
     }
-    gsl_integration_glfixed_table_free(table);
-    gsl_test(!(apart <= 2 * DBL_EPSILON), "%d points: %.1e from the tables", n, apart);
+    gsl_test(!(apart <= 2 * DBL_EPSILON), "%d points: %.1e from the polynomial's", n, apart);
 }
 
-static void monomials(int n, const double x[], const double w[])
+static void monomials(int n, const rule *r)
 {
     double worst = 0;
     for (int degree = 0; degree < 2 * n; degree++) {
         double sum = 0;
         for (int i = 0; i < n; i++)
-            sum += w[i] * pow(x[i], degree);
+            sum += r->w[i] * pow(r->x[i], degree);
         worst = fmax(worst, fabs(sum * (degree + 1) - 1));
     }
     gsl_test(!(worst <= 1e-13), "%d points: %.1e of a monomial", n, worst);
+    for (int i = 1; i < n; i++)
+        gsl_test(!(r->x[i - 1] < r->x[i]), "%d points: point %d is in order", n, i);
+}
+
+static void *ask(void *out)
+{
+    rule *r = out;
+    quadrature_points(16, r->x, r->w);
+    return NULL;
+}
+
+/* Nobody has asked before. */
+static void at_once(void)
+{
+    static rule r[THREADS + 1], forked;
+    pthread_t thread[THREADS];
+    int started = 0, apart = 0, ends[2], ended = -1;
+    while (started < THREADS && pthread_create(&thread[started], NULL, ask, &r[started]) == 0)
+        started++;
+    const pid_t child = pipe(ends) == 0 ? fork() : -1;
+    if (child == 0) {
+        ask(&forked);
+        _exit(write(ends[1], &forked, sizeof forked) != (ssize_t)sizeof forked);
+    }
+    const ssize_t got = child > 0 ? read(ends[0], &forked, sizeof forked) : -1;
+    if (child > 0)
+        waitpid(child, &ended, 0);
+    for (int i = 0; i < started; i++)
+        pthread_join(thread[i], NULL);
+    ask(&r[THREADS]);
+    for (int i = 0; i < started; i++)
+        apart += memcmp(&r[i], &r[THREADS], sizeof r[i]) != 0;
+    gsl_test(started < THREADS || apart > 0, "%d threads ask at once, %d differ", started, apart);
+    gsl_test(ended != 0 || got != (ssize_t)sizeof forked ||
+                 memcmp(&forked, &r[THREADS], sizeof forked) != 0,
+             "a process forked meanwhile has the same");
 }
 
 int main(void)
 {
-    double x[QUADRATURE_MAX_POINTS], w[QUADRATURE_MAX_POINTS];
-    for (int n = 1; n <= QUADRATURE_MAX_POINTS; n++) {
-        quadrature_points(n, x, w);
-        if (n <= 20) /* GSL tabulates these; beyond, it computes some in double precision */
-            against_tables(n, x, w);
-        monomials(n, x, w);
-    }
+    rule r;
+    at_once();
+    for (int n = 1; n <= QUADRATURE_MAX_POINTS; n++)
+        if (quadrature_is_tabulated(n)) {
+            quadrature_points(n, r.x, r.w);
+            against_polynomial(n, &r);
+            monomials(n, &r);
+        }
     return gsl_test_summary();
 }

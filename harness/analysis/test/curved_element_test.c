@@ -17,13 +17,7 @@
 #include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 
-enum {
-    STRAINS = ELEMENT_MAX_STRAINS,
-    INNER = 64,
-    MEMORY = 4096,
-    ARCS = 60,
-    POINTS = QUADRATURE_MAX_POINTS
-};
+enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, POINTS = 32 };
 
 typedef struct subject {
     const formulation *chosen;
