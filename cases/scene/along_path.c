@@ -1,4 +1,5 @@
 #include "cases/scene/along_path.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 
@@ -56,7 +57,8 @@ status along_path_proportional(const scene *s, fault *f)
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
         if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor))
-            return fault_set(f, STATUS_REFUSED, "load %d: %s", i, words);
+            return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_LOADS, i).text,
+                             words);
     }
     for (int d = 0; d < s->drivers; d++) {
         const scene_driver *driver = &s->driver[d];

@@ -128,6 +128,7 @@ typedef struct scene_analysis {
         scene_continuation continuation;
         scene_motion motion;
     } of;
+    char name[SCENE_NAME]; /* "": none */
 } scene_analysis;
 
 int scene_add_linear(scene *s);

@@ -1,4 +1,5 @@
 #include "cases/scene/edit.h"
+#include "cases/scene/names.h"
 #include "cases/scene/unit.h"
 #include "elements/section/taper.h"
 
@@ -60,9 +61,9 @@ static status reverse(scene *s, fault *f)
         const int p = m->p, warp_p = m->warp_p, section_p = m->section;
         if (m->curvature[0] != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "member %d: initially twisted, its y axis at the other end is not "
-                             "known here; leave its order of nodes",
-                             i);
+                             "%s: initially twisted, its y axis at the other end is not known "
+                             "here; leave its order of nodes",
+                             scene_called(s, SCENE_MEMBERS, i).text);
         m->p = m->q;
         m->q = p;
         m->section = m->section_q;

@@ -62,6 +62,7 @@ typedef struct scene_node {
     double axis[3][3]; /* of the sequence; a zero axis ends it. Of a fork: the section's own axis,
                           and the web's direction */
     scene_body body;
+    char name[SCENE_NAME]; /* "": none, as of every entry; cases/scene/names.h */
 } scene_node;
 
 /* What an end of a member does not pass on to its node, in the member's axes there (y as in
@@ -90,6 +91,7 @@ typedef struct scene_member {
     int divisions;            /* 0: the mesh's -n; else this many elements always */
     double damping; /* of motions: stresses gain damping x stiffness at rest x rates of the
                        strains [s] */
+    char name[SCENE_NAME];
 } scene_member;
 
 /* Between two nodes, or a node and the ground: energy 1/2 d^T K d with d of the six components of
@@ -99,6 +101,7 @@ typedef struct scene_member {
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
     double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
+    char name[SCENE_NAME];
 } scene_spring;
 
 /* One scalar that moves coordinates; piecewise linear in the path parameter between its stations.
@@ -136,13 +139,15 @@ typedef struct scene_load {
     int stations; /* 0: proportional to the path parameter (factor = path) */
     double *path, *factor;
     scene_function function; /* the factor over time in place of them; no pieces: none */
+    char name[SCENE_NAME];
 } scene_load;
 
-/* What a section came to, and of which description. */
+/* What a section is called and came to, and of which description. */
 typedef struct scene_computed {
     int known;
     section_spec of;
     section constants;
+    char name[SCENE_NAME];
 } scene_computed;
 
 struct scene {

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "cases/scene/validate_motion.h"
 #include "cases/scene/validate_node.h"
 #include "cases/scene/validate_release.h"
@@ -19,9 +20,9 @@ static status check_matrices(const scene *s, int i, fault *f)
         return STATUS_OK;
     feature_words(s->needs & other, words, sizeof words);
     return fault_set(f, STATUS_REFUSED,
-                     "section %d: its matrices do not say what %s comes to; take that from the "
-                     "needs, or give another section",
-                     i, words);
+                     "%s: its matrices do not say what %s comes to; take that from the needs, or "
+                     "give another section",
+                     scene_called(s, SCENE_SECTIONS, i).text, words);
 }
 
 static status check_taper(const scene *s, int i, fault *f)
@@ -34,7 +35,8 @@ static status check_taper(const scene *s, int i, fault *f)
             return STATUS_OK; /* model_alloc says why */
     const section *const ends[2] = {&c[0], &c[1]};
     if (section_taper_check(&s->section[at[0]], &s->section[at[1]], ends, &why) != STATUS_OK)
-        return fault_set(f, STATUS_REFUSED, "member %d: %s", i, why.text);
+        return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_MEMBERS, i).text,
+                         why.text);
     return STATUS_OK;
 }
 
@@ -43,11 +45,12 @@ static status check_member(const scene *s, int i, fault *f)
     const scene_member *m = &s->member[i];
     if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
         return fault_set(f, STATUS_REFUSED,
-                         "member %d: it ends at a node that does not exist; add the node first", i);
+                         "%s: it ends at a node that does not exist; add the node first",
+                         scene_called(s, SCENE_MEMBERS, i).text);
     if (m->section < 0 || m->section >= s->sections || m->section_q < 0 ||
         m->section_q >= s->sections)
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: its section does not exist; add the section first", i);
+        return fault_set(f, STATUS_REFUSED, "%s: its section does not exist; add the section first",
+                         scene_called(s, SCENE_MEMBERS, i).text);
     double d[3], length = 0, along = 0, across = 0;
     for (int k = 0; k < 3; k++) {
         d[k] = s->node[m->q].position[k] - s->node[m->p].position[k];
@@ -56,18 +59,18 @@ static status check_member(const scene *s, int i, fault *f)
         across += m->y_axis[k] * m->y_axis[k];
     }
     if (!(length > 0))
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: its ends coincide; its length must be positive", i);
+        return fault_set(f, STATUS_REFUSED, "%s: its ends coincide; its length must be positive",
+                         scene_called(s, SCENE_MEMBERS, i).text);
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
         return fault_set(f, STATUS_REFUSED,
-                         "member %d: its y axis is parallel to it; give one that points across", i);
+                         "%s: its y axis is parallel to it; give one that points across",
+                         scene_called(s, SCENE_MEMBERS, i).text);
     if (!(m->damping >= 0 && isfinite(m->damping)))
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: a damping of %g s; give a positive one, or none", i,
-                         m->damping);
+        return fault_set(f, STATUS_REFUSED, "%s: a damping of %g s; give a positive one, or none",
+                         scene_called(s, SCENE_MEMBERS, i).text, m->damping);
     if (m->divisions < 0)
-        return fault_set(f, STATUS_REFUSED, "member %d: %d elements; give at least 1", i,
-                         m->divisions);
+        return fault_set(f, STATUS_REFUSED, "%s: %d elements; give at least 1",
+                         scene_called(s, SCENE_MEMBERS, i).text, m->divisions);
     if (scene_member_tapers(m))
         TRY(check_taper(s, i, f));
     return scene_validate_release(s, i, f);
@@ -107,17 +110,17 @@ static status check_spring(const scene *s, int i, fault *f)
     const scene_spring *p = &s->spring[i];
     if (p->q < 0 || p->q >= s->nodes || p->p < SCENE_NONE || p->p >= s->nodes)
         return fault_set(f, STATUS_REFUSED,
-                         "spring %d: it ends at a node that does not exist; add the node first", i);
+                         "%s: it ends at a node that does not exist; add the node first",
+                         scene_called(s, SCENE_SPRINGS, i).text);
     if (p->p == p->q)
-        return fault_set(f, STATUS_REFUSED,
-                         "spring %d: both its ends are node %d; join two, or one and the ground", i,
-                         p->q);
-    if (!is_stiffness(p->stiffness))
         return fault_set(
-            f, STATUS_REFUSED,
-            "spring %d: its stiffness is not symmetric, or gives energy away; give six "
-            "numbers that are not negative, or such a matrix",
-            i);
+            f, STATUS_REFUSED, "%s: both its ends are %s; join two, or one and the ground",
+            scene_called(s, SCENE_SPRINGS, i).text, scene_called(s, SCENE_NODES, p->q).text);
+    if (!is_stiffness(p->stiffness))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its stiffness is not symmetric, or gives energy away; give six "
+                         "numbers that are not negative, or such a matrix",
+                         scene_called(s, SCENE_SPRINGS, i).text);
     return STATUS_OK;
 }
 
@@ -170,33 +173,34 @@ static status check_load_kind(const scene *s, int i, fault *f)
     section c;
     if (vec3_norm(load->at) > 0 && load->kind != SCENE_FORCE && load->kind != SCENE_DISTRIBUTED)
         return fault_set(f, STATUS_REFUSED,
-                         "load %d: only forces act at an offset, moments are the same everywhere "
-                         "and gravity acts at the centres of mass; take 'at' away",
-                         i);
+                         "%s: only forces act at an offset, moments are the same everywhere and "
+                         "gravity acts at the centres of mass; take 'at' away",
+                         scene_called(s, SCENE_LOADS, i).text);
     if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "load %d: it is in a member's axes and acts on a node; give fixed axes, or "
-            "put it on a member",
-            i);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: it is in a member's axes and acts on a node; give fixed axes, or put "
+                         "it on a member",
+                         scene_called(s, SCENE_LOADS, i).text);
     if (load->kind != SCENE_GRAVITY && load->kind != SCENE_WEIGHT)
         return STATUS_OK;
     if (load->axes != SCENE_AXES_FIXED || load->follower)
         return fault_set(f, STATUS_REFUSED,
-                         "load %d: gravity has fixed axes; leave 'axes' and 'follower' out", i);
+                         "%s: gravity has fixed axes; leave 'axes' and 'follower' out",
+                         scene_called(s, SCENE_LOADS, i).text);
     if (load->kind == SCENE_WEIGHT)
         return s->node[load->where].body.mass > 0
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "load %d: gravity on node %d, which has no mass; give it one", i,
-                               load->where);
+                               "%s: gravity on %s, which has no mass; give it one",
+                               scene_called(s, SCENE_LOADS, i).text,
+                               scene_called(s, SCENE_NODES, load->where).text);
     const int profile[2] = {s->member[load->where].section, s->member[load->where].section_q};
     for (int k = 0; k < 2; k++)
         if (scene_constants(s, profile[k], &c, NULL) == STATUS_OK && !(c.density > 0))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "load %d: gravity on member %d, whose section has no density; give one", i,
-                load->where);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: gravity on %s, whose section has no density; give one",
+                             scene_called(s, SCENE_LOADS, i).text,
+                             scene_called(s, SCENE_MEMBERS, load->where).text);
     return STATUS_OK;
 }
 
@@ -207,11 +211,13 @@ static status check_load(const scene *s, int i, fault *f)
     if (load->where < 0 || load->where >= limit)
         return fault_set(
             f, STATUS_REFUSED,
-            "load %d: it acts on something that does not exist; add its node or member first", i);
+            "%s: it acts on something that does not exist; add its node or member first",
+            scene_called(s, SCENE_LOADS, i).text);
     for (int k = 0; k < 3; k++)
         if (!isfinite(load->vector[k]) || !isfinite(load->at[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "load %d: it is not a number; give three finite components", i);
+                             "%s: it is not a number; give three finite components",
+                             scene_called(s, SCENE_LOADS, i).text);
     return check_load_kind(s, i, f);
 }
 

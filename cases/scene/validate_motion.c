@@ -1,56 +1,57 @@
 #include "cases/scene/validate_motion.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <stddef.h>
 
-static status check_steps(const scene_motion *m, int i, fault *f)
+static status check_steps(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (!(m->step > 0 && isfinite(m->step)))
-        return fault_set(f, STATUS_REFUSED, "analysis %d: a step of %g s; give a positive one", i,
-                         m->step);
+        return fault_set(f, STATUS_REFUSED, "%s: a step of %g s; give a positive one",
+                         scene_called(s, SCENE_ANALYSES, i).text, m->step);
     if (!(m->tolerance >= 0 && m->tolerance < 1))
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a tolerance of %g; give a part of the size of the "
-                         "structure, 1e-4 or so, or 0: all steps are alike",
-                         i, m->tolerance);
+                         "%s: a tolerance of %g; give a part of the size of the structure, 1e-4 or "
+                         "so, or 0: all steps are alike",
+                         scene_called(s, SCENE_ANALYSES, i).text, m->tolerance);
     for (int k = 0; k < m->path.stations; k++)
         if (!(m->path.value[k] >= 0 && isfinite(m->path.value[k])))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: a station at %g s; a motion begins at 0, give instants "
-                             "behind that",
-                             i, m->path.value[k]);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: a station at %g s; a motion begins at 0, give instants behind that",
+                scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
     return STATUS_OK;
 }
 
 /* Where the scheme is stable whatever the step (Chung & Hulbert 1993). */
-static status check_scheme(const scene_motion *m, int i, fault *f)
+static status check_scheme(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (m->scheme < SCENE_ALPHA || m->scheme >= SCENE_SCHEMES)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: no such integrator; name ALPHA, CONSERVING, RADAU or "
-                         "EXPLICIT",
-                         i);
+                         "%s: no such integrator; name ALPHA, CONSERVING, RADAU or EXPLICIT",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (m->scheme == SCENE_ALPHA &&
         !(m->alpha.mass >= -1 && m->alpha.mass <= m->alpha.force && m->alpha.force <= 0.5))
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: alpha_m = %g, alpha_f = %g are not stable for every step; "
-                         "keep -1 <= alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
-                         i, m->alpha.mass, m->alpha.force);
+                         "%s: alpha_m = %g, alpha_f = %g are not stable for every step; keep -1 <= "
+                         "alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
+                         scene_called(s, SCENE_ANALYSES, i).text, m->alpha.mass, m->alpha.force);
     if (m->mass != SCENE_LUMPED && m->mass != SCENE_CONSISTENT)
-        return fault_set(f, STATUS_REFUSED, "analysis %d: no such mass; name LUMPED or CONSISTENT",
-                         i);
+        return fault_set(f, STATUS_REFUSED, "%s: no such mass; name LUMPED or CONSISTENT",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (m->mass == SCENE_CONSISTENT && m->scheme != SCENE_ALPHA && m->scheme != SCENE_RADAU)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: the integrator %s has lumped mass only; give mass: lumped, "
-                         "or integrator: alpha or radau",
-                         i, m->scheme == SCENE_CONSERVING ? "conserving" : "explicit");
+                         "%s: the integrator %s has lumped mass only; give mass: lumped, or "
+                         "integrator: alpha or radau",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         m->scheme == SCENE_CONSERVING ? "conserving" : "explicit");
     for (int k = 0; k < 3; k++)
         if (!isfinite(m->start.velocity[k]) || !isfinite(m->start.spin[k]) ||
             !isfinite(m->start.centre[k]))
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: it starts with a velocity that is not a number; give "
-                             "finite components",
-                             i);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: it starts with a velocity that is not a number; give finite components",
+                scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
@@ -77,15 +78,16 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     const scene_start *start = &scene_motion_of(a)->start;
     for (int k = 0; k < 3; k++)
         if (start->velocity[k] != 0 || start->spin[k] != 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: it goes on from a motion, with the velocities of that; "
-                             "leave its start out",
-                             i);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: it goes on from a motion, with the velocities of that; leave its start out",
+                scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: it goes on from a motion that ends at %g s, and time goes "
-                         "on, too; let its first instant be there or later",
-                         i, before->value[before->stations - 1]);
+                         "%s: it goes on from a motion that ends at %g s, and time goes on, too; "
+                         "let its first instant be there or later",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         before->value[before->stations - 1]);
     return STATUS_OK;
 }
 
@@ -95,18 +97,19 @@ static status check_follows(const scene *s, int i, fault *f)
     if (follows != SCENE_NONE && s->analysis[follows].kind != SCENE_STATIC &&
         s->analysis[follows].kind != SCENE_CONTINUATION &&
         s->analysis[follows].kind != SCENE_ROTATION && s->analysis[follows].kind != SCENE_MOTION)
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a motion starts from the last state of a static path, a "
-                         "continuation, a rotation or a motion, and what it follows is %s; follow "
-                         "one of these, or nothing",
-                         i, scene_analysis_name(s->analysis[follows].kind));
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a motion starts from the last state of a static path, a continuation, a rotation "
+            "or a motion, and what it follows is %s; follow one of these, or nothing",
+            scene_called(s, SCENE_ANALYSES, i).text,
+            scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
         TRY(check_resumed(s, &s->analysis[i], i, f));
     if (!has_mass(s))
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: nothing in it has a mass; give a section a density or a "
-                         "mass, or a node a body",
-                         i);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: nothing in it has a mass; give a section a density or a mass, or a node a body",
+            scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
@@ -176,26 +179,24 @@ static status check_load(const scene *s, int l, int i, fault *f)
     double time;
     if (load->function.pieces == 0) {
         if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "load %d: its factors are over a path, and a motion follows none; give a "
-                "function of time, or a static path to follow",
-                l);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: its factors are over a path, and a motion follows none; give a "
+                             "function of time, or a static path to follow",
+                             scene_called(s, SCENE_LOADS, l).text);
         return STATUS_OK;
     }
     if (!function_finite(&load->function, path->value[path->stations - 1], 0, &time))
         return fault_set(f, STATUS_REFUSED,
-                         "load %d: at %g s its factor is not finite; give another function, or "
-                         "pieces",
-                         l, time);
+                         "%s: at %g s its factor is not finite; give another function, or pieces",
+                         scene_called(s, SCENE_LOADS, l).text, time);
     return STATUS_OK;
 }
 
 status scene_validate_motion(const scene *s, int i, fault *f)
 {
     const scene_motion *m = scene_motion_of(&s->analysis[i]);
-    TRY(check_steps(m, i, f));
-    TRY(check_scheme(m, i, f));
+    TRY(check_steps(s, m, i, f));
+    TRY(check_scheme(s, m, i, f));
     TRY(check_follows(s, i, f));
     for (int d = 0; d < s->drivers; d++)
         TRY(check_driver(s, d, i, f));
@@ -236,7 +237,7 @@ status scene_validate_functions(const scene *s, fault *f)
     for (int l = 0; l < s->loads; l++) {
         const status outcome = check_function(&s->load[l].function, idle, &why);
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "load %d: %s", l, why.text);
+            return fault_set(f, outcome, "%s: %s", scene_called(s, SCENE_LOADS, l).text, why.text);
     }
     return STATUS_OK;
 }

@@ -1,4 +1,5 @@
 #include "cases/scene/validate_node.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 
@@ -32,18 +33,19 @@ static status check_fork(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++)
         if (n->angle[k] != SCENE_FREE)
             return fault_set(f, STATUS_REFUSED,
-                             "node %d: contradictory supports, a fork and R%c %s; take one away, "
-                             "or give a sequence of angles",
-                             i, "XYZ"[k], n -> angle[k] == SCENE_HELD ? "held" : "driven");
+                             "%s: contradictory supports, a fork and R%c %s; take one away, or "
+                             "give a sequence of angles",
+                             scene_called(s, SCENE_NODES, i).text, "XYZ"[k],
+                             n -> angle[k] == SCENE_HELD ? "held" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "node %d: axis and web of its fork are not at right angles; give two that are", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: axis and web of its fork are not at right angles; give two that are",
+                         scene_called(s, SCENE_NODES, i).text);
     if (!has_member_along(s, i, axis))
         return fault_set(
             f, STATUS_REFUSED,
-            "node %d: no member there runs along the axis of its fork; give the member's direction",
-            i);
+            "%s: no member there runs along the axis of its fork; give the member's direction",
+            scene_called(s, SCENE_NODES, i).text);
     return STATUS_OK;
 }
 
@@ -90,22 +92,23 @@ static status check_body(const scene *s, int i, fault *f)
         good &= isfinite(c[k]) && isfinite(I[k]) && isfinite(I[k + 3]);
     if (!good)
         return fault_set(f, STATUS_REFUSED,
-                         "node %d: its mass, centre or inertia is no such number; give a mass that "
-                         "is not negative, and finite numbers",
-                         i);
+                         "%s: its mass, centre or inertia is no such number; give a mass that is "
+                         "not negative, and finite numbers",
+                         scene_called(s, SCENE_NODES, i).text);
     if (n->body.mass == 0 && vec3_norm(c) > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "node %d: a centre without a mass; give the mass, or leave the centre out",
-                         i);
+                         "%s: a centre without a mass; give the mass, or leave the centre out",
+                         scene_called(s, SCENE_NODES, i).text);
     if (!is_inertia(I))
         return fault_set(f, STATUS_REFUSED,
-                         "node %d: no body has this inertia, a principal moment is above the sum "
-                         "of the other two; mend it",
-                         i);
+                         "%s: no body has this inertia, a principal moment is above the sum of the "
+                         "other two; mend it",
+                         scene_called(s, SCENE_NODES, i).text);
     if (!is_reached(s, i))
         return fault_set(
             f, STATUS_REFUSED,
-            "node %d: nothing holds its mass; join a member or a spring to it, or take it away", i);
+            "%s: nothing holds its mass; join a member or a spring to it, or take it away",
+            scene_called(s, SCENE_NODES, i).text);
     return STATUS_OK;
 }
 
@@ -115,18 +118,18 @@ status scene_validate_node(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++) {
         if (!isfinite(n->position[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "node %d: its position is not a number; give three finite coordinates",
-                             i);
+                             "%s: its position is not a number; give three finite coordinates",
+                             scene_called(s, SCENE_NODES, i).text);
         if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers ||
             n->angle[k] < SCENE_HELD || n->angle[k] >= s->drivers)
             return fault_set(f, STATUS_REFUSED,
-                             "node %d: moved by a driver that does not exist; add the driver first",
-                             i);
+                             "%s: moved by a driver that does not exist; add the driver first",
+                             scene_called(s, SCENE_NODES, i).text);
         if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "node %d: a prescribed rotation vector needs three drivers; drive all "
+                             "%s: a prescribed rotation vector needs three drivers; drive all "
                              "three of its components",
-                             i);
+                             scene_called(s, SCENE_NODES, i).text);
     }
     if (n->rotation == SCENE_ROTATION_FORK) {
         TRY(check_fork(s, i, f));
@@ -138,15 +141,15 @@ status scene_validate_node(const scene *s, int i, fault *f)
         return STATUS_OK;
     if (n->attached < 0 || n->attached >= s->nodes || n->attached == i ||
         s->node[n->attached].attached != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED,
-                         "node %d: attached to node %d, which is no body; attach it to a node that "
-                         "is attached to nothing",
-                         i, n->attached);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: attached to %s, which is no body; attach it to a node that is attached to nothing",
+            scene_called(s, SCENE_NODES, i).text, scene_called(s, SCENE_NODES, n->attached).text);
     for (int k = 0; k < 3; k++)
         if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "node %d: contradictory supports, it moves with node %d; hold that one instead", i,
-                n->attached);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: contradictory supports, it moves with %s; hold that one instead",
+                             scene_called(s, SCENE_NODES, i).text,
+                             scene_called(s, SCENE_NODES, n->attached).text);
     return STATUS_OK;
 }

@@ -1,4 +1,5 @@
 #include "cases/scene/validate_release.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,21 +9,21 @@
 
 static const char *const name_of_end[] = {"from", "to"};
 
-static status check_end(const scene_release *r, int member, int end, int times[6], fault *f)
+static status check_end(const scene *s, const scene_release *r, int member, int end, int times[6],
+                        fault *f)
 {
     if (r->count < 0 || r->count > SCENE_RELEASED)
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: its end '%s' passes nothing on; of its six components release "
-                         "%d at most",
-                         member, name_of_end[end], SCENE_RELEASED);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: its end '%s' passes nothing on; of its six components release %d at most",
+            scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end], SCENE_RELEASED);
     for (int k = 0; k < r->count; k++) {
         const int c = r->component[k];
         if (c < SCENE_UX || c > SCENE_RZ || times[c]++ > 0)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "member %d: its end '%s' releases %s; give components of ux to rz once each",
-                member, name_of_end[end],
-                c < SCENE_UX || c > SCENE_RZ ? "what is none" : "one twice");
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: its end '%s' releases %s; give components of ux to rz once each",
+                             scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end],
+                             c < SCENE_UX || c > SCENE_RZ ? "what is none" : "one twice");
     }
     return STATUS_OK;
 }
@@ -33,15 +34,15 @@ status scene_validate_release(const scene *s, int member, fault *f)
     const scene_release *r = s->member[member].release;
     int times[2][6] = {{0}};
     for (int end = 0; end < 2; end++) {
-        TRY(check_end(&r[end], member, end, times[end], f));
+        TRY(check_end(s, &r[end], member, end, times[end], f));
     }
     for (int c = SCENE_UX; c <= SCENE_RX; c++)
         if (times[0][c] && times[1][c])
             return fault_set(
                 f, STATUS_REFUSED,
-                "member %d: both ends release %s, so nothing keeps it from %s; release "
-                "it at one",
-                member, name[c], c == SCENE_RX ? "turning about its axis" : "shifting");
+                "%s: both ends release %s, so nothing keeps it from %s; release it at one",
+                scene_called(s, SCENE_MEMBERS, member).text, name[c],
+                c == SCENE_RX ? "turning about its axis" : "shifting");
     return STATUS_OK;
 }
 
@@ -178,13 +179,12 @@ status scene_validate_turns(const scene *s, int node, fault *f)
     if (!loose_axis(P, axis))
         return STATUS_OK;
     return vec3_norm(axis) > 0
-               ? fault_set(
-                     f, STATUS_REFUSED,
-                     "node %d: all members there release its turn about (%.3g, %.3g, %.3g), so "
-                     "it turns by itself; join one of them, or hold it against that",
-                     node, axis[0], axis[1], axis[2])
+               ? fault_set(f, STATUS_REFUSED,
+                           "%s: all members there release its turn about (%.3g, %.3g, %.3g), so it "
+                           "turns by itself; join one of them, or hold it against that",
+                           scene_called(s, SCENE_NODES, node).text, axis[0], axis[1], axis[2])
                : fault_set(f, STATUS_REFUSED,
-                           "node %d: all members there release its turns, so it turns by itself; "
-                           "join one of them, or hold its rotations",
-                           node);
+                           "%s: all members there release its turns, so it turns by itself; join "
+                           "one of them, or hold its rotations",
+                           scene_called(s, SCENE_NODES, node).text);
 }

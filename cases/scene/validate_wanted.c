@@ -1,4 +1,5 @@
 #include "cases/scene/validate_wanted.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,43 +11,44 @@ static status check_continuation(const scene *s, int i, fault *f)
     const scene_control *c = &scene_continuation_of(&s->analysis[i])->control;
     if (c->node < 0 || c->node >= s->nodes || c->component < SCENE_UX || c->component > SCENE_UZ)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: continuation needs a translation of a node as control "
-                         "coordinate; name a node and UX, UY or UZ",
-                         i);
+                         "%s: continuation needs a translation of a node as control coordinate; "
+                         "name a node and UX, UY or UZ",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (!(c->step > 0) || !(c->step_max >= c->step))
         return fault_set(
             f, STATUS_REFUSED,
-            "analysis %d: steps of %g to %g; the first must be positive, the largest not smaller",
-            i, c->step, c->step_max);
+            "%s: steps of %g to %g; the first must be positive, the largest not smaller",
+            scene_called(s, SCENE_ANALYSES, i).text, c->step, c->step_max);
     if (s->drivers > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: continuation changes loads only; take the drivers away", i);
+                         "%s: continuation changes loads only; take the drivers away",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
-static status check_path(const scene_analysis *a, int i, fault *f)
+static status check_path(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *path = scene_path_of(a);
     if (path->stations < 1)
-        return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a path needs a station; give one at least", i);
+        return fault_set(f, STATUS_REFUSED, "%s: a path needs a station; give one at least",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (a->kind != SCENE_CONTINUATION)
         for (int k = 1; k < path->stations; k++)
             if (!(path->value[k] > path->value[k - 1]))
-                return fault_set(
-                    f, STATUS_REFUSED,
-                    "analysis %d: its stations must ascend; sort them, without repetition", i);
+                return fault_set(f, STATUS_REFUSED,
+                                 "%s: its stations must ascend; sort them, without repetition",
+                                 scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
-static status check_frame(const scene_rotating_frame *frame, int i, fault *f)
+static status check_frame(const scene *s, const scene_rotating_frame *frame, int i, fault *f)
 {
     for (int k = 0; k < 3; k++)
         if (!isfinite(frame->omega[k]) || !isfinite(frame->centre[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "analysis %d: its angular velocity is not a number; give finite "
-                             "components, and a finite point of its axis",
-                             i);
+                             "%s: its angular velocity is not a number; give finite components, "
+                             "and a finite point of its axis",
+                             scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
@@ -54,12 +56,12 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
 {
     const int node = scene_compliance_of(a)->node;
     if (node < 0 || node >= s->nodes)
-        return fault_set(f, STATUS_REFUSED, "analysis %d: a compliance needs a node; name one", i);
+        return fault_set(f, STATUS_REFUSED, "%s: a compliance needs a node; name one",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: a compliance follows a path or nothing; name a static "
-                         "analysis",
-                         i);
+                         "%s: a compliance follows a path or nothing; name a static analysis",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
@@ -73,10 +75,10 @@ static status check_potential(const scene *s, int i, fault *f)
         if (s->load[k].follower || s->load[k].kind == SCENE_DISTRIBUTED_MOMENT)
             return fault_set(
                 f, STATUS_REFUSED,
-                "analysis %d: %s, and load %d %s has no potential: its tangent is not "
-                "symmetric and stability may be lost by flutter; ask for a static path "
-                "or a continuation",
-                i, what[s->analysis[i].kind], k,
+                "%s: %s, and %s %s has no potential: its tangent is not symmetric and stability "
+                "may be lost by flutter; ask for a static path or a continuation",
+                scene_called(s, SCENE_ANALYSES, i).text, what[s->analysis[i].kind],
+                scene_called(s, SCENE_LOADS, k).text,
                 s->load[k].follower ? "that follows" : "of distributed moments");
     return STATUS_OK;
 }
@@ -85,19 +87,19 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "analysis %d: it follows one that does not come before it; name an earlier one", i);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: it follows one that does not come before it; name an earlier one",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
         s->analysis[a->follows].kind == SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: it is about a motion, whose forces are not in balance "
-                         "without those of inertia; follow a static path",
-                         i);
+                         "%s: it is about a motion, whose forces are not in balance without those "
+                         "of inertia; follow a static path",
+                         scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a) != NULL)
-        TRY(check_path(a, i, f));
+        TRY(check_path(s, a, i, f));
     if (scene_rotating_frame_of(a) != NULL)
-        TRY(check_frame(scene_rotating_frame_of(a), i, f));
+        TRY(check_frame(s, scene_rotating_frame_of(a), i, f));
     if (a->kind == SCENE_BUCKLING || a->kind == SCENE_ROTATION ||
         (a->kind == SCENE_MODAL && a->follows != SCENE_NONE))
         TRY(check_potential(s, i, f));
@@ -127,9 +129,9 @@ static status check_stress(const scene *s, const scene_quantity *q, fault *f)
         (s->section[profile].kind == SECTION_CONSTANTS ||
          s->section[profile].kind == SECTION_MATRICES))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: the section of member %d is given by numbers and has no "
-                         "points; describe it by sizes or walls, or ask for a resultant",
-                         q->name, c->member);
+                         "quantity %s: the section of %s is given by numbers and has no points; "
+                         "describe it by sizes or walls, or ask for a resultant",
+                         q->name, scene_called(s, SCENE_MEMBERS, c->member).text);
     return STATUS_OK;
 }
 

@@ -1,4 +1,5 @@
 #include "harness/analysis/solve.h"
+#include "cases/scene/names.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,7 +70,8 @@ static void run_analyses(analysis_context *c)
             continue;
         c->singular = 0;
         o->status = run != NULL ? run(c, i, o, &f)
-                                : fault_set(&f, STATUS_REFUSED, "analysis %d: not available", i);
+                                : fault_set(&f, STATUS_REFUSED, "%s: not available",
+                                            scene_called(c->scene, SCENE_ANALYSES, i).text);
         if (o->status == STATUS_SINGULAR && c->singular)
             singular_explain(c, &f);
         else if (is_stuck(o))

@@ -1,4 +1,5 @@
 #include "harness/conserving/conserving.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -152,10 +153,10 @@ static status check(const model *m, fault *f)
 {
     for (int i = 0; i < m->scene->nodes; i++)
         if (m->vertex[i].angles > 1)
-            return fault_set(f, STATUS_REFUSED,
-                             "node %d: the conserving scheme takes one angle of a node at most: "
-                             "take alpha or radau",
-                             i);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: the conserving scheme takes one angle of a node at most: take alpha or radau",
+                scene_called(m->scene, SCENE_NODES, i).text);
     return STATUS_OK;
 }
 

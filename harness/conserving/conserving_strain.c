@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "harness/conserving/deformable.h"
 #include "harness/equations/chunk.h"
@@ -33,8 +34,10 @@ static status stress_of(model *m, int count, const int index[], const double *co
             outcome[k] = m->type->stress(data[k], e[k], inner[k], &out[k]);
     for (int k = 0; k < count; k++)
         if (outcome[k] != STATUS_OK)
-            return fault_set(f, outcome[k], "element %d of member %d: outside what %s can evaluate",
-                             index[k], m->element[index[k]].member, m->type->name);
+            return fault_set(
+                f, outcome[k], "element %d of %s: outside what %s can evaluate", index[k],
+                scene_called(m->scene, SCENE_MEMBERS, m->element[index[k]].member).text,
+                m->type->name);
     return STATUS_OK;
 }
 

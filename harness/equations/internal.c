@@ -1,4 +1,5 @@
 #include "harness/equations/internal.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <string.h>
@@ -254,8 +255,8 @@ status internal_largest(model *m, const internal_state *s, int member, internal_
     if (axes_turned(m, member, 0, &m->element[m->first_element[member]]) != 0 ||
         axes_turned(m, member, 1, &m->element[m->first_element[member + 1] - 1]) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "member %d: the axes of its sections turn along it; ask at places of it",
-                         member);
+                         "%s: the axes of its sections turn along it; ask at places of it",
+                         scene_called(m->scene, SCENE_MEMBERS, member).text);
     span_grid_make(&g);
     *out = -INFINITY;
     for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {

@@ -2,6 +2,7 @@
  *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
  * condensed element by element, so that stiff modes make no huge false stresses on the way. */
 #include "harness/equations/linearise.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -37,8 +38,9 @@ status linearise_make_compatible(model *m, model_state *s, fault *f)
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         outcome = compatible_element(m, s, i);
         if (outcome != STATUS_OK)
-            fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
-                      m->element[i].member, m->type->name);
+            fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
+                      scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
+                      m->type->name);
     }
     ahead_end(m);
     return outcome;
@@ -83,9 +85,9 @@ static status element_equations(model *m, const model_state *s, chunk_element *o
     const mesh_element *el = &m->element[of->index];
     const model_slot w = linearise_slot(m, of->index);
     if (of->outcome != STATUS_OK)
-        return fault_set(&part->why, of->outcome,
-                         "element %d of member %d: outside what %s can evaluate", of->index,
-                         el->member, m->type->name);
+        return fault_set(&part->why, of->outcome, "element %d of %s: outside what %s can evaluate",
+                         of->index, scene_called(m->scene, SCENE_MEMBERS, el->member).text,
+                         m->type->name);
     if (!of->complete)
         TRY(add_material(m, s, of, tangent, path, of->present, part));
     if (tangent)

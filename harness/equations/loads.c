@@ -1,5 +1,6 @@
 /* Loads and drivers along the path. */
 #include "harness/equations/loads.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <string.h>
@@ -156,11 +157,12 @@ status loads_have_potential(const model *m, const model_state *s, double path, f
             continue;
         applied_stiffness(m, s, load, loads_factor(m, load, path), into_list, &e);
         if (skew_of(&e) > potential * vec3_norm(load->vector))
-            return fault_set(f, STATUS_REFUSED,
-                             "load %d, a moment about fixed axes, has no potential at node %d, "
-                             "which turns freely about two axes across it: hold one of them, or "
-                             "follow a static path",
-                             i, load->where);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s, a moment about fixed axes, has no potential at %s, which turns freely about "
+                "two axes across it: hold one of them, or follow a static path",
+                scene_called(m->scene, SCENE_LOADS, i).text,
+                scene_called(m->scene, SCENE_NODES, load->where).text);
     }
     return STATUS_OK;
 }

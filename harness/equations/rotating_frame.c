@@ -1,6 +1,7 @@
 /* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
  * Eq. 76). */
 #include "harness/equations/rotating_frame.h"
+#include "cases/scene/names.h"
 
 #include <string.h>
 
@@ -24,8 +25,8 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
         m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &frame : NULL, out);
     m->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
-        return fault_set(f, outcome, "element %d of member %d: its inertia cannot be evaluated", i,
-                         m->element[i].member);
+        return fault_set(f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
+                         scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text);
     return STATUS_OK;
 }
 

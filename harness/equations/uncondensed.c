@@ -5,6 +5,7 @@
  *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ]
  * The published algorithm, kept as the baseline that speed is measured against. */
 #include "harness/equations/uncondensed.h"
+#include "cases/scene/names.h"
 
 #include <string.h>
 
@@ -60,8 +61,8 @@ static status add_element(model *m, const model_state *state, int i, double path
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
-        return fault_set(f, outcome, "element %d of member %d: outside what %s can evaluate", i,
-                         el->member, m->type->name);
+        return fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
+                         scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
     dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
     TRY(rotating_frame_add(m, x, i, path, force, H, f));
     eliminate_matrix(m, state, el, force, H);

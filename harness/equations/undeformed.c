@@ -1,4 +1,5 @@
 #include "harness/equations/undeformed.h"
+#include "cases/scene/names.h"
 
 #include <float.h>
 #include <math.h>
@@ -91,8 +92,8 @@ static status make(model *m, int i, fault *f)
         if (outcome != STATUS_OK)
             return fault_set(
                 f, outcome,
-                "element %d of member %d: its undeformed state is outside what %s can evaluate", i,
-                m->element[i].member, m->type->name);
+                "element %d of %s: its undeformed state is outside what %s can evaluate", i,
+                scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text, m->type->name);
         u->last = i;
         u->count++;
     }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "harness/explicit/explicit_impl.h"
 #include "harness/inertia/inertia.h"
@@ -42,8 +43,8 @@ status explicit_accelerate(const model *m, const carried *masses, const model_st
             b[i] = residual[of[i]];
         if (dense_lu_regular(n, M, pivot) != 0)
             return fault_set(f, STATUS_SINGULAR,
-                             "node %d: two angles of its rotation turn about one axis",
-                             masses->mass[k].frame);
+                             "%s: two angles of its rotation turn about one axis",
+                             scene_called(m->scene, SCENE_NODES, masses->mass[k].frame).text);
         dense_lu_solve(n, 1, M, pivot, b);
         for (int i = 0; i < n; i++)
             a[of[i]] = b[i];
@@ -76,14 +77,14 @@ static int is_heavy(int n, double M[])
 
 static status refuse(const model *m, int vertex, const char *what, fault *f)
 {
-    char whose[40] = "a node inside a member";
+    scene_words whose = {"a node inside a member"};
     if (vertex < m->scene->nodes)
-        snprintf(whose, sizeof whose, "node %d", vertex);
+        whose = scene_called(m->scene, SCENE_NODES, vertex);
     return fault_set(f, STATUS_REFUSED,
                      "integrator explicit: the %s of %s has no inertia, so that its acceleration "
                      "is not determined; give what has none a mass or an inertia (members: needs: "
                      "[rotary_inertia]), or take alpha, conserving or radau",
-                     what, whose);
+                     what, whose.text);
 }
 
 static status check_vertex(const model *m, int index, const int heavy[], fault *f)

@@ -1,4 +1,5 @@
 #include "harness/export/carried.h"
+#include "cases/scene/names.h"
 
 #include "harness/export/brick.h"
 #include "harness/export/rigid.h"
@@ -20,21 +21,22 @@ static status check_section(const scene *s, int member, fault *f)
 {
     const section_spec *profile = &s->section[s->member[member].section];
     if (scene_member_tapers(&s->member[member]))
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: a section that changes along it is not written as solid; give "
-                         "it one section",
-                         member);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a section that changes along it is not written as solid; give it one section",
+            scene_called(s, SCENE_MEMBERS, member).text);
     brick mesh;
     fault why = {""};
     if (brick_init(&mesh, s, member, 1, 1, 1, &why) != STATUS_OK)
-        return fault_set(f, STATUS_REFUSED, "member %d: %.250s", member, why.text);
+        return fault_set(f, STATUS_REFUSED, "%s: %.250s",
+                         scene_called(s, SCENE_MEMBERS, member).text, why.text);
     const double poisson = profile->young / (2 * profile->shear_modulus) - 1;
     if (poisson > -1 && poisson < 0.5)
         return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "member %d: a solid with E/(2 G) - 1 = %g is none; Poisson's ratio is between "
-                     "-1 and 0.5",
-                     member, poisson);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: a solid with E/(2 G) - 1 = %g is none; Poisson's ratio is between -1 and 0.5",
+        scene_called(s, SCENE_MEMBERS, member).text, poisson);
 }
 
 static int ends_at_node(const scene *s, int node)
@@ -50,25 +52,25 @@ static status check_member(const scene *s, int member, fault *f)
     const scene_member *m = &s->member[member];
     const int end[2] = {m->p, m->q};
     if (!is_zero(m->curvature) || !is_zero(m->strain))
-        return fault_set(f, STATUS_REFUSED,
-                         "member %d: curved or strained before it is loaded, which is not written "
-                         "as solid",
-                         member);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: curved or strained before it is loaded, which is not written as solid",
+            scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 2; i++)
         if (ends_at_node(s, end[i]) > 1)
             return fault_set(f, STATUS_REFUSED,
-                             "node %d: corners of members are not written as solids; make it a "
-                             "rigid body with a node for each end (part_of)",
-                             end[i]);
+                             "%s: corners of members are not written as solids; make it a rigid "
+                             "body with a node for each end (part_of)",
+                             scene_called(s, SCENE_NODES, end[i]).text);
     if (m->release[0].count + m->release[1].count > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "member %d: released ends are not written as solids; join it, and let a "
-                         "node with a rotation of its own turn",
-                         member);
+                         "%s: released ends are not written as solids; join it, and let a node "
+                         "with a rotation of its own turn",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
         return fault_set(f, STATUS_REFUSED,
-                         "member %d: its ends warp, and rigid faces do not; say warping: fixed",
-                         member);
+                         "%s: its ends warp, and rigid faces do not; say warping: fixed",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     return check_section(s, member, f);
 }
 
@@ -94,14 +96,14 @@ static status check_node(const scene *s, int node, fault *f)
         return STATUS_OK;
     if (n->rotation != SCENE_ROTATION_SPATIAL)
         return fault_set(f, STATUS_REFUSED,
-                         "node %d: several turns in sequence and forks are not written as solids",
-                         node);
+                         "%s: several turns in sequence and forks are not written as solids",
+                         scene_called(s, SCENE_NODES, node).text);
     if (!large || held >= 2 || (held == 0 && driven == 0))
         return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "node %d: of its rotations hold none, two or all; rigid faces turn by a "
-                     "rotation vector",
-                     node);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: of its rotations hold none, two or all; rigid faces turn by a rotation vector",
+        scene_called(s, SCENE_NODES, node).text);
 }
 
 static status check_load(const scene *s, int load, fault *f)
@@ -109,24 +111,23 @@ static status check_load(const scene *s, int load, fault *f)
     const scene_load *l = &s->load[load];
     if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
         return fault_set(f, STATUS_REFUSED,
-                         "load %d: along members and weight are not written for solids; put it on "
-                         "nodes",
-                         load);
+                         "%s: along members and weight are not written for solids; put it on nodes",
+                         scene_called(s, SCENE_LOADS, load).text);
     if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
         return fault_set(f, STATUS_REFUSED,
-                         "load %d: only dead loads at nodes, in fixed axes, are written for solids",
-                         load);
+                         "%s: only dead loads at nodes, in fixed axes, are written for solids",
+                         scene_called(s, SCENE_LOADS, load).text);
     if (!rigid_moves(s, l->where))
-        return fault_set(f, STATUS_REFUSED,
-                         "load %d: no solid ends at its node %d; put it on the body that moves",
-                         load, l->where);
+        return fault_set(
+            f, STATUS_REFUSED, "%s: no solid ends at its %s; put it on the body that moves",
+            scene_called(s, SCENE_LOADS, load).text, scene_called(s, SCENE_NODES, l->where).text);
     if (l->kind == SCENE_MOMENT && carried_static(s) != SCENE_NONE &&
         rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
         held_rotations(&s->node[l->where]) < 2)
-        return fault_set(f, STATUS_REFUSED,
-                         "load %d: a moment on a node that turns about any axis is another one for "
-                         "a rotation vector",
-                         load);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a moment on a node that turns about any axis is another one for a rotation vector",
+            scene_called(s, SCENE_LOADS, load).text);
     return STATUS_OK;
 }
 
@@ -135,17 +136,18 @@ static status check_analysis(const scene *s, int analysis, fault *f)
     const scene_analysis *a = &s->analysis[analysis];
     if (a->kind != SCENE_LINEAR && a->kind != SCENE_STATIC && a->kind != SCENE_COMPLIANCE)
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: linear, static and compliance are written for solids, "
-                         "%s not; leave it and its quantities out",
-                         analysis, scene_analysis_name(a->kind));
+                         "%s: linear, static and compliance are written for solids, %s not; leave "
+                         "it and its quantities out",
+                         scene_called(s, SCENE_ANALYSES, analysis).text,
+                         scene_analysis_name(a->kind));
     if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: one static path in axes at rest is written for solids",
-                         analysis);
+                         "%s: one static path in axes at rest is written for solids",
+                         scene_called(s, SCENE_ANALYSES, analysis).text);
     if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
         return fault_set(f, STATUS_REFUSED,
-                         "analysis %d: no solid ends at its node; ask for the body that moves",
-                         analysis);
+                         "%s: no solid ends at its node; ask for the body that moves",
+                         scene_called(s, SCENE_ANALYSES, analysis).text);
     return STATUS_OK;
 }
 

@@ -1,4 +1,5 @@
 #include "harness/export/deck.h"
+#include "cases/scene/names.h"
 
 #include <stdlib.h>
 
@@ -78,7 +79,7 @@ static status write_areas(const scene *s, const brick bricks[], FILE *to, fault 
     for (int i = 0; i < s->members; i++) {
         section constants;
         TRY(scene_constants(s, s->member[i].section, &constants, f));
-        fprintf(to, "**AREA member %d: %+.3g %% of the beam's\n", i,
+        fprintf(to, "**AREA %s: %+.3g %% of the beam's\n", scene_called(s, SCENE_MEMBERS, i).text,
                 100 * (face_area(&bricks[i].face) / constants.A - 1));
     }
     return STATUS_OK;

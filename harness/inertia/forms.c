@@ -1,4 +1,5 @@
 #include "harness/inertia/forms.h"
+#include "cases/scene/names.h"
 
 #include <string.h>
 
@@ -45,11 +46,11 @@ static status refuse_turns(const model *m, int vertex, fault *f)
         first--;
     return fault_set(
         f, STATUS_REFUSED,
-        "node %d: a motion in time must know how it lies, which turns about fixed axes "
-        "do not say: about %c, then about %c, and back by both leaves it turned about "
-        "%c; give its rotation as a sequence of angles or as a vector, or hold one "
-        "turn more",
-        vertex, axis[first], axis[last], axis[3 - first - last]);
+        "%s: a motion in time must know how it lies, which turns about fixed axes do not say: "
+        "about %c, then about %c, and back by both leaves it turned about %c; give its rotation as "
+        "a sequence of angles or as a vector, or hold one turn more",
+        scene_called(m->scene, SCENE_NODES, vertex).text, axis[first], axis[last],
+        axis[3 - first - last]);
 }
 
 status forms_check(const model *m, fault *f)

@@ -1,4 +1,5 @@
 #include "harness/model/discrete.h"
+#include "cases/scene/names.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -107,9 +108,12 @@ status discrete_check_turn(const model *m, const mesh_discrete *d, const double 
     const double turn = vec3_norm(e + 3);
     return turn < SPRING_LARGEST_TURN
                ? STATUS_OK
-               : fault_set(f, STATUS_NOT_CONVERGED,
-                           "spring %d: turned by %.3g rad, %g are the most; put two in series",
-                           (int)(d->spring - m->scene->spring), turn, SPRING_LARGEST_TURN);
+               : fault_set(
+                     f, STATUS_NOT_CONVERGED,
+                     "%s: turned by %.3g rad, %g are the most; put two in series",
+                     scene_called(m->scene, SCENE_SPRINGS, (int)(d->spring - m->scene->spring))
+                         .text,
+                     turn, SPRING_LARGEST_TURN);
 }
 
 status discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,

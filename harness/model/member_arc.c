@@ -1,4 +1,5 @@
 #include "harness/model/member_arc.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,7 +42,7 @@ static void turn_to_principal(double angle, member_arc *a)
 }
 
 /* The length of a curved arc whose ends are so far apart. */
-static status find_length(int member, double distance, member_arc *a, fault *f)
+static status find_length(const scene *s, int member, double distance, member_arc *a, fault *f)
 {
     double c[3];
     for (int i = 0; i < 60; i++) {
@@ -49,9 +50,9 @@ static status find_length(int member, double distance, member_arc *a, fault *f)
         const double error = distance - vec3_norm(c);
         a->length += error;
         if (!(a->length > 0) || vec3_norm(a->k) * a->length > 6.28)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "member %d: no arc of that curvature joins its ends; give a smaller one", member);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: no arc of that curvature joins its ends; give a smaller one",
+                             scene_called(s, SCENE_MEMBERS, member).text);
         if (fabs(error) <= 1e-16 * distance)
             break;
     }
@@ -69,13 +70,15 @@ status member_arc_of(const scene *s, int member, double axes_angle, member_arc *
     memcpy(out->k, m->curvature, sizeof out->k);
     out->length = distance;
     if (vec3_norm(out->k) > 0)
-        TRY(find_length(member, distance, out, f));
+        TRY(find_length(s, member, distance, out, f));
     if (rotation_triad(chord, m->y_axis, B) != 0)
-        return fault_set(f, STATUS_REFUSED, "member %d: its y axis is parallel to it", member);
+        return fault_set(f, STATUS_REFUSED, "%s: its y axis is parallel to it",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     const double ey[3] = {0, 1, 0};
     chord_of(out->k, out->length, c);
     if (rotation_triad(c, ey, local) != 0)
-        return fault_set(f, STATUS_REFUSED, "member %d: its arc turns into its own y axis", member);
+        return fault_set(f, STATUS_REFUSED, "%s: its arc turns into its own y axis",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 3; i++) /* R = B local^T */
         for (int j = 0; j < 3; j++)
             out->R[3 * i + j] = vec3_dot(&B[3 * i], &local[3 * j]);

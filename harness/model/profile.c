@@ -1,4 +1,5 @@
 #include "harness/model/profile.h"
+#include "cases/scene/names.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,9 +44,9 @@ static status check_between(const model *m, int member, const section *c, fault 
     if (limit == NULL)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "member %d: its section has between its ends what they have not: %s; put a "
-                     "node with a section of its own there",
-                     member, limit);
+                     "%s: its section has between its ends what they have not: %s; put a node with "
+                     "a section of its own there",
+                     scene_called(m->scene, SCENE_MEMBERS, member).text, limit);
 }
 
 static status fill(model *m, int member, const taper *t, fault *f)
@@ -58,8 +59,8 @@ static status fill(model *m, int member, const taper *t, fault *f)
         section_taper_at(&s->section[t->p], &s->section[t->q], (2 * i + 1) / (2.0 * t->steps),
                          &spec);
         if (section_compute(&spec, c, &why) != STATUS_OK)
-            return fault_set(f, STATUS_REFUSED, "member %d, between its ends: %s", member,
-                             why.text);
+            return fault_set(f, STATUS_REFUSED, "%s, between its ends: %s",
+                             scene_called(m->scene, SCENE_MEMBERS, member).text, why.text);
         TRY(check_between(m, member, c, f));
     }
     return STATUS_OK;

@@ -1,6 +1,7 @@
 /* Accelerations are those of a stage in which positions give way by next to nothing; where
  * something has no inertia see settle.h. */
 #include "harness/motion/launch.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,11 +98,11 @@ static status check_field(const model *m, const model_state *s, const scene_star
         for (int k = 0; k < 3; k++)
             if (fabs(r.v[k] - velocity[k]) > nothing * spin * m->size ||
                 fabs(r.w[k] - field->spin[k]) > nothing * spin)
-                return fault_set(f, STATUS_REFUSED,
-                                 "node %d is held or driven otherwise than the axes turn that the "
-                                 "motion starts from: drive it so that it turns with them from 0 s "
-                                 "on",
-                                 i);
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "%s is held or driven otherwise than the axes turn that the motion starts "
+                    "from: drive it so that it turns with them from 0 s on",
+                    scene_called(m->scene, SCENE_NODES, i).text);
     }
     return STATUS_OK;
 }

@@ -21,6 +21,14 @@ static void csv_field(FILE *to, const char *text)
     fputc('"', to);
 }
 
+void csv_record_text(FILE *to, const char *text)
+{
+    if (text[strcspn(text, "\",\r\n")] == '\0')
+        fputs(text, to);
+    else
+        csv_field(to, text);
+}
+
 static int known(const column out[], int count, const char *name)
 {
     for (int i = 0; i < count; i++)

@@ -16,4 +16,7 @@ typedef struct csv_part {
 void csv_record_head(FILE *to, int parts, const csv_part part[]);
 void csv_record_line(FILE *to, int parts, const csv_part part[]);
 
+/* A field, in quotes where it must be. */
+void csv_record_text(FILE *to, const char *text);
+
 #endif

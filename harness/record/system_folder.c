@@ -4,10 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
+#include "harness/record/csv_record.h"
 #include "harness/record/matrix_market.h"
 #include "harness/record/output_folder.h"
 
-enum { NAME = 80 };
+enum { NAME = 96 };
+static const char undeformed[] = "undeformed";
+static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-+";
 
 /* What the tables are made of. */
 typedef struct contents {
@@ -22,36 +26,63 @@ typedef struct titled {
     const char *comment;
 } titled;
 
+/* Name of an analysis; what no folder can be called stands as '_'. */
+static scene_words plain_folder(const scene *s, int analysis)
+{
+    scene_words out;
+    if (scene_own_name(s, SCENE_ANALYSES, analysis)[0] != '\0')
+        out = scene_name(s, SCENE_ANALYSES, analysis);
+    else
+        snprintf(out.text, sizeof out.text, "%s_%d",
+                 scene_analysis_name(s->analysis[analysis].kind), analysis);
+    for (char *c = out.text; *c != '\0'; c++)
+        if (strchr(letters, *c) == NULL)
+            *c = '_';
+    return out;
+}
+
+static scene_words folder_of(const scene *s, int analysis)
+{
+    scene_words out = plain_folder(s, analysis);
+    int taken = strcmp(out.text, undeformed) == 0;
+    for (int i = 0; i < analysis; i++)
+        taken |= strcmp(out.text, plain_folder(s, i).text) == 0;
+    if (taken)
+        snprintf(out.text, sizeof out.text, "%.40s_%d", plain_folder(s, analysis).text, analysis);
+    return out;
+}
+
 static void name_state(const contents *c, const state_matrices *s, char name[NAME])
 {
     if (s->analysis == SCENE_NONE) {
-        snprintf(name, NAME, "undeformed");
+        snprintf(name, NAME, "%s", undeformed);
         return;
     }
-    const char *kind = scene_analysis_name(c->scene->analysis[s->analysis].kind);
+    const scene_words analysis = folder_of(c->scene, s->analysis);
     if (s->station == SCENE_NONE)
-        snprintf(name, NAME, "%s_%d", kind, s->analysis);
+        snprintf(name, NAME, "%s", analysis.text);
     else
-        snprintf(name, NAME, "%s_%d_station_%d", kind, s->analysis, s->station);
+        snprintf(name, NAME, "%s_station_%d", analysis.text, s->station);
 }
 
-/* The name that a scene that is written gives it, or nothing. */
-static void name_cell(FILE *to, const char *list, int index)
+/* Its name or nothing, as a field of CSV. */
+static void name_cell(FILE *to, const scene *s, scene_list list, int index)
 {
     if (index != SCENE_NONE)
-        fprintf(to, "%s_%d", list, index);
+        csv_record_text(to, scene_name(s, list, index).text);
     fputc(',', to);
 }
 
 static void write_rows(FILE *to, const void *what)
 {
-    const system_matrices *s = ((const contents *)what)->of;
+    const contents *c = what;
+    const system_matrices *s = c->of;
     fprintf(to, "row,node,member,along,component,unit,x,y,z\n");
     for (int i = 0; i < s->rows; i++) {
         const row_label *l = &s->label[i];
         fprintf(to, "%d,", i + 1);
-        name_cell(to, "node", l->node);
-        name_cell(to, "member", l->member);
+        name_cell(to, c->scene, SCENE_NODES, l->node);
+        name_cell(to, c->scene, SCENE_MEMBERS, l->member);
         if (!isnan(l->along))
             fprintf(to, "%.17g", l->along);
         fprintf(to, ",%s,%s,%.17g,%.17g,%.17g\n", l->component, l->unit, l->position[0],
@@ -70,8 +101,8 @@ static void write_loads(FILE *to, const void *what)
         const scene_load *l = &s->load[i];
         const int along = scene_load_along(l);
         fprintf(to, "%d,%s,", i + 1, kind[l->kind]);
-        name_cell(to, "node", along ? SCENE_NONE : l->where);
-        name_cell(to, "member", along ? l->where : SCENE_NONE);
+        name_cell(to, s, SCENE_NODES, along ? SCENE_NONE : l->where);
+        name_cell(to, s, SCENE_MEMBERS, along ? l->where : SCENE_NONE);
         fprintf(to, "%.17g,%.17g,%.17g,%s,%s,%d\n", l->vector[0], l->vector[1], l->vector[2],
                 unit[l->kind], l->axes == SCENE_AXES_MEMBER ? "member" : "fixed", l->follower);
     }
@@ -86,7 +117,7 @@ static void write_states(FILE *to, const void *what)
         char name[NAME];
         name_state(c, s, name);
         fprintf(to, "%s,", name);
-        name_cell(to, "analysis", s->analysis);
+        name_cell(to, c->scene, SCENE_ANALYSES, s->analysis);
         if (s->analysis != SCENE_NONE)
             fprintf(to, "%s", scene_analysis_name(c->scene->analysis[s->analysis].kind));
         fputc(',', to);

@@ -1,4 +1,5 @@
 #include "harness/request/restart.h"
+#include "cases/scene/names.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,8 +69,8 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
         const int k = r->end[i].analysis;
         if (k < 0 || k >= s->analyses || s->analysis[k].kind != SCENE_MOTION)
             return fault_set(f, STATUS_REFUSED,
-                             "--restart: analysis %d is no motion of the scene; keep its end anew",
-                             k);
+                             "--restart: %s is no motion of the scene; keep its end anew",
+                             scene_called(s, SCENE_ANALYSES, k).text);
         TRY(drop_stations(&r->end[i], s, f));
     }
     of->restart = r->end;

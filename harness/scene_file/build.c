@@ -109,35 +109,25 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Where the entry stands that a refusal speaks of ("node 3: ..."), and what it says of it. */
+/* Where the entry stands that a refusal speaks of ("node tip: ..."), and what it says of it. */
 static void tell_refusal(const builder *b, const char *text)
 {
-    static const struct {
-        const char *word;
-        builder_list list;
-        int named;
-    } all[] = {{"section ", LIST_SECTIONS, 0}, {"node ", LIST_NODES, 0},
-               {"member ", LIST_MEMBERS, 0},   {"spring ", LIST_SPRINGS, 0},
-               {"load ", LIST_LOADS, 0},       {"analysis ", LIST_ANALYSES, 0},
-               {"driver ", LIST_MOTIONS, 1},   {"quantity ", LIST_QUANTITIES, 1}};
-    const char *colon = strstr(text, ": ");
-    if (colon != NULL)
-        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
-            const size_t length = strlen(all[k].word);
-            if (strncmp(text, all[k].word, length) != 0)
+    static const char *const word[LISTS] = {"section ", "node ", "member ",   "spring ",
+                                            "driver ",  "load ", "analysis ", "quantity "};
+    for (int k = 0; k < LISTS; k++) {
+        const size_t length = strlen(word[k]);
+        if (strncmp(text, word[k], length) != 0)
+            continue;
+        for (int i = 0; i < b->list[k].count; i++) {
+            const unrolled *entry = &b->list[k].entry[i];
+            const size_t name = strlen(entry->name);
+            if (strncmp(text + length, entry->name, name) != 0 ||
+                strncmp(text + length + name, ": ", 2) != 0)
                 continue;
-            for (int i = 0; i < b->list[all[k].list].count; i++) {
-                const unrolled *entry = &b->list[all[k].list].entry[i];
-                const size_t name = (size_t)(colon - text) - length;
-                const int meant = all[k].named ? strncmp(entry->name, text + length, name) == 0 &&
-                                                     entry->name[name] == '\0'
-                                               : atoi(text + length) == i;
-                if (!meant)
-                    continue;
-                document_mistake(b->mistakes, entry->place, 0, "%s: %s", entry->name, colon + 2);
-                return;
-            }
+            document_mistake(b->mistakes, entry->place, 0, "%s", text + length);
+            return;
         }
+    }
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 

@@ -5,7 +5,7 @@
 #ifndef BEAMWORK_SCENE_BUILDER_H
 #define BEAMWORK_SCENE_BUILDER_H
 
-#include "cases/scene/scene.h"
+#include "cases/scene/names.h"
 #include "harness/language/placement.h"
 #include "harness/language/unroll.h"
 
@@ -70,6 +70,9 @@ int fields_entry_of(const fields *f, const document_node *name, builder_list lis
 int fields_names(const fields *f, const char *key, builder_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
+
+/* Gives an entry of the scene the name that entry i of a list has. */
+void builder_call(builder *b, scene_list what, int index, builder_list list, int i);
 
 void builder_sections(builder *b);
 void builder_nodes(builder *b);

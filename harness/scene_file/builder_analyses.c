@@ -67,6 +67,7 @@ void builder_analyses(builder *b)
         while (kind < SCENE_MOTION && !fields_have(&entry, scene_analysis_name(kind)))
             kind++;
         const fields f = fields_below(&entry, scene_analysis_name(kind));
+        const int index = b->scene->analyses;
         switch (kind) {
         case SCENE_LINEAR:
             scene_add_linear(b->scene);
@@ -93,6 +94,7 @@ void builder_analyses(builder *b)
             add_rotation(&f);
             break;
         }
+        builder_call(b, SCENE_ANALYSES, index, LIST_ANALYSES, i);
     }
 }
 

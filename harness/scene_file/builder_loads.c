@@ -12,8 +12,8 @@ static int along_member(const fields *f, const char *key, double out[3])
     return fields_vector(f, key, 3, out);
 }
 
-/* Adds one load of the scene, as the entry describes it. */
-static void add(const fields *f, const scene_load *what)
+/* Adds one load of the scene, as the entry describes it; its index. */
+static int add(const fields *f, const scene_load *what)
 {
     scene *s = f->b->scene;
     double *path, *factor;
@@ -29,6 +29,7 @@ static void add(const fields *f, const scene_load *what)
             scene_set_factor(s, load, stations, path, factor);
     }
     builder_function(f, load, scene_load_piece, 0);
+    return load;
 }
 
 static void mistake_at(const fields *f, const char *key, const char *words)
@@ -128,7 +129,10 @@ void builder_loads(builder *b)
         if (what.kind == SCENE_GRAVITY)
             check_gravity(&f, &what, whole);
         if (is_on_all(&f)) {
+            const int first = b->scene->loads;
             weigh_all(&f, &what);
+            for (int k = first; k < b->scene->loads; k++)
+                builder_call(b, SCENE_LOADS, k, LIST_LOADS, i);
             continue;
         }
         if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", LIST_MEMBERS) &&
@@ -137,7 +141,7 @@ void builder_loads(builder *b)
         what.where = fields_entry(&f, "on", scene_load_along(&what) ? LIST_MEMBERS : LIST_NODES);
         if (what.kind == SCENE_WEIGHT)
             check_weight(&f, &what);
-        add(&f, &what);
+        builder_call(b, SCENE_LOADS, add(&f, &what), LIST_LOADS, i);
     }
 }
 
@@ -177,6 +181,7 @@ void builder_springs(builder *b)
                              "stiffness: %d numbers; give six, or the 36 of a matrix", count);
         else
             turn_stiffness(f.placed, stiffness);
-        scene_add_spring(b->scene, p, q, stiffness);
+        builder_call(b, SCENE_SPRINGS, scene_add_spring(b->scene, p, q, stiffness), LIST_SPRINGS,
+                     i);
     }
 }

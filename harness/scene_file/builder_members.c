@@ -118,6 +118,7 @@ void builder_members(builder *b)
         int profile[2];
         read_sections(&f, profile);
         const int index = scene_add_member(b->scene, p, q, profile[0], y);
+        builder_call(b, SCENE_MEMBERS, index, LIST_MEMBERS, i);
         scene_member *m = scene_member_at(b->scene, index);
         const fields release = fields_below(&f, "release");
         m->section_q = profile[1];

@@ -171,6 +171,7 @@ void builder_nodes(builder *b)
         if (fields_vector(&f, "at", 3, at))
             placement_move(f.placed, at);
         const int node = scene_add_node(b->scene, at[0], at[1], at[2]);
+        builder_call(b, SCENE_NODES, node, LIST_NODES, i);
         scene_node *n = scene_node_at(b->scene, node);
         n->attached = fields_entry(&f, "part_of", LIST_NODES);
         read_body(&f, &n->body);

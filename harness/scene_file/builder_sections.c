@@ -204,7 +204,7 @@ void builder_sections(builder *b)
         if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
                              "thickness terms are of walls; leave them out");
-        scene_add_section(b->scene, &spec);
+        builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), LIST_SECTIONS, i);
         b->names = section_names_add(b->names, entry->name,
                                      known && !computed.matrices ? &computed : NULL, b->arena);
     }

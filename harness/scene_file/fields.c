@@ -139,6 +139,11 @@ unsigned fields_words(const fields *f, const char *key, const char *choices)
     return bits;
 }
 
+void builder_call(builder *b, scene_list what, int index, builder_list list, int i)
+{
+    scene_set_name(b->scene, what, index, b->list[list].entry[i].name);
+}
+
 /* One list of a builder, for the nearest name in it. */
 typedef struct named_list {
     const builder *b;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "harness/scene_writer/meaning_impl.h"
 
 /* Does the node follow a motion in this component, or in any of the turns that follow each other?
@@ -99,8 +100,9 @@ static void motion(FILE *to, const scene *s, int driver)
 /* " of member_0 (node_0 to node_1)" */
 static void member(FILE *to, const scene *s, int index)
 {
-    fprintf(to, " of member_%d (node_%d to node_%d)", index, s->member[index].p,
-            s->member[index].q);
+    fprintf(to, " of %s (%s to %s)", scene_name(s, SCENE_MEMBERS, index).text,
+            scene_name(s, SCENE_NODES, s->member[index].p).text,
+            scene_name(s, SCENE_NODES, s->member[index].q).text);
 }
 
 /* 0: its beginning, 1: its end. */
@@ -245,7 +247,7 @@ void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size)
     char sentence[MEANING_ROOM];
     put_sentence(s, q, sentence, sizeof sentence);
     if (has_twin(s, q, sentence))
-        snprintf(text, size, "%s (analysis_%d)", sentence, q->analysis);
+        snprintf(text, size, "%s (%s)", sentence, scene_name(s, SCENE_ANALYSES, q->analysis).text);
     else
         snprintf(text, size, "%s", sentence);
 }

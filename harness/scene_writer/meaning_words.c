@@ -1,4 +1,5 @@
 /* Nodes, coordinates and ordinals in words. */
+#include "cases/scene/names.h"
 #include "harness/scene_writer/meaning_impl.h"
 
 char meaning_axis(int component)
@@ -9,8 +10,8 @@ char meaning_axis(int component)
 void meaning_node(FILE *to, const scene *s, const char *preposition, int node)
 {
     const double *at = s->node[node].position; /* + 0: no minus before a zero */
-    fprintf(to, " %s node_%d (%.4g, %.4g, %.4g)", preposition, node, at[0] + 0, at[1] + 0,
-            at[2] + 0);
+    fprintf(to, " %s %s (%.4g, %.4g, %.4g)", preposition, scene_name(s, SCENE_NODES, node).text,
+            at[0] + 0, at[1] + 0, at[2] + 0);
 }
 
 void meaning_ordinal(FILE *to, int order)

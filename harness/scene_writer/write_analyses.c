@@ -43,23 +43,23 @@ static void write_compliance(writer *w, const scene_analysis *a)
 {
     const scene_compliance *c = scene_compliance_of(a);
     int count = 0;
-    fprintf(w->to, "compliance: {node: node_%d, moments: %s", c->node,
-            scene_moments_name(c->moments));
+    write_values_named(w, "compliance: {node: ", SCENE_NODES, c->node);
+    fprintf(w->to, ", moments: %s", scene_moments_name(c->moments));
     for (int i = 0; i < 6; i++)
         if (c->released >> i & 1u)
             fprintf(w->to, "%s%s", count++ == 0 ? ", released: [" : ", ",
                     write_values_component[i]);
     fputs(count > 0 ? "]" : "", w->to);
     if (a->follows != SCENE_NONE)
-        fprintf(w->to, ", about: analysis_%d", a->follows);
+        write_values_named(w, ", about: ", SCENE_ANALYSES, a->follows);
 }
 
 static void write_continuation(writer *w, const scene_analysis *a)
 {
     const scene_continuation *c = scene_continuation_of(a);
-    fprintf(w->to,
-            "continuation: {control: {node: node_%d, component: %s}, by: %s, to: ", c->control.node,
-            write_values_component[c->control.component], c->control.by_arc ? "arc" : "coordinate");
+    write_values_named(w, "continuation: {control: {node: ", SCENE_NODES, c->control.node);
+    fprintf(w->to, ", component: %s}, by: %s, to: ", write_values_component[c->control.component],
+            c->control.by_arc ? "arc" : "coordinate");
     write_values_numbers(w, c->path.stations, c->path.value);
     fputs(", step: ", w->to);
     write_values_number(w, c->control.step);
@@ -100,7 +100,7 @@ static void write_motion(writer *w, const scene_analysis *a)
     if (m->mass == SCENE_CONSISTENT)
         fputs(", mass: consistent", w->to);
     if (a->follows != SCENE_NONE)
-        fprintf(w->to, ", about: analysis_%d", a->follows);
+        write_values_named(w, ", about: ", SCENE_ANALYSES, a->follows);
     write_start(w, &m->start);
 }
 
@@ -109,7 +109,8 @@ void write_analyses(writer *w)
     fputs("analyses:\n", w->to);
     for (int i = 0; i < w->scene->analyses; i++) {
         const scene_analysis *a = &w->scene->analysis[i];
-        fprintf(w->to, "  analysis_%d: {", i);
+        write_values_named(w, "  ", SCENE_ANALYSES, i);
+        fputs(": {", w->to);
         switch (a->kind) {
         case SCENE_LINEAR:
             fputs("linear: {", w->to);
@@ -118,7 +119,7 @@ void write_analyses(writer *w)
         case SCENE_MODAL:
             fputs(a->kind == SCENE_MODAL ? "modal: {" : "buckling: {", w->to);
             if (a->follows != SCENE_NONE)
-                fprintf(w->to, "about: analysis_%d", a->follows);
+                write_values_named(w, "about: ", SCENE_ANALYSES, a->follows);
             break;
         case SCENE_STATIC:
         case SCENE_ROTATION:

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "cases/scene/scene.h"
+#include "cases/scene/names.h"
 
 typedef struct writer {
     FILE *to;
@@ -24,8 +24,12 @@ int write_values_any(int count, const double value[]);
 void write_values_if(writer *w, const char *key, double value, double otherwise);
 /* In double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* Name of a motion: its own where it can be one. */
+/* What an entry is called in the file: as in the scene where no other is called so and a file can
+ * say it, else by its number. */
+void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
+/* `before` and the name of an entry. */
+void write_values_named(writer *w, const char *before, scene_list list, int index);
 /* "ux" .. "rz" */
 extern const char *const write_values_component[6];
 

@@ -13,7 +13,7 @@ static void write_place(writer *w, const scene_internal *c)
                                             "My",         "Mz",       "bimoment", "Mx_saint_venant",
                                             "Mx_warping", "Mx_wagner"},
                              *const along[] = {"", "max", "min", "largest"};
-    fprintf(w->to, ", member: member_%d", c->member);
+    write_values_named(w, ", member: ", SCENE_MEMBERS, c->member);
     if (c->along != SCENE_ALONG_PLACE) {
         fprintf(w->to, ", along: %s", along[c->along]);
     } else if (c->place == 0 || c->place == 1) {
@@ -28,7 +28,7 @@ static void write_place(writer *w, const scene_internal *c)
 static void write_stress(writer *w, const scene_stress *c)
 {
     static const char *const measure[] = {"von_mises", "normal_max", "normal_min"};
-    fprintf(w->to, ", member: member_%d", c->member);
+    write_values_named(w, ", member: ", SCENE_MEMBERS, c->member);
     if (!c->whole) {
         fputs(", where: ", w->to);
         write_values_number(w, c->place);
@@ -60,13 +60,14 @@ static void write_extract(writer *w, const scene_quantity *q)
     const char *word = key[q->what.kind];
     if (q->what.kind == SCENE_BALANCE)
         word = scene_balance_in(q) < SCENE_PX ? "energy" : "momentum";
-    fprintf(w->to, "%s: {analysis: analysis_%d", word, q->analysis);
+    fprintf(w->to, "%s: {", word);
+    write_values_named(w, "analysis: ", SCENE_ANALYSES, q->analysis);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_RATE:
     case SCENE_REACTION:
-        fprintf(w->to, ", node: node_%d, component: %s", scene_component_of(q)->node,
-                write_values_component[scene_component_of(q)->component]);
+        write_values_named(w, ", node: ", SCENE_NODES, scene_component_of(q)->node);
+        fprintf(w->to, ", component: %s", write_values_component[scene_component_of(q)->component]);
         break;
     case SCENE_COMPLIANCE_ENTRY:
         fprintf(w->to, ", row: %s, column: %s", write_values_component[scene_entry_of(q)->row],
@@ -101,13 +102,14 @@ static void write_extract(writer *w, const scene_quantity *q)
         write_values_motion(w, scene_driver_of(q));
         break;
     case SCENE_RELATIVE:
-        fprintf(w->to, ", node: node_%d, from: node_%d, component: %s", scene_relative_of(q)->node,
-                scene_relative_of(q)->from,
-                write_values_component[scene_relative_of(q)->component]);
+        write_values_named(w, ", node: ", SCENE_NODES, scene_relative_of(q)->node);
+        write_values_named(w, ", from: ", SCENE_NODES, scene_relative_of(q)->from);
+        fprintf(w->to, ", component: %s", write_values_component[scene_relative_of(q)->component]);
         break;
     case SCENE_ORIENTATION:
-        fprintf(w->to, ", node: node_%d, row: %c, column: %c", scene_orientation_of(q)->node,
-                "xyz"[scene_orientation_of(q)->row], "xyz"[scene_orientation_of(q)->column]);
+        write_values_named(w, ", node: ", SCENE_NODES, scene_orientation_of(q)->node);
+        fprintf(w->to, ", row: %c, column: %c", "xyz"[scene_orientation_of(q)->row],
+                "xyz"[scene_orientation_of(q)->column]);
         break;
     case SCENE_BALANCE: {
         static const char *const part[] = {"kinetic",    "strain", "energy", "work",

@@ -97,7 +97,8 @@ void write_sections(writer *w)
     fputs("sections:\n", w->to);
     for (int i = 0; i < w->scene->sections; i++) {
         const section_spec *spec = &w->scene->section[i];
-        fprintf(w->to, "  section_%d: {", i);
+        write_values_named(w, "  ", SCENE_SECTIONS, i);
+        fputs(": {", w->to);
         if (spec->kind == SECTION_MATRICES) {
             write_matrices(w, &spec->constants);
             fputs("}\n", w->to);

@@ -72,10 +72,11 @@ void write_structure_nodes(writer *w)
     fputs("nodes:\n", w->to);
     for (int i = 0; i < w->scene->nodes; i++) {
         const scene_node *n = &w->scene->node[i];
-        fprintf(w->to, "  node_%d: {at: ", i);
+        write_values_named(w, "  ", SCENE_NODES, i);
+        fputs(": {at: ", w->to);
         write_values_numbers(w, 3, n->position);
         if (n->attached != SCENE_NONE)
-            fprintf(w->to, ", part_of: node_%d", n->attached);
+            write_values_named(w, ", part_of: ", SCENE_NODES, n->attached);
         write_supports(w, n, n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3);
         if (n->rotation != SCENE_ROTATION_SPATIAL)
             write_rotation(w, n);
@@ -115,11 +116,16 @@ void write_structure_members(writer *w)
     fputs("members:\n", w->to);
     for (int i = 0; i < w->scene->members; i++) {
         const scene_member *m = &w->scene->member[i];
-        fprintf(w->to, "  member_%d: {from: node_%d, to: node_%d, section: ", i, m->p, m->q);
-        if (scene_member_tapers(m))
-            fprintf(w->to, "[section_%d, section_%d], y: ", m->section, m->section_q);
-        else
-            fprintf(w->to, "section_%d, y: ", m->section);
+        write_values_named(w, "  ", SCENE_MEMBERS, i);
+        write_values_named(w, ": {from: ", SCENE_NODES, m->p);
+        write_values_named(w, ", to: ", SCENE_NODES, m->q);
+        write_values_named(
+            w, scene_member_tapers(m) ? ", section: [" : ", section: ", SCENE_SECTIONS, m->section);
+        if (scene_member_tapers(m)) {
+            write_values_named(w, ", ", SCENE_SECTIONS, m->section_q);
+            fputc(']', w->to);
+        }
+        fputs(", y: ", w->to);
         write_values_numbers(w, 3, m->y_axis);
         fputs(", warping: [", w->to);
         write_warping(w, m->warp_p);
@@ -146,11 +152,12 @@ void write_structure_springs(writer *w)
     fputs(w->scene->springs > 0 ? "springs:\n" : "", w->to);
     for (int i = 0; i < w->scene->springs; i++) {
         const scene_spring *p = &w->scene->spring[i];
-        fprintf(w->to, "  spring_%d: {", i);
+        write_values_named(w, "  ", SCENE_SPRINGS, i);
+        fputs(": {", w->to);
         if (p->p != SCENE_NONE)
-            fprintf(w->to, "from: node_%d, ", p->p);
-        fprintf(w->to, "to: node_%d, ", p->q);
-        write_values_matrix(w, "stiffness: ", p->stiffness);
+            write_values_named(w, "from: ", SCENE_NODES, p->p);
+        write_values_named(w, p->p != SCENE_NONE ? ", to: " : "to: ", SCENE_NODES, p->q);
+        write_values_matrix(w, ", stiffness: ", p->stiffness);
         fputs("}\n", w->to);
     }
 }
@@ -206,10 +213,9 @@ void write_structure_motions(writer *w)
             if (d->function.pieces > 0)
                 write_pieces(w, &d->function);
         } else {
-            fprintf(w->to,
-                    ": {such_that: {node: node_%d, component: %s, motion: ", d->condition_node,
-                    write_values_component[d->condition_component]);
-            write_values_motion(w, d->condition_driver);
+            write_values_named(w, ": {such_that: {node: ", SCENE_NODES, d->condition_node);
+            fprintf(w->to, ", component: %s", write_values_component[d->condition_component]);
+            write_values_named(w, ", motion: ", SCENE_DRIVERS, d->condition_driver);
             fputc('}', w->to);
         }
         fputs("}\n", w->to);
@@ -223,9 +229,11 @@ void write_structure_loads(writer *w)
     fputs(w->scene->loads > 0 ? "loads:\n" : "", w->to);
     for (int i = 0; i < w->scene->loads; i++) {
         const scene_load *load = &w->scene->load[i];
-        fprintf(w->to, "  load_%d: {%s: ", i, kind[load->kind]);
+        write_values_named(w, "  ", SCENE_LOADS, i);
+        fprintf(w->to, ": {%s: ", kind[load->kind]);
         write_values_numbers(w, 3, load->vector);
-        fprintf(w->to, ", on: %s_%d", scene_load_along(load) ? "member" : "node", load->where);
+        write_values_named(w, ", on: ", scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES,
+                           load->where);
         if (write_values_any(3, load->at)) {
             fputs(", at: ", w->to);
             write_values_numbers(w, 3, load->at);

@@ -7,6 +7,8 @@
 
 const char *const write_values_component[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
+static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789.";
+
 void write_values_number(writer *w, double value)
 {
     char text[40];
@@ -56,26 +58,48 @@ void write_values_quoted(writer *w, const char *text)
     fputc('"', w->to);
 }
 
-/* Letters, digits and _, and no other motion's. */
-static int is_good_name(const scene *s, int index)
+/* Has the node weight, and a member its name? `gravity` takes the member first. */
+static int is_mistaken(const scene *s, int node, const char *name)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-    const char *name = s->driver[index].name;
-    if (name[0] == '\0' || name[strspn(name, letters)] != '\0' || strcmp(name, "free") == 0 ||
-        strcmp(name, "held") == 0)
-        return 0;
-    for (int i = 0; i < s->drivers; i++)
-        if (i != index && strcmp(s->driver[i].name, name) == 0)
+    int weighs = 0, other = 0;
+    for (int i = 0; i < s->loads; i++)
+        weighs |= s->load[i].kind == SCENE_WEIGHT && s->load[i].where == node;
+    for (int i = 0; weighs && i < s->members; i++)
+        other |= strcmp(scene_own_name(s, SCENE_MEMBERS, i), name) == 0;
+    return other;
+}
+
+/* No other entry of the list is called so, and a key can be. */
+static int is_good_name(const scene *s, scene_list list, int index, const char *name)
+{
+    static const char *const taken[] = {"free", "held", "all"};
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
+        if (strcmp(name, taken[i]) == 0)
             return 0;
-    return 1;
+    if (name[strspn(name, letters)] != '\0')
+        return 0;
+    for (int i = 0; i < index; i++)
+        if (strcmp(scene_own_name(s, list, i), name) == 0)
+            return 0;
+    return list != SCENE_NODES || !is_mistaken(s, index, name);
+}
+
+void write_values_name(writer *w, scene_list list, int index)
+{
+    const scene_words name = scene_name(w->scene, list, index);
+    const int good = is_good_name(w->scene, list, index, name.text);
+    fputs(good ? name.text : scene_numbered(w->scene, list, index).text, w->to);
+}
+
+void write_values_named(writer *w, const char *before, scene_list list, int index)
+{
+    fputs(before, w->to);
+    write_values_name(w, list, index);
 }
 
 void write_values_motion(writer *w, int index)
 {
-    if (is_good_name(w->scene, index))
-        fputs(w->scene->driver[index].name, w->to);
-    else
-        fprintf(w->to, "motion_%d", index);
+    write_values_name(w, SCENE_DRIVERS, index);
 }
 
 void write_values_matrix(writer *w, const char *key, const double A[36])

@@ -1,6 +1,7 @@
 /* Records of what a cell found and of the way there. */
 #include <math.h>
 
+#include "cases/scene/names.h"
 #include "harness/schema/fields_keys.h"
 
 static void get_moments(const subject *s, field_value *out)
@@ -139,10 +140,32 @@ static const char *word_of_event(int kind)
 }
 
 #define EVENT(member) AT(path_event, member)
+static void get_analysis(const subject *s, int analysis, field_value *out)
+{
+    schema_set_text(out, scene_own_name(&s->point->scene, SCENE_ANALYSES, analysis));
+}
+
+static void get_analysis_of_event(const subject *s, field_value *out)
+{
+    get_analysis(s, ((const path_event *)s->record)->analysis, out);
+}
+
+static void get_analysis_of_motion(const subject *s, field_value *out)
+{
+    get_analysis(s, ((const motion_record *)s->record)->analysis, out);
+}
+
+static void get_node(const subject *s, field_value *out)
+{
+    const int node = ((const nodal_matrices *)s->record)->node;
+    schema_set_text(out, scene_own_name(&s->point->scene, SCENE_NODES, node));
+}
+
 static const schema_field fields_of_event[] = {
     {"event", "", FIELD_ENUM, "what happened", EVENT(kind), .word = word_of_event,
      .words = EVENT_KINDS},
     {"analysis", "1", FIELD_INT, "of the scene", EVENT(analysis)},
+    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_event},
     {"negative_before", "1", FIELD_INT, "negative pivots; -1: not symmetric",
      EVENT(negative_before)},
     {"negative_after", "1", FIELD_INT, "the same behind it", EVENT(negative_after)},
@@ -161,6 +184,7 @@ const record_type record_event = {"event",
 #define BALANCE(of)    AT(motion_record, at.balance[of])
 static const schema_field fields_of_motion[] = {
     {"analysis", "1", FIELD_INT, "of the scene", AT(motion_record, analysis)},
+    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_motion},
     {"time", "s", FIELD_DOUBLE, "where the step ended; the first record: the begin", MOTION(time)},
     {"step", "s", FIELD_DOUBLE, "its length; of the begin 0", MOTION(step)},
     {"iterations", "1", FIELD_INT, "of Newton's method", MOTION(iterations)},
@@ -203,6 +227,7 @@ static void get_stiffness(const subject *s, field_value *out)
 
 static const schema_field fields_of_matrix[] = {
     {"node", "1", FIELD_INT, "of the scene", AT(nodal_matrices, node)},
+    {"node_name", "", FIELD_TEXT, "as the scene calls it", .get = get_node},
     {"moments", "", FIELD_ENUM, "what a moment does while its node turns",
      AT(nodal_matrices, moments), .word = fields_keys_word_of_moments,
      .words = SCENE_MOMENTS_SYMMETRISED + 1},

@@ -1,4 +1,5 @@
 #include "harness/solver/singular.h"
+#include "cases/scene/names.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,12 +21,11 @@ static void name_motion(const scene *s, int node, const double motion[6], double
     const double *shift = motion, *turn = motion + 3;
     const int turns = vec3_norm(turn) * length > 1e-6 * vec3_norm(shift);
     const double *v = turns ? turn : shift, size = vec3_norm(v);
-    fault_set(
-        f, STATUS_SINGULAR,
-        "node %d at (%.4g, %.4g, %.4g) is not held, nor what it is joined to: it can %s (%.3g, "
-        "%.3g, %.3g); hold it against that",
-        node, at[0], at[1], at[2], turns ? "turn about" : "move along", v[0] / size, v[1] / size,
-        v[2] / size);
+    fault_set(f, STATUS_SINGULAR,
+              "%s at (%.4g, %.4g, %.4g) is not held, nor what it is joined to: it can %s (%.3g, "
+              "%.3g, %.3g); hold it against that",
+              scene_called(s, SCENE_NODES, node).text, at[0], at[1], at[2],
+              turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
 }
 
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
@@ -42,9 +42,10 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
     for (int i = 0; i < 3; i++)
         axis[i] = fabs(v[i]) > 1e-9 * size ? v[i] / size : 0;
     return fault_set(f, STATUS_SINGULAR,
-                     "%s %d can %s (%.3g, %.3g, %.3g) while nothing deforms: the released ends "
+                     "%s can %s (%.3g, %.3g, %.3g) while nothing deforms: the released ends "
                      "make a mechanism; join one of them, hold it against that, or drive it",
-                     node >= 0 ? "node" : "member", node >= 0 ? node : member,
+                     node >= 0 ? scene_called(c->scene, SCENE_NODES, node).text
+                               : scene_called(c->scene, SCENE_MEMBERS, member).text,
                      turns ? "turn about" : "move along", axis[0], axis[1], axis[2]);
 }
 

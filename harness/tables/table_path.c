@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "cases/scene/names.h"
 #include "harness/tables/paragraph.h"
 
 enum { MOST_STEPS = 40 };
@@ -60,7 +61,7 @@ static void matrix(FILE *to, const double value[36], const char *const row[6],
     }
 }
 
-void table_path_matrices(FILE *to, const solve_result *r)
+void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
 {
     static const char *const motion[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
     static const char *const load[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
@@ -69,8 +70,9 @@ void table_path_matrices(FILE *to, const solve_result *r)
         if (m->stations == 0)
             continue;
         const size_t last = 36 * (size_t)(m->stations - 1);
-        fprintf(to, "compliance of node %d at path %g, %s moments [SI]\n", m->node,
-                m->path[m->stations - 1], scene_moments_name(m->moments));
+        fprintf(to, "compliance of %s at path %g, %s moments [SI]\n",
+                scene_called(s, SCENE_NODES, m->node).text, m->path[m->stations - 1],
+                scene_moments_name(m->moments));
         matrix(to, m->compliance + last, motion, load);
         if (!isfinite(m->stiffness[last]))
             continue;

@@ -105,7 +105,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         if (p->scene.quantity[i].reduction != SCENE_CURVE)
             quantity_line(to, s, t, i);
     predictions(to, p, t);
-    table_path_matrices(to, &c->solve);
+    table_path_matrices(to, &p->scene, &c->solve);
     table_motion(to, &p->scene, &c->solve);
     table_path_steps(to, &c->solve);
 }

@@ -141,12 +141,12 @@ class Frequencies(Matrices):
             if folder is None:
                 continue
             checked += 1
-            for state, stem in (("modal_1", "rest"), ("modal_3", "bent"), ("modal_4", "stressed")):
+            for state, stem in (("rest", "rest"), ("bent", "bent"), ("stressed", "stressed")):
                 found = frequencies(self.read(folder, state, "K"), self.read(folder, state, "M"))
                 self.agree(values, stem, found, formulation)
-            self.assertEqual((folder / "modal_3/K.mtx").read_text().splitlines()[2:],
-                             (folder / "static_2_station_1/K.mtx").read_text().splitlines()[2:])
-            self.assertEqual((folder / "modal_1/K.mtx").read_text().splitlines()[2:],
+            self.assertEqual((folder / "bent/K.mtx").read_text().splitlines()[2:],
+                             (folder / "path_station_1/K.mtx").read_text().splitlines()[2:])
+            self.assertEqual((folder / "rest/K.mtx").read_text().splitlines()[2:],
                              (folder / "undeformed/K.mtx").read_text().splitlines()[2:])
             self.assertFalse((folder / "undeformed/G.mtx").exists())
             self.inputs(folder, values["uz"])
@@ -158,12 +158,12 @@ class Frequencies(Matrices):
         x = numpy.linalg.solve(K, B.sum(axis=1))
         rows = self.rows(folder)
         self.assertEqual([int(r["row"]) for r in rows], list(range(1, len(K) + 1)))
-        tip = [x[i] for i, r in enumerate(rows) if (r["node"], r["component"]) == ("node_1", "uz")]
+        tip = [x[i] for i, r in enumerate(rows) if (r["node"], r["component"]) == ("tip", "uz")]
         self.assertEqual(len(tip), 1)
         self.assertLess(abs(tip[0] / value - 1), 1e-11)
         loads = self.rows(folder, "loads.csv")
         self.assertEqual([(r["column"], r["node"], float(r["z"])) for r in loads],
-                         [("1", "node_1", 40), ("2", "node_1", 5)])
+                         [("1", "tip", 40), ("2", "tip", 5)])
 
     def test_turning(self):
         """In a frame that turns: two stations, the last with the frequencies."""
@@ -173,21 +173,21 @@ class Frequencies(Matrices):
             if folder is None:
                 continue
             checked += 1
-            K, M, G = (self.read(folder, "rotation_0_station_1", letter) for letter in "KMG")
+            K, M, G = (self.read(folder, "turning_station_1", letter) for letter in "KMG")
             self.assertEqual(numpy.abs(G + G.T).max(), 0)
             self.assertGreater(numpy.abs(G).max(), 1e-3)
             self.agree(values, "turning", turning_frequencies(K, M, G), formulation)
-            half = self.read(folder, "rotation_0_station_0", "G")
+            half = self.read(folder, "turning_station_0", "G")
             self.assertLess(numpy.abs(2 * half - G).max(), 0.5 * numpy.abs(G).max())
         self.assertEqual(checked, len(FORMULATIONS))
 
     def test_newton(self):
         """Each form of Newton's method: the same matrices to round-off."""
         scene = BAR + "analyses:\n  path: {static: {stations: [1]}}\n"
-        K = self.read(self.solve(scene, "collocation"), "static_0_station_0", "K")
+        K = self.read(self.solve(scene, "collocation"), "path_station_0", "K")
         for newton in ("displacement", "dense"):
             other = self.solve(scene, f"collocation:newton={newton}")
-            change = numpy.abs(self.read(other, "static_0_station_0", "K") - K).max()
+            change = numpy.abs(self.read(other, "path_station_0", "K") - K).max()
             self.assertLess(change, 1e-9 * numpy.abs(K).max(), newton)
 
 
@@ -198,11 +198,11 @@ class Contents(Matrices):
         states = self.rows(folder, "states.csv")
         self.assertEqual([(s["folder"], s["analysis"], s["kind"], s["station"], float(s["path"]))
                           for s in states],
-                         [("undeformed", "", "", "", 0), ("modal_1", "analysis_1", "modal", "", 0),
-                          ("static_2_station_0", "analysis_2", "static", "0", 0.5),
-                          ("static_2_station_1", "analysis_2", "static", "1", 1),
-                          ("modal_3", "analysis_3", "modal", "", 1),
-                          ("modal_4", "analysis_4", "modal", "", 0)])
+                         [("undeformed", "", "", "", 0), ("rest", "rest", "modal", "", 0),
+                          ("path_station_0", "path", "static", "0", 0.5),
+                          ("path_station_1", "path", "static", "1", 1),
+                          ("bent", "bent", "modal", "", 1),
+                          ("stressed", "stressed", "modal", "", 0)])
         self.assertEqual(
             sorted(os.listdir(folder)),
             sorted([s["folder"] for s in states] + ["dofs.csv", "loads.csv", "states.csv"]))
@@ -210,9 +210,9 @@ class Contents(Matrices):
     def test_follower(self):
         """A load that turns with its node: a tangent without symmetry, and said so."""
         folder = self.solve(FOLLOWER, "collocation")
-        head = (folder / "static_0_station_0/K.mtx").read_text().splitlines()[0]
+        head = (folder / "path_station_0/K.mtx").read_text().splitlines()[0]
         self.assertEqual(head, "%%MatrixMarket matrix coordinate real general")
-        K = self.read(folder, "static_0_station_0", "K")
+        K = self.read(folder, "path_station_0", "K")
         self.assertGreater(numpy.abs(K - K.T).max(), 1e-6 * numpy.abs(K).max())
 
     def test_rows(self):
@@ -225,15 +225,15 @@ class Contents(Matrices):
             count.setdefault(key, []).append(r["component"])
         plain, turns = ["ux", "uy", "uz"], ["rx", "ry", "rz"]
         self.assertEqual(
-            count, {("node_1", "", "", "m"): plain, ("node_1", "", "", "rad"): turns,
-                    ("node_2", "", "", "rad"): ["angle 1"], ("", "member_0", "0.5", "m"): plain,
-                    ("", "member_0", "0.5", "rad"): turns, ("", "member_1", "0.5", "m"): plain,
-                    ("", "member_1", "0.5", "rad"): turns, ("", "member_1", "0", "rad"): ["turn 1"],
-                    ("", "member_0", "0.5", "rad/m"): ["warping"],
-                    ("node_1", "member_0", "1", "rad/m"): ["warping"],
-                    ("", "member_1", "0", "rad/m"): ["warping"],
-                    ("", "member_1", "0.5", "rad/m"): ["warping"]})
-        middle = [r for r in rows if r["member"] == "member_1" and r["along"] == "0.5"]
+            count, {("corner", "", "", "m"): plain, ("corner", "", "", "rad"): turns,
+                    ("right", "", "", "rad"): ["angle 1"], ("", "post", "0.5", "m"): plain,
+                    ("", "post", "0.5", "rad"): turns, ("", "beam", "0.5", "m"): plain,
+                    ("", "beam", "0.5", "rad"): turns, ("", "beam", "0", "rad"): ["turn 1"],
+                    ("", "post", "0.5", "rad/m"): ["warping"],
+                    ("corner", "post", "1", "rad/m"): ["warping"],
+                    ("", "beam", "0", "rad/m"): ["warping"],
+                    ("", "beam", "0.5", "rad/m"): ["warping"]})
+        middle = [r for r in rows if r["member"] == "beam" and r["along"] == "0.5"]
         self.assertEqual([float(middle[0][k]) for k in "xyz"], [1.5, 2, 0])
 
 

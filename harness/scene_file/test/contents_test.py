@@ -91,7 +91,7 @@ quantities:
         centre = 3*width**2*flange/(height*web + 6*width*flange)
         ring = (0.05**4 - 0.044**4)*3.141592653589793/32
         tri = 4*(0.1*0.05/2)**2*2e-3/(0.15 + 0.0125**0.5) + (0.15 + 0.0125**0.5)*8e-9/3
-        at = [float(x) for x in re.search(r"node_1: \{at: \[([^]]*)", text).group(1).split(",")]
+        at = [float(x) for x in re.search(r"n_1: \{at: \[([^]]*)", text).group(1).split(",")]
         for got, exact in zip(at, (centre, ring*1e6, tri*1e6)):
             self.assertAlmostEqual(got/exact, 1, delta=1e-12)
 
@@ -234,7 +234,7 @@ quantities:
             "nodes:", "  light: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}\nnodes:").replace(
             "shear_modulus: 81e9}", "shear_modulus: 81e9, density: 7800}", 1)
         each = one.replace("weight: {gravity: [0, -9.81, 0], on: all}",
-                           "bar: {gravity: [0, -9.81, 0], on: leaf}\n  body: {gravity: [0, -9.81, 0], on: tip}")
+                           "weight: {gravity: [0, -9.81, 0], on: leaf}\n  load_1: {gravity: [0, -9.81, 0], on: tip}")
         self.assertEqual(self.answered("scene", "--scene", self.scene(one, "one.yaml")).stdout,
                          self.answered("scene", "--scene", self.scene(each, "one.yaml")).stdout)
         self.same_again(self.scene(one, "again.yaml"), "-f", "collocation", "-n", 1)

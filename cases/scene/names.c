@@ -1,0 +1,90 @@
+#include "cases/scene/names.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *const word_of[] = {
+    [SCENE_SECTIONS] = "section", [SCENE_NODES] = "node",     [SCENE_MEMBERS] = "member",
+    [SCENE_SPRINGS] = "spring",   [SCENE_DRIVERS] = "driver", [SCENE_LOADS] = "load",
+    [SCENE_ANALYSES] = "analysis"};
+
+/* The room of a name; NULL where there is no such entry. */
+static char *room_of(const scene *s, scene_list list, int i)
+{
+    const int count[] = {
+        [SCENE_SECTIONS] = s->computeds, [SCENE_NODES] = s->nodes,     [SCENE_MEMBERS] = s->members,
+        [SCENE_SPRINGS] = s->springs,    [SCENE_DRIVERS] = s->drivers, [SCENE_LOADS] = s->loads,
+        [SCENE_ANALYSES] = s->analyses};
+    if (i < 0 || i >= count[list])
+        return NULL;
+    switch (list) {
+    case SCENE_SECTIONS:
+        return s->computed[i].name;
+    case SCENE_NODES:
+        return s->node[i].name;
+    case SCENE_MEMBERS:
+        return s->member[i].name;
+    case SCENE_SPRINGS:
+        return s->spring[i].name;
+    case SCENE_DRIVERS:
+        return s->driver[i].name;
+    case SCENE_LOADS:
+        return s->load[i].name;
+    case SCENE_ANALYSES:
+        return s->analysis[i].name;
+    }
+    return NULL;
+}
+
+void scene_set_name(scene *s, scene_list list, int i, const char *name)
+{
+    char *room = room_of(s, list, i);
+    if (room != NULL)
+        snprintf(room, SCENE_NAME, "%s", name);
+}
+
+const char *scene_own_name(const scene *s, scene_list list, int i)
+{
+    const char *name = room_of(s, list, i);
+    return name != NULL ? name : "";
+}
+
+static int is_taken(const scene *s, scene_list list, const char *text)
+{
+    const char *other;
+    for (int i = 0; (other = room_of(s, list, i)) != NULL; i++)
+        if (strcmp(other, text) == 0)
+            return 1;
+    return 0;
+}
+
+scene_words scene_numbered(const scene *s, scene_list list, int i)
+{
+    scene_words out;
+    snprintf(out.text, sizeof out.text, "%s_%d", list == SCENE_DRIVERS ? "motion" : word_of[list],
+             i); /* as scene files say it */
+    for (int k = 0; k < 8 && is_taken(s, list, out.text); k++)
+        strcat(out.text, "_");
+    return out;
+}
+
+scene_words scene_name(const scene *s, scene_list list, int i)
+{
+    scene_words out;
+    const char *own = scene_own_name(s, list, i);
+    if (own[0] == '\0')
+        return scene_numbered(s, list, i);
+    snprintf(out.text, sizeof out.text, "%s", own);
+    return out;
+}
+
+scene_words scene_called(const scene *s, scene_list list, int i)
+{
+    scene_words out;
+    const char *own = scene_own_name(s, list, i);
+    if (own[0] != '\0')
+        snprintf(out.text, sizeof out.text, "%s %s", word_of[list], own);
+    else
+        snprintf(out.text, sizeof out.text, "%s %d", word_of[list], i);
+    return out;
+}
