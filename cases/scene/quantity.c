@@ -225,6 +225,33 @@ int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
     return q->analysis == analysis && q->what.kind == kind;
 }
 
+int scene_reads(const scene *s, int analysis)
+{
+    int read = s->quantities == 0;
+    for (int i = 0; i < s->quantities && !read; i++)
+        read = s->quantity[i].analysis == analysis;
+    for (int i = analysis + 1; i < s->analyses && !read; i++)
+        read = s->analysis[i].follows == analysis && scene_reads(s, i);
+    return read;
+}
+
+static int has_quantity(const scene *s, const char *name)
+{
+    int found = 0;
+    for (int i = 0; i < s->quantities && !found; i++)
+        found = strcmp(s->quantity[i].name, name) == 0;
+    return found;
+}
+
+void scene_keep_quantities(scene *s, const scene *of)
+{
+    int kept = 0;
+    for (int i = 0; i < s->quantities; i++)
+        if (has_quantity(of, s->quantity[i].name))
+            s->quantity[kept++] = s->quantity[i];
+    s->quantities = kept;
+}
+
 const char *scene_compliance_unit(int row, int column)
 {
     static const char *const unit[2][2] = {{"m/N", "1/N"}, {"rad/N", "rad/(N m)"}};

@@ -271,9 +271,14 @@ const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Is it of this kind and this analysis? */
 int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
-/* Can it be extracted from an analysis of this kind? */
+/* Is the analysis read: by a quantity, or by an analysis that follows it and is read itself? Where
+ * there are no quantities, all of them are. */
+int scene_reads(const scene *s, int analysis);
+/* Takes away the quantities whose names the other scene does not have. */
+void scene_keep_quantities(scene *s, const scene *of);
 /* Of a response to a force or a moment, SCENE_UX to SCENE_RZ both. */
 const char *scene_compliance_unit(int row, int column);
+/* Can it be extracted from an analysis of this kind? */
 int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind);
 
 #endif

@@ -184,6 +184,8 @@ static status collect(const analysis_context *c, workspace *w, system_matrices *
     TRY(workspace_alloc(c, w, f));
     TRY(keep_linear(c, SCENE_NONE, NULL, w, s, f));
     for (int i = 0; i < c->scene->analyses; i++) {
+        if (!context_runs(c, i))
+            continue;
         if (outcome_has_path(&c->outcomes[i]))
             TRY(keep_path(c, i, w, s, f));
         else if (c->scene->analysis[i].kind == SCENE_MODAL)

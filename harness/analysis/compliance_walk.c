@@ -17,10 +17,10 @@ struct compliance_walk {
     follower of[];
 };
 
-static int follows(const scene *s, int analysis, int path)
+static int follows(const analysis_context *c, int analysis, int path)
 {
-    const scene_analysis *a = &s->analysis[analysis];
-    return a->kind == SCENE_COMPLIANCE && a->follows == path;
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    return a->kind == SCENE_COMPLIANCE && a->follows == path && context_runs(c, analysis);
 }
 
 static status add(newton *n, int analysis, compliance_walk *w, fault *f)
@@ -44,7 +44,7 @@ status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *
     int count = 0;
     *out = NULL;
     for (int i = 0; i < s->analyses; i++)
-        count += follows(s, i, path);
+        count += follows(n->c, i, path);
     if (count == 0 || n->c->options->newton == SOLVE_DENSE || scene_rotates(&s->analysis[path]))
         return STATUS_OK;
     compliance_walk *w = calloc(1, sizeof *w + (size_t)count * sizeof w->of[0]);
@@ -53,7 +53,7 @@ status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *
     *out = w;
     w->path = &scene_walk_of(&s->analysis[path])->path;
     for (int i = 0; i < s->analyses; i++)
-        if (follows(s, i, path))
+        if (follows(n->c, i, path))
             TRY(add(n, i, w, f));
     return STATUS_OK;
 }

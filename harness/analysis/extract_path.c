@@ -188,7 +188,7 @@ static int reads_elements(const scene_quantity *q)
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
-    if (a->follows != path)
+    if (a->follows != path || !context_runs(c, analysis))
         return 0;
     if (a->kind != SCENE_COMPLIANCE)
         return 1;

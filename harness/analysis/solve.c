@@ -66,7 +66,7 @@ static void run_analyses(analysis_context *c)
         analysis_function *run = function_of(c->scene, a);
         o->kind = a->kind;
         context_set_frame(c, i);
-        if (c->options->sample > 0 && a->kind != SCENE_STATIC)
+        if (!context_runs(c, i) || (c->options->sample > 0 && a->kind != SCENE_STATIC))
             continue;
         c->singular = 0;
         o->status = run != NULL ? run(c, i, o, &f)

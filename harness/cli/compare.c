@@ -59,8 +59,7 @@ static void print_left(const command_request *r, const results *run[2], const co
 static void print_partial(const comparison *c)
 {
     if (c->partial > 0)
-        printf("%d series %s compared by work and limits only: some of their quantities were left "
-               "out\n",
+        printf("%d series %s compared by limits only: some of their quantities were left out\n",
                c->partial, c->partial == 1 ? "is" : "are");
 }
 

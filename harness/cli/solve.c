@@ -111,10 +111,11 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
     follow_curves curves;
     follow_request what = {.cell = {.type = type, .keep_all = r->keep_all, .threads = r->threads}};
-    if (r->shapes > 0 || r->matrices != NULL || r->ends != NULL || r->restart != NULL)
+    if (r->shapes > 0 || r->matrices != NULL || r->ends != NULL || r->restart != NULL ||
+        r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--follow gives curves of modes: leave --shapes, --matrices, --ends and "
-                         "--restart");
+                         "--follow gives curves of modes: leave -k, --shapes, --matrices, --ends "
+                         "and --restart");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
     TRY(files_check(r, 0, case_input_truths_path(r), f));
@@ -236,10 +237,13 @@ int cli_solve(int count, char **arguments)
         "error. Without -f a formulation is chosen that offers what the case needs and has no "
         "known defect there; without -n the coarsest of the case's meshes at which no value "
         "changes by more than 0.1 % from the mesh before, or, where one still does, the finest: "
-        "the output says which, and why."
+        "the output says which, and why. An analysis that no quantity reads is not run, unless a "
+        "scene has no quantities, or its states are drawn or written; -k asks for some of the "
+        "quantities only."
         "\vbeamwork solve elastica\n"
         "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
+        "beamwork solve c_column -k buckling_load\n"
         "beamwork solve pendulum -f collocation -n 8 --set time=1 --ends pendulum.h5\n"
         "beamwork solve pendulum --set time=2 --restart pendulum.h5",
-        "fnsFoKSPRVtTYL45.", count, arguments, solve_request);
+        "fnskFoKSPRVtTYL45.", count, arguments, solve_request);
 }

@@ -9,6 +9,7 @@ solution_request defaults_request(const command_request *r, const case_type *typ
 {
     solution_request out = {.type = type,
                             .parameter = r->parameter,
+                            .select = r->select,
                             .elements = r->meshes > 0 ? r->mesh[0] : 0,
                             .keep_all = r->keep_all,
                             .steps = r->steps,

@@ -34,7 +34,8 @@ typedef struct comparison {
     /* series that are in one only, old | new, and are no change: outside what the other run was
      * asked for; of formulations that do not gate yet */
     int outside[2], fresh[2];
-    int partial; /* series of which some quantities were left out: their errors are not compared */
+    int partial; /* series of which some quantities were left out of one: neither their errors nor
+                    their work are compared */
 } comparison;
 
 /* "error=0.01,floor=1e-8,work=0.02", any of them. REFUSED names the culprit. */

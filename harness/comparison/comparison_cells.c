@@ -47,11 +47,14 @@ static void compare_values(const listing *l, const result_cell *a, const result_
             compare_value(l, &a->value[i], other);
             continue;
         }
+        if (!results_part_selects(&l->after->part, l->name, a->value[i].quantity))
+            continue;
         comparison_lines_heading(l, CHANGE_GONE);
         fprintf(l->to, ": %s\n", a->value[i].quantity);
     }
     for (int i = 0; i < b->values; i++)
-        if (value_named(a, i, b->value[i].quantity) == NULL) {
+        if (value_named(a, i, b->value[i].quantity) == NULL &&
+            results_part_selects(&l->before->part, l->name, b->value[i].quantity)) {
             comparison_lines_heading(l, CHANGE_NEW);
             fprintf(l->to, ": %s\n", b->value[i].quantity);
         }
@@ -60,6 +63,7 @@ static void compare_values(const listing *l, const result_cell *a, const result_
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b)
 {
     comparison_lines_status(l, a->status, b->status);
-    comparison_lines_work(l, a->work, b->work, 1);
+    if (!results_part_differ(l->before, l->after, l->name)) /* work is that of what is asked for */
+        comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }

@@ -104,12 +104,12 @@ static void compare_limits(const listing *l, const result_series *a, const resul
 void comparison_series(const listing *l, const result_series *a, const result_series *b)
 {
     if (compare_meshes(l, a, b)) { /* sums over other meshes say nothing */
-        comparison_lines_work(l, a->work, b->work, a->meshes);
-        if (results_part_is_partial(l->before, l->name) ||
-            results_part_is_partial(l->after, l->name))
-            l->out->partial++; /* errors are judged of what is selected only */
-        else
+        if (results_part_differ(l->before, l->after, l->name)) {
+            l->out->partial++; /* errors and work are those of what is selected only */
+        } else {
+            comparison_lines_work(l, a->work, b->work, a->meshes);
             compare_errors(l, a, b);
+        }
     }
     if (l->out->judged)
         compare_limits(l, a, b);

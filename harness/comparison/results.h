@@ -105,8 +105,9 @@ int results_part_selects(const results_part *p, const char *series, const char *
 /* Was a series that `other` alone has asked for, of the run r: any of its quantities, as the two
  * know them? */
 int results_part_wants(const results *r, const results *other, const char *series);
-/* Were some quantities of a series that r has left out? */
-int results_part_is_partial(const results *r, const char *series);
+/* Were other quantities of a series asked for in one run than in the other, as the two know them?
+ */
+int results_part_differ(const results *a, const results *b, const char *series);
 /* Is its formulation new to the run? */
 int results_part_is_fresh(const results_part *p, const char *series);
 void results_part_free(results_part *);

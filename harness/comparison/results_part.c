@@ -38,13 +38,28 @@ int results_part_selects(const results_part *p, const char *series, const char *
     return p->select == NULL || select_matches(p->select, text) != 0;
 }
 
-int results_part_is_partial(const results *r, const char *series)
+/* Has the run a quantity of the series that this part of one leaves out? */
+static int leaves_out(const results_part *p, const results *known, const char *series)
 {
-    for (int i = 0; r->part.select != NULL && i < r->cells; i++)
-        for (int k = 0; strcmp(r->cell[i].name, series) == 0 && k < r->cell[i].values; k++)
-            if (!results_part_selects(&r->part, series, r->cell[i].value[k].quantity))
+    for (int i = 0; p->select != NULL && i < known->cells; i++)
+        for (int k = 0; strcmp(known->cell[i].name, series) == 0 && k < known->cell[i].values; k++)
+            if (!results_part_selects(p, series, known->cell[i].value[k].quantity))
+                return 1;
+    for (int i = 0; p->select != NULL && i < known->seriess; i++)
+        for (int k = 0; strcmp(known->series[i].name, series) == 0 && k < known->series[i].limits;
+             k++)
+            if (!results_part_selects(p, series, known->series[i].limit[k].quantity))
                 return 1;
     return 0;
+}
+
+int results_part_differ(const results *a, const results *b, const char *series)
+{
+    if (a->part.select != NULL && b->part.select != NULL &&
+        strcmp(a->part.select, b->part.select) == 0)
+        return 0;
+    return leaves_out(&a->part, a, series) || leaves_out(&a->part, b, series) ||
+           leaves_out(&b->part, a, series) || leaves_out(&b->part, b, series);
 }
 
 /* Is what a run knows at `name` of the series, or, where the series has no options, of its case?

@@ -43,7 +43,7 @@ static int unfinished_step(const solve_result *r, double promised)
 static int is_plain(const cell_result *cell, const scene *s, solve_newton newton)
 {
     for (int i = 0; i < s->analyses; i++)
-        if (s->analysis[i].kind != SCENE_STATIC)
+        if (scene_reads(s, i) && s->analysis[i].kind != SCENE_STATIC)
             return 0;
     return newton == SOLVE_MIXED && cell->counters.rejected_steps == 0;
 }
@@ -52,7 +52,7 @@ static int is_plain(const cell_result *cell, const scene *s, solve_newton newton
 static long most_reused(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
-        if (s->analysis[i].kind == SCENE_CONTINUATION)
+        if (scene_reads(s, i) && s->analysis[i].kind == SCENE_CONTINUATION)
             return cell->counters.steps;
     return 0;
 }
@@ -61,7 +61,7 @@ static long most_reused(const cell_result *cell, const scene *s)
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
-        if (s->analysis[i].kind == SCENE_MOTION)
+        if (scene_reads(s, i) && s->analysis[i].kind == SCENE_MOTION)
             return cell->counters.iterations - cell->counters.steps;
     return 0;
 }

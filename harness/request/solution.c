@@ -2,6 +2,7 @@
 
 #include "harness/judge/preference.h"
 #include "harness/model/features.h"
+#include "harness/study/narrow.h"
 #include "harness/study/plan.h"
 
 static cell_request cell_of(const solution_request *r, const scene *s)
@@ -18,6 +19,7 @@ static status choose(solution_request *r, const rule *rules, int count, int elem
                      solution_choice *why, fault *f)
 {
     TRY(cell_scene(r->type, r->parameter, NULL, s, f));
+    TRY(narrow_scene(s, r->type, r->parameter, &r->formulation, r->select, f));
     if (r->systems)
         scene_need(s, FEATURE_MASS);
     if (r->formulation.type == NULL) {
@@ -47,6 +49,7 @@ status solution_choose(solution_request *r, const rule *rules, int count, int el
 status solution_plan(const solution_request *r, sweep *s, fault *f)
 {
     TRY(plan_one(r->type, r->parameter, &r->formulation, 1, &r->elements, 1, s, f));
+    TRY(narrow_to(s, r->select, f));
     if (r->systems)
         scene_need(&s->point[0].scene, FEATURE_MASS);
     return STATUS_OK;
@@ -58,6 +61,8 @@ status solution_run(const solution_request *r, sweep *s, fault *f)
     request.solve.shapes = r->shapes;
     request.solve.systems = r->systems;
     request.solve.keep_ends = r->keep_ends;
+    /* what is drawn, written or gone on from is asked for */
+    request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
     request.solve.restarts = r->restarts;
     request.solve.restart = r->restart;
     return cell_run(&request, &s->series[0].cell[0], f);

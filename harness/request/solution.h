@@ -8,6 +8,8 @@
 typedef struct solution_request {
     const case_type *type;
     const double *parameter; /* of the case */
+    const char *select;      /* quantities that are asked for, as of harness/study/narrow.h; NULL:
+                                all */
     formulation formulation; /* type NULL: to be chosen */
     int elements;            /* of each member; 0: to be chosen */
     int keep_all, steps, shapes, threads;
@@ -26,7 +28,8 @@ typedef struct solution_choice {
  * NULL: the ledger is not known. REFUSED: no formulation offers what the case needs. */
 status solution_choose(solution_request *, const rule *rules, int count, int elements,
                        solution_choice *why, fault *f);
-/* One point, series and mesh, not yet run; sweep_free frees them, also after a failure. */
+/* One point, series and mesh, not yet run, with the quantities that are selected; sweep_free frees
+ * them, also after a failure. */
 status solution_plan(const solution_request *, sweep *, fault *);
 /* Solves the one cell in this process. A cell that is not solved is a result all the same: not
  * after REFUSED and FAULT. */

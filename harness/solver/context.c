@@ -3,6 +3,11 @@
 #include "harness/equations/loads.h"
 #include "harness/equations/rotating_frame.h"
 
+int context_runs(const analysis_context *c, int analysis)
+{
+    return c->options->all_analyses || scene_reads(c->scene, analysis);
+}
+
 void context_set_frame(const analysis_context *c, int analysis)
 {
     static const scene_rotating_frame rest = {{0}, {0}};
@@ -40,7 +45,7 @@ void context_leave_factor(analysis_context *c, factor *fa)
 {
     int compliances = 0;
     for (int i = 0; i < c->scene->analyses; i++)
-        compliances += c->scene->analysis[i].kind == SCENE_COMPLIANCE;
+        compliances += c->scene->analysis[i].kind == SCENE_COMPLIANCE && context_runs(c, i);
     if (compliances == 0 || c->left != NULL)
         factor_free(fa);
     else

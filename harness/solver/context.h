@@ -18,6 +18,8 @@ typedef struct analysis_context {
                                    needs any more; NULL: none */
 } analysis_context;
 
+/* Is the analysis asked for, by what is read from it or by the options? */
+int context_runs(const analysis_context *, int analysis);
 /* From here on the axes of the model turn as those of the analysis do, and the path parameter is
  * what it has. */
 void context_set_frame(const analysis_context *, int analysis);

@@ -34,6 +34,7 @@ typedef struct solve_options {
     int keep_ends;   /* 1: where motions stop is kept, for another run that goes on from there */
     int restarts;
     const outcome_end *restart; /* [restarts] where those stopped that motions go on from */
+    int all_analyses;           /* 1: those that no quantity reads run, too */
     int values_only; /* 1: what only curves and matrices show at a station is not computed */
 } solve_options;
 

@@ -67,7 +67,8 @@ void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS])
     for (int k = 0; k < EXPENSE_KINDS; k++)
         times[k] = k == EXPENSE_cell;
     for (int i = 0; i < s->analyses; i++)
-        count_analysis(s, &s->analysis[i], steps, times);
+        if (scene_reads(s, i))
+            count_analysis(s, &s->analysis[i], steps, times);
 }
 
 static expense_price own_factor(const element_type *type)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "harness/catalogue/choice.h"
+#include "harness/catalogue/parameters.h"
 
 /* Which are kept: of the point's quantities and of the series. */
 typedef struct kept {
@@ -86,4 +87,18 @@ status narrow_to(sweep *s, const char *select, fault *f)
     free(k.quantity);
     free(k.series);
     return outcome;
+}
+
+status narrow_scene(scene *s, const case_type *type, const double parameter[],
+                    const formulation *chosen, const char *select, fault *f)
+{
+    fault unmet = {""};
+    point p = {.type = type, .scene = *s};
+    series one = {.formulation = *chosen};
+    sweep whole = {.points = 1, .seriess = 1, .point = &p, .series = &one};
+    parameters_text(type, parameter, p.text, sizeof p.text);
+    const status outcome = narrow_to(&whole, select, chosen->type != NULL ? f : &unmet);
+    if (outcome == STATUS_OK)
+        s->quantities = p.scene.quantities;
+    return outcome == STATUS_REFUSED && chosen->type == NULL ? STATUS_OK : outcome;
 }

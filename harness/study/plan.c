@@ -171,8 +171,10 @@ static void choose_all(const truths *t, const point *p, chosen *out)
     choose_stored(t, p, out);
 }
 
-/* One that any quantity is selected of; words of the selection are met in all of them. */
-static int is_selected(const sweep *s, const point *p, const formulation *one, select_words *words)
+/* One that any quantity is selected of; words of the selection are met in all of them. asked:
+ * [quantities or 1] becomes 1 of those that are. */
+static int is_selected(const sweep *s, const point *p, const formulation *one, select_words *words,
+                       char asked[])
 {
     int selected = 0;
     for (int q = 0; q < p->scene.quantities || q == 0; q++) {
@@ -180,6 +182,7 @@ static int is_selected(const sweep *s, const point *p, const formulation *one, s
         char text[SWEEP_TEXT];
         sweep_text(p, one, quantity, text);
         select_meet(s->select, text, words);
+        asked[q] |= s->select == NULL || select_matches(s->select, text) > 0;
         selected = selected || sweep_selects(s, p, one, quantity);
     }
     return selected;
@@ -188,7 +191,7 @@ static int is_selected(const sweep *s, const point *p, const formulation *one, s
 /* Formulations of one point: those given, or all, and the options that a discrete truth speaks of.
  */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
-                          select_words *words, fault *f)
+                          select_words *words, char asked[], fault *f)
 {
     const point *p = &s->point[index];
     chosen those = {.count = 0};
@@ -197,9 +200,31 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     else
         choose_all(t, p, &those);
     for (int i = 0; i < those.count; i++)
-        if (is_selected(s, p, &those.list[i], words))
+        if (is_selected(s, p, &those.list[i], words, asked))
             TRY(add_series(s, index, &those.list[i], t, f));
     return STATUS_OK;
+}
+
+/* What no formulation is asked for is not computed. */
+static void drop_quantities(scene *s, const char asked[])
+{
+    int kept = 0;
+    for (int q = 0; q < s->quantities; q++)
+        if (asked[q])
+            s->quantity[kept++] = s->quantity[q];
+    s->quantities = kept > 0 ? kept : s->quantities;
+}
+
+static status plan_point(const sweep_request *request, const truths *t, sweep *s, int index,
+                         select_words *words, fault *f)
+{
+    char *asked = calloc((size_t)s->point[index].scene.quantities + 1, 1);
+    if (asked == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a selection");
+    const status outcome = plan_series(request, t, s, index, words, asked, f);
+    drop_quantities(&s->point[index].scene, asked);
+    free(asked);
+    return outcome;
 }
 
 static status alloc_cells(sweep *s, fault *f)
@@ -220,7 +245,7 @@ static status plan_all(const sweep_request *request, const truths *t, sweep *out
     TRY(select_begin(request->select, &words, f));
     TRY(plan_points(out->cases, t, out, f));
     for (int i = 0; i < out->points; i++)
-        TRY(plan_series(request, t, out, i, &words, f));
+        TRY(plan_point(request, t, out, i, &words, f));
     TRY(select_all_met(request->select, &words, f));
     return alloc_cells(out, f);
 }

@@ -72,8 +72,10 @@ static void run_again(const workload *w, const asked *a, cell_request *request, 
     request->solve.values_only = 1;
     request->solve.condition = request->solve.shapes = 0;
     *out = (cell_result){.solve.status = STATUS_OK};
-    if (cell_scene(p->type, p->parameter, &a->edit, &edited, &f) == STATUS_OK)
+    if (cell_scene(p->type, p->parameter, &a->edit, &edited, &f) == STATUS_OK) {
+        scene_keep_quantities(&edited, &p->scene);
         cell_run(request, out, &f);
+    }
     scene_free(&edited);
 }
 
