@@ -265,7 +265,8 @@ int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
                 1 << SCENE_RELATIVE | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
     };
     static const int gives[] = {
-        [SCENE_LINEAR] = 1 << SCENE_COORDINATE | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
+        [SCENE_LINEAR] =
+            1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
         [SCENE_STATIC] = STATE,
         [SCENE_MOTION] = STATE | 1 << SCENE_RATE | 1 << SCENE_ORIENTATION | 1 << SCENE_BALANCE,
         [SCENE_BUCKLING] = 1 << SCENE_CRITICAL_FACTOR,

@@ -1,5 +1,6 @@
 /* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses
- * of what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays. */
+ * of what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays, with the
+ * strains that members have by themselves. */
 #include "harness/analysis/buckling.h"
 
 #include <stdlib.h>
@@ -95,7 +96,7 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
         return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
     TRY(quadratic_forms_alloc(c->model, &s->K, &p->staying, f));
     TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
-    TRY(quadratic_forms_load(&p->staying, 0, f));
+    TRY(quadratic_forms_load(&p->staying, 0, 1, f));
     TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
     TRY(linear_geometric_stiffness(c->model, p->staying.sigma, 0, &p->of_stay, f));
     for (int i = 0; i < size.free + size.driven; i++)
@@ -107,8 +108,11 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     if (factored == STATUS_SINGULAR ||
         (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
         return fault_set(f, STATUS_REFUSED,
-                         "the loads at path 0, which stay, are critical by themselves: nothing is "
-                         "left to grow; make them smaller");
+                         "%s, which stay, are critical by themselves: nothing is left to grow; "
+                         "make them smaller",
+                         linear_initial(c->model) == 0 ? "the loads at path 0"
+                         : !loads_begin(c->model)      ? "the strains of members"
+                                                  : "the loads at path 0 and strains of members");
     return factored;
 }
 
@@ -120,9 +124,9 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
     TRY(along_path_proportional(c->scene, f));
     TRY(quadratic_forms_alloc(c->model, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
-    if (loads_begin(c->model))
+    if (loads_begin(c->model) || linear_initial(c->model) > 0)
         TRY(split_stays(c, s, p, f));
-    TRY(quadratic_forms_load(&p->growing, 1, f));
+    TRY(quadratic_forms_load(&p->growing, 1, 0, f));
     TRY(sparse_alloc_like(&s->K, &p->G, f));
     TRY(linear_geometric_stiffness(c->model, p->growing.sigma, 1, &p->G, f));
     if (p->stays) {

@@ -93,10 +93,10 @@ static status keep(const analysis_context *c, const model_state *state, double p
     return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
 }
 
-/* Of the undeformed structure; displaced: those of a linear solution whose stresses count, NULL:
- * there are none. */
+/* Of the undeformed structure; displaced: those of a linear solution whose stresses count, under
+ * the loads at `path`, NULL: there are none. */
 static status keep_linear(const analysis_context *c, int analysis, const double displaced[],
-                          workspace *w, system_matrices *s, fault *f)
+                          double path, workspace *w, system_matrices *s, fault *f)
 {
     state_matrices *out = NULL;
     static const double none[3];
@@ -105,8 +105,8 @@ static status keep_linear(const analysis_context *c, int analysis, const double 
     rotating_frame_set(c->model, none, none, 0);
     TRY(linear_stiffness(c->model, &w->K, f));
     if (displaced != NULL) {
-        TRY(linear_stresses(c->model, displaced, w->sigma, f));
-        TRY(linear_geometric_stiffness(c->model, w->sigma, 1, &w->G, f));
+        TRY(linear_whole_stresses(c->model, displaced, w->sigma, f));
+        TRY(linear_geometric_stiffness(c->model, w->sigma, path, &w->G, f));
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];
     }
@@ -144,15 +144,26 @@ static status keep_path(const analysis_context *c, int analysis, workspace *w, s
     return STATUS_OK;
 }
 
+/* Without loads; strains that members have by themselves remain. */
+static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
+                            system_matrices *s, fault *f)
+{
+    loads_none(c->model);
+    const status outcome =
+        keep_linear(c, analysis, outcome_spectrum_of(&c->outcomes[analysis])->strained, 0, w, s, f);
+    loads_of(c->model, analysis);
+    return outcome;
+}
+
 /* About what the modal analysis follows. */
 static status keep_about(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
     const int follows = c->scene->analysis[analysis].follows;
     if (follows == SCENE_NONE)
-        return keep_linear(c, analysis, NULL, w, s, f);
+        return keep_unloaded(c, analysis, w, s, f);
     if (c->scene->analysis[follows].kind == SCENE_LINEAR)
-        return keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), w, s, f);
+        return keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), 1, w, s, f);
     const outcome_path *path = outcome_path_of(&c->outcomes[follows]);
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
@@ -182,7 +193,7 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
 static status collect(const analysis_context *c, workspace *w, system_matrices *s, fault *f)
 {
     TRY(workspace_alloc(c, w, f));
-    TRY(keep_linear(c, SCENE_NONE, NULL, w, s, f));
+    TRY(keep_linear(c, SCENE_NONE, NULL, 0, w, s, f));
     for (int i = 0; i < c->scene->analyses; i++) {
         if (!context_runs(c, i))
             continue;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "harness/analysis/extract_path.h"
+#include "harness/equations/linear.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
@@ -39,8 +40,8 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
                         const model_state *s, double reaction[6])
 {
     double load[6];
-    linearise_node_force(c->model, s, what->node, reaction);
-    loads_at_node(c->model, s, what->node, load);
+    linearise_node_force(c->model, s, NULL, what->node, reaction);
+    loads_at_node(c->model, s, kinematics_state_path(s), what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
 }
@@ -106,9 +107,22 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
                : STATUS_OK;
 }
 
+/* The state without loads: undeformed, but for strains that members have by themselves. */
+static status unloaded(analysis_context *c, newton *n, const model_state **state, fault *f)
+{
+    step_record unused = {0};
+    *state = kinematics_rest(c->model);
+    loads_none(c->model);
+    if (linear_initial(c->model) == 0)
+        return STATUS_OK;
+    TRY(newton_alloc(c, 0, n, f));
+    *state = n->state;
+    return newton_to(n, 0, &unused, f);
+}
+
 /* With what compliance_analysis frees; at the stations that the path has reached. */
-static status solve(analysis_context *c, int analysis, tangent *t, outcome_compliance *out,
-                    fault *f)
+static status solve(analysis_context *c, int analysis, tangent *t, newton *n,
+                    outcome_compliance *out, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
     const scene_compliance *what = scene_compliance_of(a);
@@ -117,7 +131,10 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
     const int reached = path != NULL ? path->reached : 1;
     const unsigned wanted = wanted_columns(c, analysis);
     outcome_path *o = &out->path;
+    const model_state *alone = NULL;
     nodal_matrices *m = NULL;
+    if (path == NULL)
+        TRY(unloaded(c, n, &alone, f));
     o->stations = path != NULL ? path->stations : 1;
     TRY(tangent_alloc(c, what, NULL, t, f));
     TRY(matrices_alloc(c->result, what, o->stations, &m, f));
@@ -126,7 +143,7 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
     if (o->value == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
     for (int i = 0; i < reached; i++) {
-        const model_state *s = path != NULL ? path->state[i] : kinematics_rest(c->model);
+        const model_state *s = path != NULL ? path->state[i] : alone;
         station_matrices at = {0};
         if (out->taken != NULL && out->taken[i].known)
             at = out->taken[i];
@@ -142,8 +159,11 @@ static status solve(analysis_context *c, int analysis, tangent *t, outcome_compl
 
 status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    tangent t;
-    const status result = solve(c, analysis, &t, &o->left.compliance, f);
+    tangent t = {0};
+    newton n = {0};
+    const status result = solve(c, analysis, &t, &n, &o->left.compliance, f);
     tangent_free(&t);
+    newton_free(&n);
+    loads_of(c->model, analysis);
     return result;
 }

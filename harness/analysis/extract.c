@@ -49,10 +49,10 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     }
     switch (c->scene->analysis[q->analysis].kind) {
     case SCENE_LINEAR:
-        if (q->what.kind == SCENE_INTERNAL || q->what.kind == SCENE_STRESS)
-            extract_section_linear(c, q, o, r);
-        else
+        if (q->what.kind == SCENE_COORDINATE)
             from_linear(c, q, o, r);
+        else
+            extract_section_linear(c, q, o, r);
         break;
     case SCENE_BUCKLING:
         extract_spectrum_buckling(q, o, r);

@@ -4,20 +4,33 @@
 #include <stdlib.h>
 
 #include "harness/equations/linear.h"
+#include "harness/equations/linearise.h"
+#include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
 #include "harness/motion/resultants.h"
 #include "harness/solver/quantity.h"
 
+/* Under the loads at path 1. */
+static double reaction_of(model *m, const scene_component *what, const double sigma[])
+{
+    double F[6], L[6];
+    linearise_node_force(m, kinematics_rest(m), sigma, what->node, F);
+    loads_at_node(m, kinematics_rest(m), 1, what->node, L);
+    return F[what->component] - L[what->component];
+}
+
 void extract_section_linear(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
 {
-    const model_size size = model_sizes(c->model);
-    double *sigma = calloc((size_t)size.elements * (size_t)size.strains + 1, sizeof *sigma), value;
+    double *sigma = calloc((size_t)model_stresses(c->model) + 1, sizeof *sigma), value;
     const internal_state at = {
         .s = kinematics_rest(c->model), .sigma = sigma, .x = outcome_displacements(o), .path = 1};
     fault f = {"out of memory for stresses"};
-    status outcome = sigma != NULL ? linear_stresses(c->model, at.x, sigma, &f) : STATUS_FAULT;
-    if (outcome == STATUS_OK)
+    status outcome =
+        sigma != NULL ? linear_whole_stresses(c->model, at.x, sigma, &f) : STATUS_FAULT;
+    if (outcome == STATUS_OK && q->what.kind == SCENE_REACTION)
+        value = reaction_of(c->model, scene_component_of(q), sigma);
+    else if (outcome == STATUS_OK)
         outcome = resultants_in_section(c->model, q, &at, &value, &f);
     if (outcome == STATUS_OK)
         r->value = quantity_scaled(q, value);

@@ -10,6 +10,7 @@
 #include "elements/math/dense.h"
 #include "harness/algebra/eigen.h"
 #include "harness/equations/linear.h"
+#include "harness/equations/loads.h"
 #include "harness/equations/rotating_frame.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
@@ -33,7 +34,7 @@ typedef struct modal_forms {
     quadratic_forms of;
     int prestressed;
     sparse M, G;  /* G of the prestress; no values: there is none */
-    double shift; /* [1/s^2] */
+    double shift; /* [1/s^2] of K in the system and in its forms */
     double *work; /* [free] */
 } modal_forms;
 
@@ -103,6 +104,20 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     return context_factor(c, s->factor, &s->K, f);
 }
 
+/* K += G of the stresses of the displacements load_x, under the loads at `path`. */
+static status add_stresses(analysis_context *c, double path, linear_system *s, modal_forms *about,
+                           fault *f)
+{
+    about->prestressed = 1;
+    TRY(quadratic_forms_load(&about->of, path, 1, f));
+    TRY(sparse_alloc_like(&s->K, &about->G, f));
+    TRY(linear_geometric_stiffness(c->model, about->of.sigma, path, &about->G, f));
+    for (int i = 0; i < s->K.column[s->K.n]; i++)
+        s->K.value[i] += about->G.value[i];
+    model_counters(c->model)->factorisations++;
+    return context_factor(c, s->factor, &s->K, f);
+}
+
 /* K += G of the stresses of the linear analysis that is followed. */
 static status add_prestress(analysis_context *c, int follows, linear_system *s, modal_forms *about,
                             fault *f)
@@ -115,21 +130,28 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
         return fault_set(
             f, STATUS_REFUSED,
             "frequencies of a loaded structure follow a linear analysis that has been solved");
-    about->prestressed = 1;
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
-    TRY(quadratic_forms_load(&about->of, 1, f));
-    TRY(sparse_alloc_like(&s->K, &about->G, f));
-    TRY(linear_geometric_stiffness(c->model, about->of.sigma, 1, &about->G, f));
-    for (int i = 0; i < s->K.column[s->K.n]; i++)
-        s->K.value[i] += about->G.value[i];
-    model_counters(c->model)->factorisations++;
-    return context_factor(c, s->factor, &s->K, f);
+    return add_stresses(c, 1, s, about, f);
+}
+
+/* K += G of the stresses that initial strains leave in the structure without loads. K may be that
+ * of a structure that is not held, with its shift. */
+static status add_strains(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
+                          fault *f)
+{
+    loads_none(c->model);
+    status outcome = linear_system_solve(c, s, 0, about->of.load_x, f);
+    if (outcome == STATUS_OK)
+        outcome = add_stresses(c, 0, s, about, f);
+    loads_of(c->model, analysis);
+    return outcome;
 }
 
 /* K with its factors, and M; K of a structure that is not held is shifted. */
-static status assemble(analysis_context *c, int follows, linear_system *s, modal_forms *about,
+static status assemble(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                        fault *f)
 {
+    const int follows = c->scene->analysis[analysis].follows;
     const status solved = linear_system_alloc(c, s, f);
     int singular = solved == STATUS_SINGULAR;
     if (!singular)
@@ -146,14 +168,18 @@ static status assemble(analysis_context *c, int follows, linear_system *s, modal
     if (about->work == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
     TRY(rotating_frame_inertia(c->model, NULL, 0, &about->M, NULL, f));
-    return singular ? shifted_system(c, s, &about->M, &about->shift, f) : STATUS_OK;
+    if (singular)
+        TRY(shifted_system(c, s, &about->M, &about->shift, f));
+    if (follows == SCENE_NONE && linear_initial(c->model) > 0)
+        TRY(add_strains(c, analysis, s, about, f));
+    return STATUS_OK;
 }
 
 /* With what modal_analysis frees. */
 static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {
-    TRY(assemble(c, c->scene->analysis[analysis].follows, s, about, f));
+    TRY(assemble(c, analysis, s, about, f));
     const eigen_problem p = {.K = &s->K,
                              .A = &about->M,
                              .K_factor = s->factor,
@@ -175,6 +201,10 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
     modal_forms about = {0};
     const status result = solve(c, analysis, &s, &about, &e, f);
     keep(&about, &e.positive, o);
+    if (about.prestressed && c->scene->analysis[analysis].follows == SCENE_NONE) {
+        o->left.spectrum.strained = about.of.load_x;
+        about.of.load_x = NULL;
+    }
     eigen_free(&e);
     linear_system_free(&s);
     quadratic_forms_free(&about.of);

@@ -66,6 +66,26 @@ status linear_stresses(model *m, const double x[], double sigma[], fault *f)
     return STATUS_OK;
 }
 
+double linear_initial(const model *m)
+{
+    double largest = 0;
+    for (int i = 0; i < m->scene->members; i++)
+        largest = fmax(largest, vec3_norm(m->scene->member[i].strain));
+    return largest;
+}
+
+status linear_whole_stresses(model *m, const double x[], double sigma[], fault *f)
+{
+    TRY(linear_stresses(m, x, sigma, f));
+    for (int i = 0; i < m->elements && linear_initial(m) > 0; i++) {
+        undeformed_element l;
+        TRY(undeformed_of(m, i, &l, f));
+        for (int k = 0; l.initial != NULL && k < m->strains; k++)
+            sigma[(size_t)i * (size_t)m->strains + (size_t)k] += l.initial[k];
+    }
+    return STATUS_OK;
+}
+
 void linear_forces(model *m, const double sigma[], double f[])
 {
     ahead_strains(m, m->rest, AHEAD_J, NULL);
@@ -140,7 +160,7 @@ static void linear_terms(model *m, int i, const double x[], double strain[], dou
             strain[k] += fabs(l.J[k * m->coordinates + j] * local[j]);
     }
     for (int k = 0; k < m->strains; k++) {
-        stress[k] = 0;
+        stress[k] = l.initial != NULL ? fabs(l.initial[k]) : 0;
         for (int j = 0; j < m->strains; j++)
             stress[k] += fabs(l.C[k * m->strains + j]) * strain[j];
     }

@@ -7,7 +7,11 @@
 /* Linear analyses about the undeformed state. */
 status linear_stiffness(model *, sparse *K, fault *); /* J^T S J at e = 0 */
 status linear_stresses(model *, const double x[], double sigma[],
-                       fault *); /* sigma = S J x, [elements x strains] */
+                       fault *); /* sigma = S J x, [model_stresses] */
+/* Largest strain of a member that would leave no stress; 0: there is none. */
+double linear_initial(const model *);
+/* The same with what these strains add: of the structure as it is, not of a motion. */
+status linear_whole_stresses(model *, const double x[], double sigma[], fault *);
 void linear_forces(model *, const double sigma[],
                    double f[]); /* f[free + driven] = sum J^T sigma */
 status linear_geometric_stiffness(model *, const double sigma[], double path, sparse *G,

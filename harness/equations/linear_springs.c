@@ -67,6 +67,25 @@ void linear_springs_forces(const model *m, const double sigma[], double f[])
     }
 }
 
+void linear_springs_node_force(const model *m, const double sigma[], int node, double F[6])
+{
+    for (int i = 0; i < m->springs; i++) {
+        const mesh_discrete *d = spring_of(m, i);
+        double J[SIX * X], force[X] = {0}, rho[3], moment[3];
+        evaluate(m, d, NULL, J, NULL);
+        dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, &sigma[SIX * i], force);
+        for (int k = 0; k < d->el.nodes; k++) {
+            const double *at = force + NODE_COORDINATES * k;
+            if (m->vertex[d->el.vertex[k]].body != node)
+                continue;
+            kinematics_offset(m, m->rest, d->el.vertex[k], rho);
+            vec3_cross(rho, at, moment);
+            for (int c = 0; c < 6; c++)
+                F[c] += at[c] + (c >= 3 && d->el.vertex[k] != node ? moment[c - 3] : 0);
+        }
+    }
+}
+
 /* sum sigma_i H_i in model coordinates. */
 static void geometric(const model *m, const mesh_discrete *d, const double sigma[], double H[])
 {

@@ -26,8 +26,9 @@ status linearise_state(model *, const model_state *, model_linearisation *, faul
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
 status linearise_make_compatible(model *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the
- * state: F[6] [N, N m]. */
-void linearise_node_force(model *, const model_state *, int node, double F[6]);
+ * state: F[6] [N, N m]. sigma: as internal.h has it. */
+void linearise_node_force(model *, const model_state *, const double sigma[], int node,
+                          double F[6]);
 /* out[free + driven] += forces that the stresses of these elements take, and all springs. */
 void linearise_add_internal(model *, const model_state *, int elements, const int element[],
                             double out[]);

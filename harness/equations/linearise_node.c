@@ -4,11 +4,14 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 #include "harness/equations/equations_impl.h"
+#include "harness/equations/linear_springs.h"
 #include "harness/equations/linearise.h"
 #include "harness/model/discrete.h"
 
-void linearise_node_force(model *m, const model_state *s, int node, double F[6])
+void linearise_node_force(model *m, const model_state *s, const double sigma[], int node,
+                          double F[6])
 {
+    const double *stress = sigma != NULL ? sigma : s->sigma;
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
@@ -21,7 +24,7 @@ void linearise_node_force(model *m, const model_state *s, int node, double F[6])
             kinematics_gather(m, s, el, x);
             m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
             dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
-                                    &s->sigma[(size_t)i * (size_t)m->strains], force);
+                                    &stress[(size_t)i * (size_t)m->strains], force);
             rotating_frame_add(m, x, i, s->path, force, NULL,
                                NULL); /* never fails in a state that has been reached */
             kinematics_offset(m, s, el->vertex[k], rho);
@@ -34,6 +37,8 @@ void linearise_node_force(model *m, const model_state *s, int node, double F[6])
         }
     }
     discrete_node_force(m, s, node, F);
+    if (sigma != NULL)
+        linear_springs_node_force(m, &sigma[(size_t)m->elements * (size_t)m->strains], node, F);
 }
 
 void linearise_add_internal(model *m, const model_state *s, int elements, const int element[],

@@ -20,13 +20,21 @@ void loads_of(model *m, int analysis)
     const scene_analysis *a = &m->scene->analysis[analysis];
     const scene_path *followed =
         a->follows != SCENE_NONE ? scene_path_of(&m->scene->analysis[a->follows]) : NULL;
+    m->unloaded = 0;
     m->in_time = a->kind == SCENE_MOTION;
     m->held_path = followed != NULL ? followed->value[followed->stations - 1] : 1;
+}
+
+void loads_none(model *m)
+{
+    m->unloaded = 1;
 }
 
 double loads_factor(const model *m, const scene_load *load, double path)
 {
     double at[3];
+    if (m->unloaded)
+        return 0;
     if (!m->in_time)
         return along_path_factor(load, path);
     if (load->function.pieces == 0)
@@ -44,7 +52,9 @@ double loads_driver_value(const model *m, const scene_driver *d, double path)
 
 void loads_driver_rates(const model *m, const scene_driver *d, double path, double out[3])
 {
-    out[1] = out[2] = 0;
+    out[0] = out[1] = out[2] = 0;
+    if (m->unloaded)
+        return;
     if (!m->in_time)
         out[0] = along_path_value(d, path);
     else if (d->function.pieces > 0)
@@ -210,12 +220,12 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
-void loads_at_node(const model *m, const model_state *s, int node, double F[6])
+void loads_at_node(const model *m, const model_state *s, double path, int node, double F[6])
 {
     sum_at_node sum = {m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->scene->loads; i++)
-        applied_each(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], s->path),
+        applied_each(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], path),
                      add_at_node, &sum);
 }
 

@@ -8,6 +8,9 @@
  * which they are functions; what has none stays as at the end of the path that is followed, or
  * whole. */
 void loads_of(model *, int analysis);
+/* Until the next of these calls no load acts and no driver moves: what stays are strains that
+ * members have by themselves. */
+void loads_none(model *);
 /* What the load is times at `path`, or in time. */
 double loads_factor(const model *, const scene_load *load, double path);
 /* Of a known driver [m or rad]. */
@@ -45,7 +48,7 @@ int loads_conditions(const model *, const model_state *, double path,
  * derivatives no longer belong to it. */
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
-/* Force and spatial moment of the loads on a node's frame at the state's path: F[6] [N, N m]. */
-void loads_at_node(const model *, const model_state *, int node, double F[6]);
+/* Force and spatial moment of the loads at `path` on a node's frame: F[6] [N, N m]. */
+void loads_at_node(const model *, const model_state *, double path, int node, double F[6]);
 
 #endif

@@ -16,7 +16,7 @@ enum { LARGE = 1000, FIRST_ROOM = 16 };
 
 static size_t size_of(const model *m)
 {
-    return (size_t)m->strains * (size_t)(m->coordinates + m->strains);
+    return (size_t)m->strains * (size_t)(m->coordinates + m->strains + 1);
 }
 
 static status begin(model *m, fault *f)
@@ -55,17 +55,37 @@ static int alike(const model *m, int i)
     return 1;
 }
 
-static status evaluate(model *m, int i, double J[], double C[])
+static int is_strained(const model *m, int i)
 {
-    double e[ELEMENT_MAX_STRAINS] = {0}, inner[1] = {0};
+    return vec3_norm(m->kind[m->element[i].kind].strain) > 0;
+}
+
+/* C is that at no strain: what initial stresses add to it is left to geometric stiffnesses. */
+static status evaluate_strained(model *m, int i, const double e[], const double inner[], double C[],
+                                double initial[])
+{
+    static const double none[ELEMENT_MAX_STRAINS];
+    double own[ELEMENT_MAX_STRAINS];
+    TRY(m->type->stress(m->kind[m->element[i].kind].data, none, inner,
+                        &(stress_output){.sigma = initial, .C = C}));
+    dense_mul_vec(m->strains, m->strains, C, e, own);
+    for (int k = 0; k < m->strains; k++)
+        initial[k] += own[k];
+    return STATUS_OK;
+}
+
+static status evaluate(model *m, int i, double J[], double C[], double initial[])
+{
+    double e[ELEMENT_MAX_STRAINS] = {0}, none[1] = {0};
+    const double *inner = m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : none;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, &m->element[i], x);
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
     ahead_strain(m, i, x, &(strain_output){.e = e, .J = J});
-    return ahead_stress(m, i, e,
-                        m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : inner,
-                        &(stress_output){.C = C});
+    if (is_strained(m, i))
+        return evaluate_strained(m, i, e, inner, C, initial);
+    return ahead_stress(m, i, e, inner, &(stress_output){.C = C});
 }
 
 /* Room for one more. */
@@ -87,8 +107,8 @@ static status make(model *m, int i, fault *f)
     mesh_undeformed *u = &m->undeformed;
     if (!alike(m, i)) {
         TRY(grow(m, f));
-        double *J = u->value + (size_t)u->count * size_of(m);
-        const status outcome = evaluate(m, i, J, J + m->strains * m->coordinates);
+        double *J = u->value + (size_t)u->count * size_of(m), *C = J + m->strains * m->coordinates;
+        const status outcome = evaluate(m, i, J, C, C + m->strains * m->strains);
         if (outcome != STATUS_OK)
             return fault_set(
                 f, outcome,
@@ -109,6 +129,7 @@ status undeformed_of(model *m, int i, undeformed_element *out, fault *f)
         TRY(make(m, i, f));
     out->J = u->value + (size_t)u->of[i] * size_of(m);
     out->C = out->J + m->strains * m->coordinates;
+    out->initial = is_strained(m, i) ? out->C + m->strains * m->strains : NULL;
     return STATUS_OK;
 }
 

@@ -5,9 +5,11 @@
 
 #include "harness/model/model.h"
 
-/* de/dx [strains x 7 nodes] and dsigma/de [strains x strains]; until the next one is asked for. */
+/* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, of a member with initial strains,
+ * the stresses [strains] of an element whose nodes do not move, to first order (NULL: none); until
+ * the next one is asked for. */
 typedef struct undeformed_element {
-    const double *J, *C;
+    const double *J, *C, *initial;
 } undeformed_element;
 
 /* In large models elements of one kind that follow each other with the same orientation, as far as

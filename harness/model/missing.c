@@ -51,13 +51,22 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
+/* Curved members can be made of straight elements: what a scene needs of this feature is the strain
+ * of its members. */
+static void words_of(unsigned missing, char *words, int size)
+{
+    const int used = feature_words(missing & ~(unsigned)FEATURE_CURVATURE, words, size);
+    if ((missing & FEATURE_CURVATURE) && used < size)
+        snprintf(words + used, (size_t)(size - used), "%sinitial strain", used > 0 ? ", " : "");
+}
+
 int missing_words(const scene *s, const element_type *type, char *words, int size)
 {
     const unsigned missing = features_needed_of(s, type) & ~type->offers;
     if (size > 0)
         words[0] = '\0';
     if (missing != 0) {
-        feature_words(missing, words, size);
+        words_of(missing, words, size);
         return 1;
     }
     if (mass_lacks(s, type, words, size) || limit_hit(s, type, words, size) ||

@@ -106,7 +106,7 @@ typedef struct mesh_undeformed {
     int *of;         /* [elements] index of its values, or NONE; NULL: nothing is known */
     int count, room; /* of values */
     int last;        /* element that the last of them are of */
-    double *value;   /* [room x (J, C)] */
+    double *value;   /* [room x (J, C, initial stresses)] */
 } mesh_undeformed;
 
 /* One element's equations in model coordinates. */
@@ -161,6 +161,7 @@ struct model {
     mesh_damping *damping;        /* of a motion; NULL: none */
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
     double held_path; /* path parameter at which those stay in time that have no such function */
+    int unloaded;     /* neither loads nor drivers act */
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;

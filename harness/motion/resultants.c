@@ -91,8 +91,8 @@ static status reaction_of(model *m, const scene_component *what, const model_sta
                           const shares_motion *motion, double *out, fault *f)
 {
     double F[6], L[6];
-    linearise_node_force(m, s, what->node, F);
-    loads_at_node(m, s, what->node, L);
+    linearise_node_force(m, s, NULL, what->node, F);
+    loads_at_node(m, s, kinematics_state_path(s), what->node, L);
     if (motion->v != NULL)
         TRY(shares_node(m, s, motion, what->node, F, f));
     *out = F[what->component] - L[what->component];

@@ -87,7 +87,7 @@ status bordered_refine(const model *m, tangent *t, counters *n, const bordered *
         bordered_solve(t, n, s, 1, s->rest);
         for (int k = 0; k < t->all; k++)
             s->x[k] += s->rest[k];
-        state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x));
+        state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x, 0));
     }
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the compliance", f);
 }

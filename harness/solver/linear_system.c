@@ -46,13 +46,13 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Right-hand side less K x of the driven coordinates and of x itself, from element strains: its
- * error does not grow with the mesh. */
+/* Right-hand side less K x of the driven coordinates and of x itself and less the forces of initial
+ * strains, from element strains: its error does not grow with the mesh. */
 static status residual_of(analysis_context *c, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    TRY(linear_stresses(c->model, x, sigma, f));
+    TRY(linear_whole_stresses(c->model, x, sigma, f));
     linear_forces(c->model, sigma, r);
     for (int i = 0; i < size.free + size.driven; i++)
         r[i] = load[i] - r[i];
@@ -80,6 +80,14 @@ static status workspace_alloc(analysis_context *c, double path, workspace *w, fa
     return STATUS_OK;
 }
 
+/* Initial strains that are held back leave no displacement to compare with but themselves. */
+static double part_of(const analysis_context *c, const workspace *w, const double change[],
+                      const double x[])
+{
+    return refinement_part(model_sizes(c->model).free, w->weight, change, x,
+                           linear_initial(c->model));
+}
+
 /* x += K^-1 (load - K x); the size of what was added beside x. */
 static status correct(analysis_context *c, linear_system *s, workspace *w, double x[],
                       double *correction, fault *f)
@@ -89,7 +97,7 @@ static status correct(analysis_context *c, linear_system *s, workspace *w, doubl
     factor_solve(s->factor, w->r);
     for (int k = 0; k < n; k++)
         x[k] += w->r[k];
-    *correction = refinement_part(n, w->weight, w->r, x);
+    *correction = part_of(c, w, w->r, x);
     return STATUS_OK;
 }
 
@@ -106,7 +114,7 @@ static status shake(analysis_context *c, linear_system *s, workspace *w, const d
     TRY(correct(c, s, w, w->shaken, &correction, f));
     for (int k = 0; k < size.free; k++)
         w->shaken[k] -= x[k];
-    *change = refinement_part(size.free, w->weight, w->shaken, x);
+    *change = part_of(c, w, w->shaken, x);
     return STATUS_OK;
 }
 

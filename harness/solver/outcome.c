@@ -162,6 +162,7 @@ void outcome_free(analysis_outcome *o)
     case SCENE_MODAL:
         free_side(&o->left.spectrum.positive);
         free_side(&o->left.spectrum.negative);
+        free(o->left.spectrum.strained);
         break;
     case SCENE_COMPLIANCE:
         free(o->left.compliance.taken);

@@ -27,6 +27,8 @@ void outcome_modes_free(rotation_modes *);
 /* Buckling, modal; what was found stays where the analysis failed. */
 typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are positive */
+    double *strained; /* [free + driven] displacements by initial strains alone, about which modes
+                         of the structure without loads are; NULL: there are none */
 } outcome_spectrum;
 
 /* Stations of a path: static, and the first member of the three below. */

@@ -36,10 +36,11 @@ void quadratic_forms_free(quadratic_forms *p)
     memset(p, 0, sizeof *p);
 }
 
-status quadratic_forms_load(quadratic_forms *p, double path, fault *f)
+status quadratic_forms_load(quadratic_forms *p, double path, int whole, fault *f)
 {
     rotating_frame_load_stiffness(p->m, kinematics_rest(p->m), path, &p->loads);
-    return linear_stresses(p->m, p->load_x, p->sigma, f);
+    return whole ? linear_whole_stresses(p->m, p->load_x, p->sigma, f)
+                 : linear_stresses(p->m, p->load_x, p->sigma, f);
 }
 
 /* With the driven coordinates. */

@@ -17,8 +17,9 @@ typedef struct quadratic_forms {
 
 status quadratic_forms_alloc(model *m, const sparse *pattern, quadratic_forms *p, fault *f);
 void quadratic_forms_free(quadratic_forms *p);
-/* The loads at `path` and their stresses, once load_x is known. */
-status quadratic_forms_load(quadratic_forms *p, double path, fault *f);
+/* The loads at `path` and their stresses, once load_x is known; whole: with those of initial
+ * strains. */
+status quadratic_forms_load(quadratic_forms *p, double path, int whole, fault *f);
 
 /* Of x[free]: x^T K x, x^T G x, and what rounding may change in them. */
 double quadratic_forms_stiffness(quadratic_forms *p, const double x[]);

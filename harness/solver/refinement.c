@@ -45,8 +45,9 @@ static double size_of(int n, const double weight[], const double x[])
     return sqrt(sum);
 }
 
-double refinement_part(int n, const double weight[], const double change[], const double x[])
+double refinement_part(int n, const double weight[], const double change[], const double x[],
+                       double least)
 {
     const double size = size_of(n, weight, change);
-    return size == 0 ? 0 : size / size_of(n, weight, x);
+    return size == 0 ? 0 : size / fmax(size_of(n, weight, x), least);
 }

@@ -35,7 +35,8 @@ refinement_state refinement_next(refinement *, double correction);
 refinement_state refinement_judge(refinement *, double correction);
 /* SINGULAR, with the digits that are left of `what` and what helps. */
 status refinement_refuse(const refinement *, const char *what, fault *);
-/* |change|/|x| in a metric of n weights; 0: no change. */
-double refinement_part(int n, const double weight[], const double change[], const double x[]);
+/* |change|/|x| in a metric of n weights, |x| of at least `least`; 0: no change. */
+double refinement_part(int n, const double weight[], const double change[], const double x[],
+                       double least);
 
 #endif

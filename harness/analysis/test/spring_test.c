@@ -136,6 +136,79 @@ static void check(const cell_result *r, int i, double exact, double allowed, con
         gsl_test(1, "%s: quantity %d is there", chosen, i);
 }
 
+/* A cantilever with a spring at its tip, and a second body at it on a spring of six entries: the
+ * tip's spring takes its part of the load, the clamp and the ground the rest. */
+static status build_tip(const double value[], scene *s, fault *f)
+{
+    (void)value;
+    (void)f;
+    double k[36] = {0}, six[36] = {0};
+    const int profile = add_section(s), root = scene_add_node(s, 0, 0, 0),
+              tip = scene_add_node(s, length, 0, 0), ground = scene_add_node(s, length, 0.4, 0.3),
+              edge = scene_add_attached(s, tip, length + 0.2, 0.1, -0.3);
+    scene_add_member(s, root, tip, profile, y_axis);
+    scene_hold_all(s, root);
+    scene_hold_all(s, ground);
+    k[7] = kappa * 3 * EI / gsl_pow_3(length);
+    for (int i = 0; i < 6; i++)
+        six[7 * i] = 0.1 * (i + 1) * EI / gsl_pow_3(length);
+    scene_add_spring(s, SCENE_NONE, tip, k);
+    if (value != NULL && value[0] > 0)
+        scene_add_spring(s, ground, edge, six);
+    scene_add_load(s, SCENE_FORCE, tip, 0.3, 1, 0.2);
+    const int linear = scene_add_linear(s);
+    scene_add_quantity(s, "moment", "N m", linear, scene_internal_at(0, 0, SCENE_MZ));
+    scene_add_quantity(s, "inside", "N m", linear, scene_internal_at(0, 0.5, SCENE_MZ));
+    for (int i = 0; i < 6; i++) {
+        char name[SCENE_NAME];
+        snprintf(name, sizeof name, "root_%d", i);
+        scene_add_quantity(s, name, "N", linear, scene_reaction(root, i));
+        snprintf(name, sizeof name, "ground_%d", i);
+        scene_add_quantity(s, name, "N", linear, scene_reaction(ground, i));
+    }
+    scene_add_quantity(s, "uy", "m", linear, scene_coordinate(tip, SCENE_UY));
+    return STATUS_OK;
+}
+
+static status build_two_springs(const double value[], scene *s, fault *f)
+{
+    (void)value;
+    return build_tip((const double[]){1}, s, f);
+}
+
+/* Moments about the origin of forces and moments at two nodes, and the load. */
+static void equilibrium(const cell_result *r, const char *chosen)
+{
+    const double load[3] = {0.3, 1, 0.2},
+                 at[3][3] = {{0, 0, 0}, {length, 0.4, 0.3}, {length, 0, 0}};
+    double R[6], G[6], sprung[3] = {0};
+    for (int i = 0; i < 6; i++) {
+        R[i] = r->solve.quantity[2 + 2 * i].value;
+        G[i] = r->solve.quantity[3 + 2 * i].value;
+    }
+    sprung[1] = -kappa * 3 * EI / gsl_pow_3(length) * r->solve.quantity[14].value;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        gsl_test_abs(R[i] + G[i] + sprung[i] + load[i], 0, 1e-9, "%s: forces along %d", chosen, i);
+        gsl_test_abs(R[3 + i] + G[3 + i] + at[1][j] * G[k] - at[1][k] * G[j] +
+                         at[2][j] * (sprung[k] + load[k]) - at[2][k] * (sprung[j] + load[j]),
+                     0, 1e-9, "%s: moments about %d", chosen, i);
+    }
+}
+
+static void supported(const char *chosen)
+{
+    cell_result r;
+    cells_solve(build_tip, chosen, 4, &r);
+    check(&r, 0, length / (1 + kappa), 1e-6, chosen);
+    check(&r, 1, length / 2 / (1 + kappa), 1e-6, chosen);
+    equilibrium(&r, chosen);
+    cell_result_free(&r);
+    cells_solve(build_two_springs, chosen, 4, &r);
+    equilibrium(&r, chosen);
+    cell_result_free(&r);
+}
+
 /* Half the wave number times the length: tan u = -2 u/kappa, tan u + tanh u = -4 u/kappa. */
 static double buckled(double u)
 {
@@ -181,6 +254,9 @@ static void stiff(const char *chosen)
 
 int main(void)
 {
+    supported("geometrically_exact");
+    supported("beamw_consistent");
+    supported("collocation");
     stiff("geometrically_exact");
     stiff("beamw_consistent");
     stiff("beamw_consistent:newton=displacement");

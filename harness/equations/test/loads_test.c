@@ -33,7 +33,7 @@ static void conjugate(int body, scene_load_kind kind)
     for (int i = 0; i < 3; i++)
         arm[i] = edge[i] - at[i];
     vec3_cross(arm, s.scene.load[0].vector, moment);
-    loads_at_node(s.m, s.turned, 1, F);
+    loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
     for (int i = 0; i < 3; i++) {
         const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0,
                      m = kind == SCENE_FORCE ? moment[i] : v;
@@ -95,7 +95,7 @@ static void factors(void)
         model_linearisation lin = {.path = row[i][0], .residual = residual};
         linearise_state(s.m, s.turned, &lin, &f);
         advance_state(s.m, s.turned, dx, row[i][0], NULL);
-        loads_at_node(s.m, s.turned, 1, F);
+        loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
         gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
                      row[i][0]);
     }
