@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
+
 void scene_init(scene *s, const char *name)
 {
     memset(s, 0, sizeof *s);
@@ -216,7 +218,9 @@ int scene_load_along(const scene_load *load)
 
 int scene_load_unsymmetric(const scene_load *load)
 {
-    return load->follower || load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT;
+    const int turns = load->follower || load->kind == SCENE_MOMENT ||
+                      load->kind == SCENE_DISTRIBUTED_MOMENT;
+    return turns && vec3_norm(load->vector) > 0;
 }
 
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])

@@ -207,7 +207,7 @@ int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y
 scene_load *scene_load_at(scene *s, int index);
 /* Does it act along a member? */
 int scene_load_along(const scene_load *load);
-/* Has it no potential: does its stiffness make the tangent unsymmetric? */
+/* May its stiffness make a tangent unsymmetric? Not that of a load of zero. */
 int scene_load_unsymmetric(const scene_load *load);
 /* The load is its vector times a factor, piecewise linear over the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);

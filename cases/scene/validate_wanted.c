@@ -65,14 +65,14 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
-/* Eigenvalues about a loaded state are those of a symmetric tangent. */
+/* Without a state whose tangent could be measured, eigenvalues are those of a symmetric one. */
 static status check_potential(const scene *s, int i, fault *f)
 {
     static const char *const what[] = {[SCENE_BUCKLING] = "critical loads",
-                                       [SCENE_MODAL] = "frequencies about a loaded state",
-                                       [SCENE_ROTATION] = "frequencies in a rotating frame"};
+                                       [SCENE_MODAL] = "frequencies about a loaded state"};
     for (int k = 0; k < s->loads; k++)
-        if (s->load[k].follower || s->load[k].kind == SCENE_DISTRIBUTED_MOMENT)
+        if (scene_load_unsymmetric(&s->load[k]) &&
+            (s->load[k].follower || s->load[k].kind != SCENE_MOMENT))
             return fault_set(
                 f, STATUS_REFUSED,
                 "%s: %s, and %s %s has no potential: its tangent is not symmetric and stability "
@@ -100,8 +100,10 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         TRY(check_path(s, a, i, f));
     if (scene_rotating_frame_of(a) != NULL)
         TRY(check_frame(s, scene_rotating_frame_of(a), i, f));
-    if (a->kind == SCENE_BUCKLING || a->kind == SCENE_ROTATION ||
-        (a->kind == SCENE_MODAL && a->follows != SCENE_NONE))
+    const int about_path =
+        a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) != NULL;
+    if ((a->kind == SCENE_BUCKLING && !about_path) ||
+        (a->kind == SCENE_MODAL && a->follows != SCENE_NONE && !about_path))
         TRY(check_potential(s, i, f));
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, i, f);

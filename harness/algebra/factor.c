@@ -8,15 +8,18 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/algebra/factor_by_numbers.h"
 #include "harness/algebra/factor_symmetric.h"
 #include "harness/algebra/factor_unsymmetric.h"
 
 struct factor {
     int n;
     factor_operator by;              /* without functions: none */
-    factor_symmetric *symmetric;     /* one of the two */
+    factor_symmetric *symmetric;     /* one of the two; both of a matrix by its numbers */
     factor_unsymmetric *unsymmetric; /* NULL both: nothing to solve for */
-    factor_counts counts;
+    by_numbers *whole;               /* of a matrix by its numbers; NULL: another one */
+    int upper;                       /* 1: `symmetric` has the numbers factored last */
+    factor_counts counts, of_upper;  /* of_upper: entries and flops of `symmetric` beside a whole */
     double *residual, *other; /* [n]; other: unsymmetric */
 };
 
@@ -27,6 +30,7 @@ static status begin(const sparse *pattern, factor **out, fault *f)
     if (fa == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for factors");
     fa->n = pattern->n;
+    fa->upper = pattern->symmetric;
     fa->counts.condition = fa->counts.determinant = 1;
     fa->counts.negative_pivots = pattern->symmetric ? 0 : -1;
     fa->residual = malloc(((size_t)fa->n + 1) * sizeof *fa->residual);
@@ -43,17 +47,21 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f)
     factor *fa = *out;
     if (fa->n == 0)
         return STATUS_OK;
-    return pattern->symmetric ? factor_symmetric_alloc(pattern, &fa->symmetric, &fa->counts, f)
-                              : factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
+    if (pattern->symmetric)
+        return factor_symmetric_alloc(pattern, &fa->symmetric, &fa->counts, f);
+    if (pattern->by_numbers)
+        TRY(by_numbers_alloc(pattern, &fa->whole, f));
+    return factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
 }
 
 status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, fault *f)
 {
-    if (of->symmetric == NULL)
+    if (of->symmetric == NULL || !pattern->symmetric)
         return factor_alloc(pattern, out, f);
+    const factor_counts *counts = of->whole != NULL ? &of->of_upper : &of->counts;
     TRY(begin(pattern, out, f));
-    (*out)->counts.entries = of->counts.entries;
-    (*out)->counts.flops = of->counts.flops;
+    (*out)->counts.entries = counts->entries;
+    (*out)->counts.flops = counts->flops;
     return factor_symmetric_alloc_like(of->symmetric, &(*out)->symmetric, f);
 }
 
@@ -76,6 +84,7 @@ void factor_free(factor *fa)
         fa->by.free(fa->by.context);
     factor_symmetric_free(fa->symmetric);
     factor_unsymmetric_free(fa->unsymmetric);
+    by_numbers_free(fa->whole);
     free(fa->residual);
     free(fa->other);
     free(fa);
@@ -94,7 +103,7 @@ static double lost_part(factor *fa, const sparse *a, int row, int column)
     double *x = fa->residual, *y = fa->residual, sum = 0;
     unit_vector(fa->n, row, x);
     factor_solve(fa, x);
-    if (fa->unsymmetric != NULL) {
+    if (!fa->upper) {
         y = fa->other;
         unit_vector(fa->n, column, y);
         factor_unsymmetric_solve_transposed(fa->unsymmetric, y);
@@ -109,6 +118,23 @@ static double lost_part(factor *fa, const sparse *a, int row, int column)
     return DBL_EPSILON * sqrt(sum);
 }
 
+/* LDL^T where the numbers of the whole matrix are symmetric: *a becomes its upper triangle. */
+static status choose(factor *fa, const sparse **a, fault *f)
+{
+    const factor_counts before = fa->counts;
+    fa->counts.asymmetry = by_numbers_take(fa->whole, *a);
+    fa->upper = fa->counts.asymmetry <= FACTOR_SYMMETRIC_WITHIN;
+    fa->counts.negative_pivots = -1;
+    if (!fa->upper)
+        return STATUS_OK;
+    *a = by_numbers_upper(fa->whole);
+    if (fa->symmetric == NULL) {
+        fa->of_upper = before;
+        TRY(factor_symmetric_alloc(*a, &fa->symmetric, &fa->of_upper, f));
+    }
+    return STATUS_OK;
+}
+
 status factor_numeric(factor *fa, const sparse *a, fault *f)
 {
     const double n = fa->n, lost = 0.25;
@@ -116,10 +142,12 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
     double ratio = 1;
     status outcome = STATUS_OK;
     fa->counts.factorisations++;
-    if (fa->symmetric != NULL) {
+    if (fa->whole != NULL)
+        TRY(choose(fa, &a, f));
+    if (fa->upper && fa->symmetric != NULL) {
         outcome = factor_symmetric_numeric(fa->symmetric, a, &fa->counts, &row, &ratio);
         column = row;
-    } else if (fa->unsymmetric != NULL) {
+    } else if (!fa->upper && fa->unsymmetric != NULL) {
         outcome =
             factor_unsymmetric_numeric(fa->unsymmetric, a, &fa->counts, &row, &column, &ratio);
     }
@@ -142,9 +170,9 @@ void factor_solve_many(factor *fa, int columns, int stride, double x[])
 {
     for (int c = 0; c < columns && fa->by.solve != NULL; c++)
         fa->by.solve(fa->by.context, 0, x + c * stride);
-    if (fa->by.solve == NULL && fa->symmetric != NULL)
+    if (fa->by.solve == NULL && fa->upper && fa->symmetric != NULL)
         factor_symmetric_solve(fa->symmetric, columns, stride, x);
-    if (fa->by.solve == NULL && fa->unsymmetric != NULL)
+    if (fa->by.solve == NULL && !fa->upper && fa->unsymmetric != NULL)
         factor_unsymmetric_solve(fa->unsymmetric, columns, stride, x);
 }
 
@@ -152,7 +180,7 @@ void factor_solve_transposed(factor *fa, double x[])
 {
     if (fa->by.solve != NULL)
         fa->by.solve(fa->by.context, 1, x);
-    else if (fa->unsymmetric != NULL)
+    else if (!fa->upper && fa->unsymmetric != NULL)
         factor_unsymmetric_solve_transposed(fa->unsymmetric, x);
     else
         factor_solve(fa, x);
@@ -160,5 +188,22 @@ void factor_solve_transposed(factor *fa, double x[])
 
 factor_counts factor_count(const factor *fa)
 {
-    return fa->by.count != NULL ? fa->by.count(fa->by.context) : fa->counts;
+    if (fa->by.count != NULL)
+        return fa->by.count(fa->by.context);
+    factor_counts counts = fa->counts;
+    if (fa->whole != NULL && fa->upper) {
+        counts.entries = fa->of_upper.entries;
+        counts.flops = fa->of_upper.flops;
+    }
+    return counts;
+}
+
+int factor_is_symmetric(const factor *fa)
+{
+    return factor_count(fa).negative_pivots >= 0;
+}
+
+const sparse *factor_upper(const factor *fa)
+{
+    return fa->whole != NULL && fa->upper ? by_numbers_upper(fa->whole) : NULL;
 }

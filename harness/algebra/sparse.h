@@ -1,6 +1,7 @@
 /* Sparse matrices in compressed columns, and their direct factorisation.
  *
- * Symmetric matrices keep the upper triangle (row <= column) only; the rest keep everything.
+ * Symmetric matrices keep the upper triangle (row <= column) only; the rest keep everything. Some of
+ * these are factored as symmetric all the same when their numbers are.
  * The pattern is fixed once; numbers are added by position, so assembly searches nothing. */
 #ifndef BEAMWORK_SPARSE_H
 #define BEAMWORK_SPARSE_H
@@ -12,6 +13,7 @@ typedef struct sparse {
     int *column;   /* [n + 1] */
     int *row;      /* [column[n]], ascending in each column */
     double *value; /* [column[n]] */
+    int by_numbers; /* 1: stored whole; symmetric where its numbers are */
 } sparse;
 
 /* A second matrix with the same pattern shares column and row with the first and owns its values
@@ -30,12 +32,16 @@ typedef struct factor_counts {
     double flops;        /* of one numeric factorisation */
     long factorisations; /* numeric ones, so far */
     int negative_pivots; /* symmetric only; else -1 */
+    double asymmetry;    /* of a matrix by its numbers: largest |a_ij - a_ji|/sqrt|a_ii a_jj| */
     int determinant;     /* its sign */
     double condition;    /* cheap estimate max|d|/min|d| */
 } factor_counts;
 
+/* Up to this asymmetry a matrix counts as symmetric by its numbers. */
+#define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs
- * give the inertia; unsymmetric: KLU. */
+ * give the inertia; unsymmetric: KLU. By its numbers: LDL^T of the upper triangle, bit by bit that
+ * of a matrix that stores nothing else, or KLU. */
 status factor_alloc(const sparse *pattern, factor **out, fault *f);
 /* For a matrix with the pattern that `of` was made for: a symmetric one takes the order of `of`,
  * which must outlive it and not be factored at the same time. */
@@ -43,6 +49,11 @@ status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, 
 void factor_free(factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
 status factor_numeric(factor *fa, const sparse *a, fault *f);
+/* 1: the numbers factored last were taken for symmetric. */
+int factor_is_symmetric(const factor *fa);
+/* The upper triangle that was factored of a matrix by its numbers; NULL: none. It belongs to the
+ * factor. */
+const sparse *factor_upper(const factor *fa);
 void factor_solve(factor *fa, double x[]); /* in place */
 /* `columns` right-hand sides, each `stride` numbers after the one before it. */
 void factor_solve_many(factor *fa, int columns, int stride, double x[]);

@@ -31,7 +31,7 @@ static status workspace_alloc(const analysis_context *c, workspace *w, fault *f)
     if (w->residual == NULL || w->sigma == NULL || w->input == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
     w->load = w->residual + all;
-    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &w->K, f));
     TRY(sparse_alloc_like(pattern, &w->M, f));
     TRY(sparse_alloc_like(pattern, &w->G, f));

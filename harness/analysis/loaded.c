@@ -12,6 +12,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
 #include "harness/equations/rotating_frame.h"
+#include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 #include "harness/solver/newton.h"
@@ -40,17 +41,6 @@ static status followed_state(const analysis_context *c, int analysis, const mode
     return STATUS_OK;
 }
 
-static status symmetric_only(const newton *n, const char *what, fault *f)
-{
-    return n->K.symmetric
-               ? STATUS_OK
-               : fault_set(
-                     f, STATUS_REFUSED,
-                     "%s about a loaded state need a symmetric tangent: moments dead about fixed "
-                     "axes, and some formulations, have no potential",
-                     what);
-}
-
 /* Newton at the followed state: its K in n->K, factored. */
 static status start(analysis_context *c, int analysis, const char *what, newton *n, fault *f)
 {
@@ -63,20 +53,23 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
                          "does not make: give newton=mixed",
                          what);
     TRY(followed_state(c, analysis, &state, f));
-    TRY(symmetric_only(n, what, f));
     kinematics_state_copy(c->model, state, n->state);
-    return newton_direction(n, kinematics_state_path(n->state), &unused, f);
+    TRY(newton_direction(n, kinematics_state_path(n->state), &unused, f));
+    return context_symmetric(n->factor, what, f);
 }
 
 /* With what loaded_modal frees. */
 static status frequencies(analysis_context *c, int analysis, newton *n, sparse *M, eigen_result *e,
                           fault *f)
 {
+    const sparse *pattern;
     TRY(start(c, analysis, "frequencies", n, f));
-    TRY(sparse_alloc_like(&n->K, M, f));
+    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, M, f));
     TRY(rotating_frame_inertia(c->model, n->state, 0, M, NULL, f));
+    const sparse *upper = factor_upper(n->factor);
     const eigen_problem p = {
-        .K = &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
+        .K = upper != NULL ? upper : &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
     const status result = eigen_solve(&p, e, f);
     context_count_eigen(c, e);
     return result;

@@ -64,7 +64,7 @@ static status allocate(const analysis_context *c, matrices *a, fault *f)
     a->y = calloc(all, sizeof(double));
     if (a->residual == NULL || a->x == NULL || a->y == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(c->model, 0, &pattern, f));
     for (int i = 0; i < 4; i++)
         TRY(sparse_alloc_like(pattern, each[i], f));
     return factor_alloc(pattern, &a->factor, f);
@@ -99,7 +99,8 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
     TRY(rotating_frame_inertia(c->model, state, path, &a->M, &a->G, f));
     rotating_frame_load_stiffness(c->model, state, path, &a->loads);
     model_counters(c->model)->factorisations++;
-    return context_factor(c, a->factor, &a->K, f);
+    TRY(context_factor(c, a->factor, &a->K, f));
+    return context_symmetric(a->factor, "frequencies in a rotating frame", f);
 }
 
 /* Frequencies and families of the modes found. */

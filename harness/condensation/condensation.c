@@ -115,6 +115,7 @@ static status build(condensation *s, const condensation *of, int count, const in
     if (s->driven == NULL || s->unknown == NULL || s->small == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     s->K.symmetric = s->inside.symmetric = assemble_symmetric(m);
+    s->inside.by_numbers = !s->inside.symmetric;
     TRY(condensation_patterns(s, ends, f));
     return factor_alloc(&s->inside, &s->factor, f);
 }

@@ -7,18 +7,14 @@
 #include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
 
-/* Only conservative tangents are stored as a triangle: those of dead moments about fixed axes, of
- * loads that follow and of some formulations are not. */
+/* Tangents of dead moments about fixed axes and of loads that follow are stored whole: whether they
+ * are symmetric is a matter of the state. */
 int assemble_symmetric(const model *m)
 {
-    int moments = 0, nonlinear = 0;
+    int whole = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        moments |= scene_load_unsymmetric(&m->scene->load[i]);
-    for (int i = 0; i < m->scene->analyses; i++)
-        nonlinear |= m->scene->analysis[i].kind == SCENE_STATIC ||
-                     m->scene->analysis[i].kind == SCENE_CONTINUATION ||
-                     m->scene->analysis[i].kind == SCENE_ROTATION;
-    return !(nonlinear && moments);
+        whole |= scene_load_unsymmetric(&m->scene->load[i]);
+    return !whole;
 }
 
 /* Is the pair stored, and at which row and column? */
@@ -223,16 +219,18 @@ static status fill_pattern(const model *m, mesh_pattern *p, fault *f)
     return find_places(m, p, f);
 }
 
-enum { FREE, WITH_DRIVEN, IN_TIME };
+enum { FREE, WITH_DRIVEN, IN_TIME, WHOLE, WHOLE_WITH_DRIVEN };
 
-static status make(model *m, int which, int symmetric, const sparse **out, fault *f)
+static status make(model *m, int which, const sparse **out, fault *f)
 {
     mesh_pattern *p = &m->pattern[which];
     *out = &p->matrix;
     if (p->made)
         return STATUS_OK;
-    p->matrix.n = which == WITH_DRIVEN ? m->free + m->driven : m->free;
-    p->matrix.symmetric = symmetric;
+    const int with_driven = which == WITH_DRIVEN || which == WHOLE_WITH_DRIVEN;
+    p->matrix.n = with_driven ? m->free + m->driven : m->free;
+    p->matrix.symmetric = which <= WITH_DRIVEN;
+    p->matrix.by_numbers = which >= WHOLE;
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
@@ -242,17 +240,24 @@ static status make(model *m, int which, int symmetric, const sparse **out, fault
 
 status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
 {
-    return make(m, with_driven ? WITH_DRIVEN : FREE, assemble_symmetric(m), out, f);
+    return make(m, with_driven ? WITH_DRIVEN : FREE, out, f);
+}
+
+status assemble_pattern_of_states(model *m, int with_driven, const sparse **out, fault *f)
+{
+    if (assemble_symmetric(m))
+        return assemble_pattern(m, with_driven, out, f);
+    return make(m, with_driven ? WHOLE_WITH_DRIVEN : WHOLE, out, f);
 }
 
 status assemble_pattern_in_time(model *m, const sparse **out, fault *f)
 {
-    return make(m, IN_TIME, 0, out, f);
+    return make(m, IN_TIME, out, f);
 }
 
 const mesh_pattern *assemble_of(const model *m, const sparse *a)
 {
-    for (int i = WITH_DRIVEN; i <= IN_TIME; i++)
+    for (int i = WITH_DRIVEN; i <= WHOLE_WITH_DRIVEN; i++)
         if (m->pattern[i].made && m->pattern[i].matrix.row == a->row)
             return &m->pattern[i];
     return &m->pattern[FREE];

@@ -126,7 +126,7 @@ void model_free(model *m)
 {
     if (m == NULL)
         return;
-    for (int i = 0; i < 3; i++)
+    for (size_t i = 0; i < sizeof m->pattern / sizeof m->pattern[0]; i++)
         assemble_pattern_free(&m->pattern[i]);
     for (int i = 0; i < m->kinds; i++)
         free(m->kind[i].data);

@@ -31,7 +31,7 @@ static status allocate_tangent(newton *n, int condense, fault *f)
         TRY(context_condensation(n->c, 0, NULL, &n->condensed, f));
     if (n->condensed != NULL)
         return condensation_as_factor(n->condensed, &n->factor, f);
-    TRY(assemble_pattern(n->c->model, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(n->c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &n->K, f));
     return factor_alloc(pattern, &n->factor, f);
 }
@@ -73,7 +73,7 @@ status newton_keep_driven(newton *n, fault *f)
     const sparse *pattern;
     if (n->whole.value != NULL)
         return STATUS_OK;
-    TRY(assemble_pattern(n->c->model, 1, &pattern, f));
+    TRY(assemble_pattern_of_states(n->c->model, 1, &pattern, f));
     return sparse_alloc_like(pattern, &n->whole, f);
 }
 

@@ -49,11 +49,11 @@ static status allocate(const analysis_context *c, const scene_compliance *a,
         TRY(condensation_alloc_like(members, b->count, b->coordinate, &t->condensed, f));
     else
         TRY(context_condensation(c, b->count, b->coordinate, &t->condensed, f));
-    TRY(assemble_pattern(c->model, with_driven, &whole, f));
+    TRY(assemble_pattern_of_states(c->model, with_driven, &whole, f));
     TRY(sparse_alloc_like(whole, &t->geometric, f));
     if (t->condensed != NULL)
         return condensation_as_factor(t->condensed, &t->own, f);
-    TRY(assemble_pattern(c->model, 0, &inside, f));
+    TRY(assemble_pattern_of_states(c->model, 0, &inside, f));
     TRY(sparse_alloc_like(whole, &t->K, f));
     if (with_driven)
         TRY(sparse_alloc_like(inside, &t->inside, f));
