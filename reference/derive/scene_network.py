@@ -268,7 +268,9 @@ class SceneNetwork:
             loads = list(
                 self._line_loads(name, frame.described, principal, s,
                                  number(section.get("density", "0"), where)))
-            warping = entry.get("warping", ["free", "free"])
+            if plain.EIw > 0 and "warping" not in entry:
+                raise Refused(f"{name}: 'warping' is missing; give what 'beamwork scene' writes")
+            warping = entry.get("warping", "free")
             warp = tuple(w if isinstance(w, str) else w["shared"]
                          for w in (warping if isinstance(warping, list) else [warping] * 2))
             start = numbers(self.scene["nodes"][entry["from"]]["at"], name, 3)

@@ -278,6 +278,7 @@ class Refusals(unittest.TestCase):
                 }))
         self.refused("release of a curved member",
                      bar(push, asked, beam=", curvature: [0, 0, 0.1], release: {from: [rz]}"))
+        self.refused("'warping' is missing", bar(push, asked).replace("It: 1}", "It: 1, Iw: 1}"))
         self.refused(
             "'cells'",
             bar(push, asked).replace("constants: {A: 1e8, Iy: 1, Iz: 1, It: 1}",
