@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/scene/warping.h"
 #include "elements/section/taper.h"
 #include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
@@ -42,8 +43,10 @@ static int warping_of(const fields *f, const document_node *n)
 static void read_warping(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "warping");
-    if (n == NULL)
+    if (n == NULL) {
+        m->warp_p = m->warp_q = SCENE_WARP_BY_SUPPORT;
         return;
+    }
     if (n->kind == DOCUMENT_LIST && n->count != 2) {
         document_mistake(f->b->mistakes, n, 0, "warping: one value, or [at from, at to]");
         return;
@@ -130,6 +133,7 @@ void builder_members(builder *b)
         m->damping = fields_number(&f, "damping", 0);
         m->divisions = fields_whole(&f, "divisions", 0, 0, 10000000);
     }
+    scene_warping_by_supports(b->scene);
 }
 
 /* What a motion moves has its unit. */
