@@ -1,4 +1,5 @@
 /* Quantities of a scene. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -73,7 +74,7 @@ static void read_abscissa(const fields *f, scene_quantity *q)
     const scene *s = f->b->scene;
     const int timed = q->analysis >= 0 && q->analysis < s->analyses &&
                       s->analysis[q->analysis].kind == SCENE_MOTION;
-    const int seconds = timed && !fields_have(&x, "factor");
+    const int seconds = timed && !(fabs(fields_number(&x, "factor", 1) - 1) > 0);
     scene_set_curve(q, fields_text(&x, "name", timed ? "time" : "path"),
                     fields_text(&x, "unit", seconds ? "s" : "1"), fields_number(&x, "factor", 1),
                     fields_number(&x, "offset", 0));

@@ -39,7 +39,7 @@ static const char *form_of(const scene_key *k, char text[32])
     return "...";
 }
 
-/* "summary [unit] (word, word) *". */
+/* "summary [unit] (word, word); left out: 0", or "... *". */
 static void describe(const scene_key *k, char text[DESCRIPTION])
 {
     int used = snprintf(text, DESCRIPTION, "%s%s%s%s", k->summary, k->unit != NULL ? " [" : "",
@@ -51,8 +51,10 @@ static void describe(const scene_key *k, char text[DESCRIPTION])
             snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%.*s", joint, (int)length, at);
         at = at[length] != '\0' ? at + length + 1 : NULL;
     }
+    const char *without = k->usual != NULL ? k->usual : k->left_out;
     if (used < DESCRIPTION)
-        snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%s", k->words != NULL ? ")" : "",
+        snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%s%s%s", k->words != NULL ? ")" : "",
+                 without != NULL ? "; left out: " : "", without != NULL ? without : "",
                  !k->needed     ? ""
                  : k->group > 0 ? "; one of these *"
                                 : " *");

@@ -31,6 +31,9 @@ typedef struct scene_key {
     const char *words; /* "a|b|c" */
     const struct scene_key *below;
     const char *unit, *summary;
+    /* Where it is left out, of every key but those that must be there: what may be written instead,
+     * in the words of the file, or what happens. */
+    const char *usual, *left_out;
 } scene_key;
 
 extern const scene_key keys_root[], keys_section[], keys_node[], keys_member[], keys_spring[],

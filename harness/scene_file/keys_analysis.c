@@ -10,33 +10,38 @@ static const scene_key nothing[] = {{.name = NULL}};
 
 static const scene_key spin[] = {
     {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
-    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
+     .usual = "[0, 0, 0]"},
     {.name = NULL}};
 
 static const scene_key path[] = {
     {"stations", KEY_NUMBERS, .needed = 1, .summary = "path parameter, ascending"},
     {"steps", KEY_NUMBER,
-     .summary = "load steps between two stations, to begin with; longer where that goes well; 1"},
-    {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
+     .summary = "load steps between two stations, to begin with; longer where that goes well",
+     .usual = "1"},
+    {"spin", KEY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
     {.name = NULL}};
 
 static const scene_key modes[] = {
-    {"wanted", KEY_NUMBER, .summary = "how many; left out: as quantities ask for"},
-    {"about", KEY_NAME, .summary = "static analysis about whose last state; left out: undeformed"},
+    {"wanted", KEY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
+    {"about", KEY_NAME, .summary = "static analysis about whose last state",
+     .left_out = "undeformed"},
     {.name = NULL}};
 
 static const scene_key buckling[] = {
-    {"wanted", KEY_NUMBER, .summary = "how many; left out: as quantities ask for"},
-    {"about", KEY_NAME, .summary = "static analysis about whose last state; left out: undeformed"},
+    {"wanted", KEY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
+    {"about", KEY_NAME, .summary = "static analysis about whose last state",
+     .left_out = "undeformed"},
     {.name = "sign", .kind = KEY_LATER},
     {.name = NULL}};
 
 static const scene_key compliance[] = {
     {"node", KEY_NAME, .needed = 1, .summary = "where"},
-    {"about", KEY_NAME, .summary = "static analysis at whose stations; left out: undeformed"},
-    {"released", KEY_WORDS, .words = COMPONENTS, .summary = "prescribed components that are free"},
+    {"about", KEY_NAME, .summary = "static analysis at whose stations", .left_out = "undeformed"},
+    {"released", KEY_WORDS, .words = COMPONENTS, .summary = "prescribed components that are free",
+     .usual = "[]"},
     {"moments", KEY_WORD, .words = "spatial|semitangential|symmetrised",
-     .summary = "what a reaction's moment does while its node turns"},
+     .summary = "what a reaction's moment does while its node turns", .usual = "spatial"},
     {.name = NULL}};
 
 static const scene_key control[] = {
@@ -46,55 +51,66 @@ static const scene_key control[] = {
 
 static const scene_key continuation[] = {
     {"control", KEY_MAP, .needed = 1, .below = control, .summary = "coordinate that grows"},
-    {"by", KEY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in"},
+    {"by", KEY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in",
+     .usual = "coordinate"},
     {"to", KEY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met"},
     {"step", KEY_NUMBER, .needed = 1, .summary = "first step"},
-    {"step_max", KEY_NUMBER, .summary = "largest step; left out: the first"},
-    {"constant", KEY_WORD, .words = "yes|no", .summary = "steps keep their size"},
-    {"spin", KEY_MAP, .below = spin, .summary = "the axes turn"},
+    {"step_max", KEY_NUMBER, .summary = "largest step", .left_out = "the first"},
+    {"constant", KEY_WORD, .words = "yes|no", .summary = "steps keep their size", .usual = "no"},
+    {"spin", KEY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
     {.name = NULL}};
 
 static const scene_key rotation[] = {
     {"omega", KEY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s", .summary = "angular velocity"},
-    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
+    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
+     .usual = "[0, 0, 0]"},
     {"stations", KEY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending"},
     {"steps", KEY_NUMBER,
-     .summary = "load steps between two stations, to begin with; longer where that goes well; 1"},
-    {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families"},
+     .summary = "load steps between two stations, to begin with; longer where that goes well",
+     .usual = "1"},
+    {"wanted", KEY_NUMBER, .summary = "modes to look for at first, of all families", .usual = "0"},
     {.name = NULL}};
 
-static const scene_key start[] = {
-    {"velocity", KEY_VECTOR, .count = 3, .unit = "m/s", .summary = "of all nodes"},
-    {"spin", KEY_VECTOR, .count = 3, .unit = "rad/s", .summary = "of the whole, about the centre"},
-    {"centre", KEY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis"},
-    {.name = NULL}};
+static const scene_key start[] = {{"velocity", KEY_VECTOR, .count = 3, .unit = "m/s",
+                                   .summary = "of all nodes", .usual = "[0, 0, 0]"},
+                                  {"spin", KEY_VECTOR, .count = 3, .unit = "rad/s",
+                                   .summary = "of the whole, about the centre",
+                                   .usual = "[0, 0, 0]"},
+                                  {"centre", KEY_VECTOR, .count = 3, .unit = "m",
+                                   .summary = "a point of its axis", .usual = "[0, 0, 0]"},
+                                  {.name = NULL}};
 
 static const scene_key in_time[] = {
     {"stations", KEY_NUMBERS, .needed = 1, .unit = "s",
      .summary = "instants at which quantities are read, ascending; it begins at 0"},
-    {"integrator", KEY_WORD, .words = SCENE_SCHEME_CHOICES,
-     .summary = "alpha where it is left out"},
+    {"integrator", KEY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method", .usual = "alpha"},
     {"step", KEY_NUMBER, .unit = "s",
-     .summary = "of the integration; with a tolerance the first one; left out: 1/1000 of the last "
-                "station"},
+     .summary = "of the integration; with a tolerance the first one",
+     .left_out = "1/1000 of the last station"},
     {"tolerance", KEY_NUMBER,
-     .summary = "of the error of a step, relative to the size; 0: all steps are alike; left out: 0 "
-                "where there is a step, else 1e-4"},
+     .summary = "of the error of a step, relative to the size; 0: all steps are alike",
+     .left_out = "0 where there is a step, else 1e-4"},
     {"rho", KEY_NUMBER, .group = 1,
-     .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved; 0.9"},
+     .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved",
+     .usual = "0.9"},
     {"hht", KEY_NUMBER, .group = 1,
-     .summary = "of alpha: the method of Hilber, Hughes and Taylor, 0 to 1/3"},
+     .summary = "of alpha: the method of Hilber, Hughes and Taylor, 0 to 1/3",
+     .left_out = "as rho says"},
     {"trapezoidal", KEY_WORD, .group = 1, .words = "no|yes",
-     .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison"},
-    {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f"},
+     .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison", .usual = "no"},
+    {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f",
+     .left_out = "as rho says"},
     {"mass", KEY_WORD, .words = SCENE_MASS_CHOICES,
      .summary = "of members: lumped at the nodes, or consistent, of formulations that have it so, "
-                "by alpha and radau; lumped where it is left out"},
+                "by alpha and radau",
+     .usual = "lumped"},
     {"about", KEY_NAME,
      .summary =
          "static analysis or rotation from whose last state, or motion that goes on, with its "
-         "rates and its time; left out: undeformed"},
-    {"start", KEY_MAP, .below = start, .summary = "velocities at the begin; left out: at rest"},
+         "rates and its time",
+     .left_out = "undeformed"},
+    {"start", KEY_MAP, .below = start, .summary = "velocities at the begin",
+     .left_out = "at rest, or as about has it"},
     {.name = NULL}};
 
 const scene_key keys_analysis[] = {
@@ -113,11 +129,13 @@ const scene_key keys_analysis[] = {
 
 #define TAKEN                                                                                      \
     {"analysis", KEY_NAME, .needed = 1, .summary = "analysis"},                                    \
-        {"at", KEY_NUMBER, .group = 1, .summary = "station"},                                      \
-    {                                                                                              \
-        "take", KEY_WORD, .group = 1, .words = SCENE_TAKE_CHOICES,                                 \
-                          .summary = "of all stations; last where it is left out"                  \
-    }
+        {"at", KEY_NUMBER, .group = 1, .summary = "station", .left_out = "as take says"},          \
+        {"take",                                                                                   \
+         KEY_WORD,                                                                                 \
+         .group = 1,                                                                               \
+         .words = SCENE_TAKE_CHOICES,                                                              \
+         .summary = "of all stations",                                                             \
+         .usual = "last"}
 
 static const scene_key component[] = {
     TAKEN,
@@ -146,9 +164,10 @@ static const scene_key internal[] = {
 static const scene_key stress[] = {
     TAKEN,
     {"member", KEY_NAME, .needed = 1, .summary = "member; its section not given by constants"},
-    {"where", KEY_NUMBER, .summary = "0 'from' to 1 'to', of its length; left out: all along it"},
-    {"measure", KEY_WORD, .words = SCENE_STRESS_CHOICES,
-     .summary = "over the section's points; von_mises where it is left out"},
+    {"where", KEY_NUMBER, .summary = "0 'from' to 1 'to', of its length",
+     .left_out = "all along it"},
+    {"measure", KEY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
+     .usual = "von_mises"},
     {.name = NULL}};
 
 static const scene_key entry[] = {
@@ -164,16 +183,17 @@ static const scene_key diagonal[] = {
 
 static const scene_key critical[] = {
     {"analysis", KEY_NAME, .needed = 1, .summary = "analysis"},
-    {"which", KEY_NUMBER, .summary = "counted from 0"},
-    {"sign", KEY_WORD, .words = "positive|negative", .summary = "of the load factor"},
+    {"which", KEY_NUMBER, .summary = "counted from 0", .usual = "0"},
+    {"sign", KEY_WORD, .words = "positive|negative", .summary = "of the load factor",
+     .usual = "positive"},
     {.name = NULL}};
 
 static const scene_key frequency[] = {
     TAKEN,
-    {"which", KEY_NUMBER, .summary = "counted from 0, of the family"},
+    {"which", KEY_NUMBER, .summary = "counted from 0, of the family", .usual = "0"},
     {"family", KEY_WORD, .words = "any|not_axial|axial|bending_y|bending_z|torsion",
-     .summary = "of modes"},
-    {"half_waves", KEY_NUMBER, .summary = "of the mode; 0: any"},
+     .summary = "of modes", .usual = "any"},
+    {"half_waves", KEY_NUMBER, .summary = "of the mode; 0: any", .usual = "0"},
     {.name = NULL}};
 
 static const scene_key whole[] = {TAKEN, {.name = NULL}};
@@ -210,22 +230,26 @@ static const scene_key relative[] = {
 static const scene_key critical_point[] = {
     {"analysis", KEY_NAME, .needed = 1, .summary = "continuation"},
     {"kind", KEY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point"},
-    {"which", KEY_NUMBER, .summary = "counted from 0"},
-    {"value", KEY_WORD, .words = "factor|coordinate", .summary = "what of it; the load factor"},
+    {"which", KEY_NUMBER, .summary = "counted from 0", .usual = "0"},
+    {"value", KEY_WORD, .words = "factor|coordinate",
+     .summary = "what of it: the load factor or the coordinate", .usual = "factor"},
     {.name = NULL}};
 
-static const scene_key abscissa[] = {{"name", KEY_TEXT, .summary = "left out: path, or time"},
-                                     {"unit", KEY_TEXT, .summary = "left out: 1, of time s"},
-                                     {"factor", KEY_NUMBER, .summary = "times the path parameter"},
-                                     {"offset", KEY_NUMBER, .summary = "added to it"},
-                                     {.name = NULL}};
+static const scene_key abscissa[] = {
+    {"name", KEY_TEXT, .summary = "its name", .left_out = "path, or time"},
+    {"unit", KEY_TEXT, .summary = "its unit", .left_out = "1; over time, with factor 1, s"},
+    {"factor", KEY_NUMBER, .summary = "times the path parameter", .usual = "1"},
+    {"offset", KEY_NUMBER, .summary = "added to it", .usual = "0"},
+    {.name = NULL}};
 
 static const scene_key when[] = {
-    {"level", KEY_NUMBER, .summary = "that is crossed, in SI units before factor and offset; 0"},
-    {"direction", KEY_WORD, .words = SCENE_DIRECTION_CHOICES, .summary = "of the crossing"},
-    {"which", KEY_NUMBER, .summary = "crossing, counted from 0"},
-    {"from", KEY_NUMBER, .summary = "begin of the window [s]; 0"},
-    {"until", KEY_NUMBER, .summary = "its end [s]; left out: that of the motion"},
+    {"level", KEY_NUMBER, .summary = "that is crossed, in SI units before factor and offset",
+     .usual = "0"},
+    {"direction", KEY_WORD, .words = SCENE_DIRECTION_CHOICES, .summary = "of the crossing",
+     .usual = "rising"},
+    {"which", KEY_NUMBER, .summary = "crossing, counted from 0", .usual = "0"},
+    {"from", KEY_NUMBER, .summary = "begin of the window [s]", .usual = "0"},
+    {"until", KEY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion"},
     {.name = NULL}};
 
 static const scene_key prediction[] = {
@@ -266,15 +290,18 @@ const scene_key keys_quantity[] = {
      .summary = "displacement or rotation as seen from another node"},
     {"energy", KEY_MAP, .needed = 1, .group = 1, .below = energy, .summary = "of a motion"},
     {"momentum", KEY_MAP, .needed = 1, .group = 1, .below = momentum, .summary = "of a motion"},
-    {"unit", KEY_TEXT, .summary = "SI unit; left out: that of the kind"},
-    {"tolerance", KEY_NUMBER, .summary = "relative, of the limit; 1e-3"},
-    {"order", KEY_NUMBER, .summary = "least order of convergence"},
-    {"near_zero", KEY_NUMBER, .summary = "scale of errors of values near zero"},
-    {"factor", KEY_NUMBER, .summary = "reported value = factor value + offset"},
-    {"offset", KEY_NUMBER, .summary = "in the same unit"},
-    {"x", KEY_MAP, .below = abscissa, .summary = "abscissa of a curve"},
-    {"when", KEY_MAP, .below = when, .summary = "of a motion: which crossing, and its window"},
-    {"prediction", KEY_MAP, .below = prediction, .summary = "shown, never judged"},
+    {"unit", KEY_TEXT, .summary = "SI unit", .left_out = "that of the kind"},
+    {"tolerance", KEY_NUMBER, .summary = "relative, of the limit", .usual = "1e-3"},
+    {"order", KEY_NUMBER, .summary = "least order of convergence", .usual = "0"},
+    {"near_zero", KEY_NUMBER, .summary = "scale of errors of values near zero", .usual = "0"},
+    {"factor", KEY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1"},
+    {"offset", KEY_NUMBER, .summary = "in the same unit", .usual = "0"},
+    {"x", KEY_MAP, .below = abscissa, .summary = "abscissa of a curve",
+     .left_out = "the path or time"},
+    {"when", KEY_MAP, .below = when, .summary = "of a motion: which crossing, and its window",
+     .left_out = "the first that rises through 0"},
+    {"prediction", KEY_MAP, .below = prediction, .summary = "shown, never judged",
+     .left_out = "none"},
     {.name = NULL}};
 
 const scene_key keys_truth[] = {
@@ -284,11 +311,13 @@ const scene_key keys_truth[] = {
      .words = "exact|predicted|independent|agreement|consensus|published|reconstructed|experiment",
      .summary = "how it is known"},
     {"source", KEY_TEXT, .needed = 1, .summary = "who says so"},
-    {"uncertainty", KEY_NUMBER, .summary = "of the value, same unit; 0"},
-    {"formulation", KEY_TEXT, .summary = "of whom it speaks; left out: the continuum"},
-    {"theory", KEY_WORD, .words = "engesser|haringx", .summary = "of shear in stability"},
-    {"parameters", KEY_NAMES, .below = nothing, .summary = "NAME: VALUE; left out: any values"},
-    {"at", KEY_NUMBER, .summary = "point of a curve"},
-    {"model", KEY_WORD, .words = "plate|solid", .summary = "another one: informs, never gates"},
-    {"convention", KEY_TEXT, .summary = "of moments"},
+    {"uncertainty", KEY_NUMBER, .summary = "of the value, same unit", .usual = "0"},
+    {"formulation", KEY_TEXT, .summary = "of whom it speaks", .left_out = "of the continuum"},
+    {"theory", KEY_WORD, .words = "engesser|haringx", .summary = "of shear in stability",
+     .left_out = "of any"},
+    {"parameters", KEY_NAMES, .below = nothing, .summary = "NAME: VALUE", .left_out = "any values"},
+    {"at", KEY_NUMBER, .summary = "point of a curve", .left_out = "of the one value"},
+    {"model", KEY_WORD, .words = "plate|solid", .summary = "another one: informs, never gates",
+     .left_out = "of beams"},
+    {"convention", KEY_TEXT, .summary = "of moments", .left_out = "that of the analysis"},
     {.name = NULL}};

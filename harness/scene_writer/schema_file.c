@@ -65,16 +65,27 @@ static json_t *value_of(const scene_key *k)
     return json_object();
 }
 
+/* A number, a list of them, or a word. */
+static json_t *usual_of(const scene_key *k)
+{
+    json_t *value = json_loads(k->usual, JSON_DECODE_ANY, NULL);
+    return value != NULL ? value : json_string(k->usual);
+}
+
 static void add_keys(json_t *properties, json_t *required, const scene_key *table)
 {
     for (; table != NULL && table->name != NULL; table++) {
         if (table->kind == KEY_LATER)
             continue;
         json_t *value = value_of(table);
-        char text[200];
-        snprintf(text, sizeof text, "%s%s%s%s", table->summary, table->unit != NULL ? " [" : "",
-                 table->unit != NULL ? table->unit : "", table->unit != NULL ? "]" : "");
+        char text[500];
+        const char *without = table->usual != NULL ? table->usual : table->left_out;
+        snprintf(text, sizeof text, "%s%s%s%s%s%s", table->summary, table->unit != NULL ? " [" : "",
+                 table->unit != NULL ? table->unit : "", table->unit != NULL ? "]" : "",
+                 without != NULL ? "; left out: " : "", without != NULL ? without : "");
         json_object_set_new(value, "description", json_string(text));
+        if (table->usual != NULL)
+            json_object_set_new(value, "default", usual_of(table));
         json_object_set_new(properties, table->name, value);
         if (table->needed && table->group == 0)
             json_array_append_new(required, json_string(table->name));
