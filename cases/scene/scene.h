@@ -26,11 +26,7 @@ enum { SCENE_UX, SCENE_UY, SCENE_UZ, SCENE_RX, SCENE_RY, SCENE_RZ };
 
 /* What an end of a member does with its warping coordinate. A value >= 0 is a name: ends with the
  * same value share it. */
-enum {
-    SCENE_WARP_FREE = -1,
-    SCENE_WARP_FIXED = -2,
-    SCENE_WARP_BY_SUPPORT = -3 /* not said yet: scene_warping_by_supports (warping.h) says it */
-};
+enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 
 /* How one coordinate moves. A value >= 0 is a driver's index. */
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
@@ -87,7 +83,6 @@ typedef struct scene_member {
     double y_axis[3]; /* direction of the y axis in which the section is described (its part across
                          the member) */
     int warp_p, warp_q;  /* SCENE_WARP_FREE, SCENE_WARP_FIXED or a shared name */
-    int warp_unsaid;     /* bits 1 at p, 2 at q: it followed from the support */
     double curvature[3]; /* initial torsion, curvatures about local y and z [1/m]; position of
                             interior nodes follows the arc */
     double strain[3];    /* initial elongation and shear strains that would leave no stress: heat, a

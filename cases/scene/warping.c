@@ -175,12 +175,11 @@ static void resolve(scene *s, const place *all)
     int name = unused_name(s);
     for (int i = 0; i < 2 * s->members; i++) {
         const member_end one = {i / 2, i % 2};
-        scene_member *m = &s->member[one.member];
+        const scene_member *m = &s->member[one.member];
         const int node = one.end == 0 ? m->p : m->q;
         if (*warp_of(s, one) != SCENE_WARP_BY_SUPPORT)
             continue;
         *warp_of(s, one) = SCENE_WARP_FREE;
-        m->warp_unsaid |= 1 << one.end;
         if (node < 0 || node >= s->nodes || releases_turn(&m->release[one.end]))
             continue;
         if (is_held(&s->node[node]) || all[node].tied)
@@ -189,10 +188,8 @@ static void resolve(scene *s, const place *all)
             continue;
         const int number = (int)(all[node].sum - number_of(one));
         const member_end other = {number / 2, number % 2};
-        if (*warp_of(s, other) == SCENE_WARP_BY_SUPPORT && runs_on(s, one, other)) {
+        if (*warp_of(s, other) == SCENE_WARP_BY_SUPPORT && runs_on(s, one, other))
             *warp_of(s, one) = *warp_of(s, other) = name++;
-            s->member[other.member].warp_unsaid |= 1 << other.end;
-        }
     }
 }
 

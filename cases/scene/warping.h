@@ -4,6 +4,9 @@
 
 #include "cases/scene/scene.h"
 
+/* An end of a member of which nobody has said anything yet. */
+enum { SCENE_WARP_BY_SUPPORT = -3 };
+
 /* Gives every end that is SCENE_WARP_BY_SUPPORT what its support does.  Held: all six components of
  * its node are held or driven, or the node moves with a rigid body that others are joined to too.
  * Free: a turn is released there, or the node is a fork, is free or has only a mass.  Where

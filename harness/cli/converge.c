@@ -5,6 +5,7 @@
 #include "harness/cli/cli.h"
 #include "harness/command/errors.h"
 #include "harness/command/named.h"
+#include "harness/command/supports_told.h"
 #include "harness/judge/families.h"
 #include "harness/record/csv.h"
 #include "harness/record/json.h"
@@ -80,8 +81,10 @@ static status converge(command_request *r, const case_type *type, sweep *s, trut
     TRY(case_input_truths(r, t, f));
     TRY(plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, s, f));
     TRY(narrow_to(s, r->select, f));
-    if (s->points > 0)
+    if (s->points > 0) {
         case_input_tell_analysis(r, &s->point[0].scene);
+        supports_told(r, &r->formulation[0], &s->point[0].scene);
+    }
     TRY(convergence_work_run(r, &request, s, end, f));
     if (end->ended)
         return STATUS_OK;

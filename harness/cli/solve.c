@@ -6,6 +6,7 @@
 #include "harness/cli/cli.h"
 #include "harness/command/defaults.h"
 #include "harness/command/guard.h"
+#include "harness/command/supports_told.h"
 #include "harness/record/csv.h"
 #include "harness/record/follow_record.h"
 #include "harness/record/json.h"
@@ -194,6 +195,7 @@ static int solve_and_write(const command_request *r, const char *note, const sol
 {
     fault f = {""}, unwritten = {""};
     case_input_tell_analysis(r, &s->point[0].scene);
+    supports_told(r, &what->formulation, &s->point[0].scene);
     guard_formulation(&what->formulation, r->time_limit);
     const status solved = solution_run(what, s, &f);
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/warping.h"
 #include "harness/language/expression.h"
 #include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
@@ -131,9 +132,14 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
-void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out)
+void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
+                 mistakes *m, scene *out)
 {
-    builder b = {.arena = a, .mistakes = m, .scene = out, .root = root};
+    builder b = {.unsaid_warping = ends == BUILD_FREE ? SCENE_WARP_FREE : SCENE_WARP_BY_SUPPORT,
+                 .arena = a,
+                 .mistakes = m,
+                 .scene = out,
+                 .root = root};
     fault f = {""};
     b.names = unroll_let(document_find(root, "let"), names, a, m);
     build_sections(&b);

@@ -34,6 +34,7 @@ typedef struct builder {
     } list[LISTS];       /* in the order of the scene's indices */
     const char **shared; /* names of warping coordinates that members share */
     int shares;
+    int unsaid_warping; /* of ends of which nothing is said */
 } builder;
 
 /* One map: of an entry, or below one. */

@@ -44,7 +44,7 @@ static void read_warping(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "warping");
     if (n == NULL) {
-        m->warp_p = m->warp_q = SCENE_WARP_BY_SUPPORT;
+        m->warp_p = m->warp_q = f->b->unsaid_warping;
         return;
     }
     if (n->kind == DOCUMENT_LIST && n->count != 2) {

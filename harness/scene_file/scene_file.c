@@ -46,10 +46,11 @@ static const char *line_of(const scene_file *file, const char *key)
 }
 
 /* Built with memory of its own; mistakes are told in m. */
-static void build_at(const scene_file *file, const double value[], scene *s, mistakes *m)
+static void build_at(const scene_file *file, const double value[], build_ends ends, scene *s,
+                     mistakes *m)
 {
     arena a = {0};
-    build_scene(file->root, parameter_table_names(file, value, &a), &a, m, s);
+    build_scene(file->root, parameter_table_names(file, value, &a), ends, &a, m, s);
     arena_free(&a);
 }
 
@@ -57,7 +58,15 @@ static status build_from(const void *context, const double value[], scene *s, fa
 {
     const scene_file *file = context;
     mistakes m = {.file = file->path};
-    build_at(file, value, s, &m);
+    build_at(file, value, BUILD_BY_SUPPORTS, s, &m);
+    return mistakes_status(&m, f);
+}
+
+status scene_file_build_before(const scene_file *file, const double value[], scene *s, fault *f)
+{
+    mistakes m = {.file = file->path};
+    scene_init(s, file->type.name);
+    build_at(file, value, BUILD_FREE, s, &m);
     return mistakes_status(&m, f);
 }
 
@@ -78,7 +87,7 @@ static void read_all(scene_file *file, const char *bytes, size_t size, mistakes 
     scene s;
     parameter_defaults(file->type.parameters, value);
     scene_init(&s, file->type.name);
-    build_at(file, value, &s, m);
+    build_at(file, value, BUILD_BY_SUPPORTS, &s, m);
     if (m->count == 0)
         scene_file_truths_check(file, &s, value, m);
     scene_free(&s);

@@ -25,6 +25,9 @@ const case_type *scene_file_case(const scene_file *);
 const char *scene_file_path(const case_type *type);
 /* Does the file say anything under this key? */
 int scene_file_states(const scene_file *, const char *key);
+/* The scene as earlier versions read it: ends that say nothing of their warping leave it free.
+ * The caller frees it in any case. */
+status scene_file_build_before(const scene_file *, const double value[], scene *, fault *);
 /* Adds the file's truths that hold at a point of its parameters, and their values there. */
 status scene_file_truths_add(const scene_file *, const double value[], truths *t, fault *f);
 /* The same at the defaults and at every point that a truth names. */

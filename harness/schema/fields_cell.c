@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "elements/feature.h"
+#include "harness/scene_writer/warping_ends.h"
 #include "harness/schema/fields_keys.h"
 #include "harness/timing/price.h"
 
@@ -21,6 +22,12 @@ static void get_left_out(const subject *s, field_value *out)
     for (int i = 0;
          i < cell->left_out_lines && used + strlen(cell->left_out[i]) + 3 < sizeof out->room; i++)
         used += (size_t)sprintf(out->room + used, "%s%s", i > 0 ? "; " : "", cell->left_out[i]);
+    out->text = out->room;
+}
+
+static void get_warping(const subject *s, field_value *out)
+{
+    warping_ends(&s->point->scene, out->room, sizeof out->room);
     out->text = out->room;
 }
 
@@ -93,6 +100,8 @@ static const schema_field fields_of_cell[] = {
      .get = get_strains},
     {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
+    {"warping", "", FIELD_TEXT, "which ends of members hold it, share it, leave it free",
+     .get = get_warping},
     {"cost", "s", FIELD_DOUBLE, "counted work at the prices of the reference machine",
      .get = get_cost},
     {"priced", "", FIELD_FLAG, "its formulation has prices of its own, not those of any",

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/scene_writer/warping_ends.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_motion.h"
@@ -82,7 +83,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     const series *one = &s->series[0];
     const point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
-    char steps[FAULT_TEXT];
+    char steps[FAULT_TEXT], ends[FAULT_TEXT];
     table_series(to, s, 0);
     count_steps(&c->counters, steps);
     const int at = fprintf(to, "%s", status_name(c->solve.status));
@@ -99,6 +100,9 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
             c->counters.negative_pivots);
     for (int i = 0; i < c->left_out_lines; i++)
         paragraph_write(to, fprintf(to, "left out: "), INDENT, c->left_out[i]);
+    warping_ends(&p->scene, ends, sizeof ends);
+    if (ends[0] != '\0')
+        paragraph_write(to, fprintf(to, "warping: "), INDENT, ends);
     table_path_events(to, &c->solve);
     fprintf(to, "%-*s %*s %-*s %11s\n", NAME, "quantity", VALUE, "value", UNIT, "unit", "error");
     for (int i = 0; i < c->solve.quantities; i++)

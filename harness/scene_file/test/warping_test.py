@@ -1,9 +1,11 @@
 """What ends of members do with their warping where a scene does not say it."""
+import json
 import math
 import re
 import unittest
 
 from harness.scene_file.test.scene_case import SceneCase, values
+from harness.test.program import run
 
 E, G, IT, IW, LENGTH, TORQUE = 210e9, 81e9, 4e-7, 9e-7, 3.0, 50.0
 K = math.sqrt(G * IT / (E * IW))  # 1/m; K*LENGTH: 1.2
@@ -232,6 +234,46 @@ instances:
                                    "geometrically_exact"),
                         1,
                         delta=1e-9)
+
+    def test_told(self):
+        """Text and JSON name the ends; one line on stderr where the answer was another one before."""
+        torsion = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n" + CANTILEVER
+        ends = "held at base; free at tip"
+        told = "warping is held at base, as supports say"
+        scene = self.scene(torsion + TWIST)
+        for verb in ("solve", "converge"):
+            self.assertIn(told, run(verb, "--scene", scene, "-f", "collocation", "-n", 2).stderr)
+        done = run("solve", "--scene", scene)
+        self.assertIn(f"\nwarping: {ends}\n", done.stdout)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        record = json.loads(run("solve", "--scene", scene, "--format", "json").stdout)
+        self.assertEqual(record["cell"]["warping"], ends)
+        # neither where the word is there, nor where it changes nothing, nor where nothing warps
+        for text, words in ((torsion.replace("]}", "], warping: [fixed, free]}", 3) + TWIST, ends),
+                            (torsion + TWIST.replace(f"[{TORQUE}, 0, 0]", "[0, 0, 0]"), ends),
+                            (torsion + TWIST.replace("moment", "force"), ends),
+                            (torsion.replace("section: beam", "section: rigid") + TWIST, "")):
+            text = text.replace("tip: {at: [3.0, 0, 0], warping: [fixed, free]}",
+                                "tip: {at: [3.0, 0, 0]}")
+            done = run("solve", "--scene", self.scene(text), "-n", 2)
+            self.assertEqual(done.stderr, "", text)
+            self.assertEqual("\nwarping: " + words + "\n" in done.stdout, words != "")
+            self.assertEqual("\nwarping: " in done.stdout, words != "")
+
+    def test_told_at_members(self):
+        """Where ends at a node differ they are named by their members; of many the first."""
+        scene = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n  side: {at: [3, 2, 0]}\n" + \
+            "members:\n  beam: {from: base, to: tip, section: post, y: [0, 1, 0], warping: free}\n" + \
+            "  leg: {from: tip, to: side, section: post, y: [1, 0, 0], warping: fixed}\n" + TWIST
+        done = run("solve", "--scene", self.scene(scene), "-n", 1)
+        self.assertIn("\nwarping: held at leg at tip, side; free at base, beam at tip\n", done.stdout)
+        many = HEAD + "nodes:\n  base: {at: [0, 0, 0], hold: all}\n" + TIP + "}\n" + \
+            "  end_$i: {for: {i: 0..19}, at: [3, 1 + i, 1], hold: all}\nmembers:\n" + \
+            "  beam: {from: base, to: tip, section: post, y: [0, 1, 0]}\n" + \
+            "  leg_$i: {for: {i: 0..19}, from: tip, to: end_$i, section: post, y: [1, 0, 0]}\n" + TWIST
+        done = run("solve", "--scene", self.scene(many), "-n", 1)
+        self.assertRegex(" ".join(done.stdout.split()),
+                         r"warping: held at base, end_0, .*, end_6 and 13 more; free at tip quantity")
 
     def test_written(self):
         """What is written says the word, and solves to the same bits."""
