@@ -2,7 +2,7 @@
 import numpy as np
 
 from reports.drawing import geometry, loads
-from reports.drawing.members import spring_words
+from reports.drawing.members import ends_that_warp, spring_words
 from reports.drawing.supports import held_of
 from reports.drawing.words import length, number, vector
 
@@ -81,6 +81,24 @@ def mass(node):
     return f"{node.name}: {number(node.mass)} kg, {place(node.centre)} m from it"
 
 
+def warping(scene):
+    """Where ends hold it and where they leave it free: nodes, or members where ends differ there."""
+    at = {}
+    for member, end, word in ends_that_warp(scene):
+        at.setdefault(member.ends[end], []).append((word, member.name))
+    symbol = {"fixed": "held (filled bar)", "shared": "shared", "free": "free (open bar)"}
+    out = []
+    for word, told in symbol.items():
+        places = []
+        for node, ends in at.items():
+            own = [name for state, name in ends if state == word]
+            places += [node] if len(own) == len(ends) else [f"{name} at {node}" for name in own]
+        if places:
+            few = places[:MOST] + [f"{len(places) - MOST} more"] * (len(places) > MOST)
+            out.append(f"{told}: {', '.join(few)}")
+    return out
+
+
 def shortened(lines):
     """Few of many lines."""
     found = [line for line in lines if line]
@@ -92,6 +110,7 @@ def describe(scene):
     spin = scene.spin
     turning = [] if spin is None else [f"{place(spin.omega)} rad/s about {place(spin.centre)}"]
     kinds = (("Supports", [support(scene, n) for n in scene.nodes.values()]),
+             ("Warping at ends of members", warping(scene)),
              ("Motions", [motion(*m) for m in scene.motions.items()]),
              ("Axes turn with", turning),
              ("Loads", [load(one) for one in scene.loads]),

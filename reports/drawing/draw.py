@@ -78,6 +78,7 @@ def compose(scene):
     for name, member in scene.members.items():
         members.put_member(canvas, look, scene, member, lines[name])
         members.put_hinges(canvas, look, member, lines[name])
+    members.put_warping(canvas, look, scene, lines)
     members.put_springs(canvas, look, scene)
     members.put_masses(canvas, look, scene)
     supports.put_supports(canvas, look, scene, lines)

@@ -63,6 +63,21 @@ def rectangle(y, z, height, width):
                                               [height, width], [-height, width]])
 
 
+def meet(walls):
+    """Do they have a point in common: does an open section of them not warp?"""
+    return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
+
+
+def warps(section):
+    """Has it a constant of warping?"""
+    given = section.get("given", {})
+    if "Iw" in given:
+        return float(given["Iw"]) > 0
+    if "walls" in section:
+        return not meet(section["walls"])
+    return "rectangle" in section or float(section.get("constants", {}).get("Iw", 0)) > 0
+
+
 def walls_of(section):
     """Strips [4 x 2] of thin walls about their centroid, and the mid-lines [walls x 2 x 2]."""
     points = {name: np.array([float(v) for v in p]) for name, p in section["points"].items()}

@@ -11,6 +11,7 @@ SEEN = 2.5  # size of a section on paper from which it is drawn [pt]
 LIGHT = np.array([0.3, -0.5, 0.81])
 FEW = 10  # members with centre lines
 HINGE = 9  # from the end of a member [pt]
+WARPING = 7  # likewise
 
 
 def shade(colour, quad):
@@ -84,6 +85,33 @@ def put_hinges(canvas, view, member, line):
             way = (beside - at) / np.linalg.norm(beside - at)
             canvas.dot(at + HINGE * way, 6, "white", mark=f"hinge_{member.name}")
             canvas.label(at + HINGE * way, "free: " + " ".join(released), SOFT, 8)
+
+
+def ends_that_warp(scene):
+    """(member, its end: 0 or 1, fixed, free or shared) of all whose section warps."""
+    if "warping" in scene.omitted or "all" in scene.omitted:
+        return
+    for member in scene.members.values():
+        for end, word in enumerate(member.warping):
+            if word and geometry.warps(scene.sections[member.sections[end]]):
+                yield member, end, word
+
+
+def put_warping(canvas, view, scene, lines):
+    """Bars across the ends of members: filled where they hold the warping, open where it is free."""
+    for member, end, word in ends_that_warp(scene) if len(scene.members) <= FEW else ():
+        flat = view(lines[member.name].points)
+        at, beside = (flat[0], flat[1]) if end == 0 else (flat[-1], flat[-2])
+        long = np.linalg.norm(beside - at)
+        if word == "shared" or long < 3 * WARPING:
+            continue
+        way = (beside - at) / long
+        across = np.array([-way[1], way[0]])
+        middle = at + (HINGE + 7 if member.released[end] else WARPING) * way
+        corners = np.array([middle + a * 1.6 * way + b * 6 * across
+                            for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+        canvas.area(corners, INK if word == "fixed" else "white", INK, 0.9, order=7,
+                    mark=f"warping_{member.name}_{end}")
 
 
 def put_bodies(canvas, view, scene):

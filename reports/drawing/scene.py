@@ -32,13 +32,15 @@ class Node:
 
 @dataclass
 class Member:
-    """y: direction of the y axis of its section; released: components at both ends."""
+    """y: direction of the y axis of its section; released: components at both ends; warping: of
+    both ends fixed, free or shared."""
     name: str
     ends: tuple  # names of two nodes
     sections: tuple  # names of the sections at both
     y: np.ndarray
     curvature: np.ndarray
     released: tuple
+    warping: tuple = ("", "")
 
 
 @dataclass
@@ -81,10 +83,16 @@ class Scene:
     motions: dict  # name -> (least, largest value), () of time, or None where it is unknown
     spin: Spin = None
     asked: set = field(default_factory=set)  # nodes that quantities are of
+    omitted: tuple = ()  # physics that is left out
 
 
 def numbers(values):
     return np.array([float(v) for v in values]) + 0.0
+
+
+def words_of(said):
+    """One word or a list of them."""
+    return said if isinstance(said, (list, tuple)) else [said]
 
 
 def read_node(name, said):
@@ -106,9 +114,12 @@ def read_member(name, said):
     section = said["section"]
     both = tuple(section) if isinstance(section, list) else (section, section)
     release = said.get("release", {})
+    warping = said.get("warping", "")
+    warping = warping if isinstance(warping, list) else [warping] * 2
     return Member(name, (said["from"], said["to"]), both, numbers(said["y"]),
                   numbers(said.get("curvature", (0, 0, 0))),
-                  (tuple(release.get("from", ())), tuple(release.get("to", ()))))
+                  (tuple(release.get("from", ())), tuple(release.get("to", ()))),
+                  tuple("shared" if isinstance(word, dict) else word for word in warping))
 
 
 IN_TIME = ("time", "pieces", "table")  # how a motion that is a function of time is said
@@ -170,4 +181,4 @@ def read(text):
                  all_of("members", read_member), list(all_of("loads", read_load).values()),
                  list(all_of("springs", read_spring).values()),
                  all_of("motions", lambda _, what: read_motion(what)), read_spin(said["analyses"]),
-                 nodes_asked(said))
+                 nodes_asked(said), tuple(words_of(said.get("omit", ()))))

@@ -122,6 +122,38 @@ analyses: {a: {rotation: {omega: [0, 0, 2], centre: [%d, 0, 0], stations: [0, 1]
             self.assertIn("Axes turn with", dict(describe.describe(one)))
             plt.close(figure)
 
+    def test_warping(self):
+        """A bar at each end that holds its warping or leaves it free, told by nodes, or by members where ends differ; none where nothing warps."""
+        text = """
+name: warps
+sections: {s: {SECTION}}
+nodes: {p: {at: [0, 0, 0]}, q: {at: [1, 0, 0]}, r: {at: [2, 0, 0]}, t: {at: [2, 1, 0]}}
+members:
+  a: {from: p, to: q, section: s, y: [0, 1, 0], warping: [fixed, {shared: w0}]}
+  b: {from: q, to: r, section: s, y: [0, 1, 0], warping: [{shared: w0}, free]}
+  c: {from: r, to: t, section: s, y: [1, 0, 0], warping: fixed}
+analyses: {run: {linear: {}}}
+"""
+        corner = "points: {a: [0, 0], b: [1, 0], c: [1, 1]%s}, walls: [{from: a, to: b, thickness: 0.1}, {from: b, to: c, thickness: 0.1}%s]"
+        flat = "rectangle: {width: 0.1, thickness: 0.1}"
+        for section, more, drawn in (
+                (flat, "", 4), (flat, "omit: [warping]", 0), (flat, "omit: all", 0),
+                ("tube: {diameter: 0.1, thickness: 0.01}", "", 0),
+                ("constants: {A: 1, Iy: 1, Iz: 1, It: 1}", "", 0),
+                ("constants: {A: 1, Iy: 1, Iz: 1, It: 1, Iw: 1}", "", 4),
+                (corner % ("", ""), "", 0),
+                (corner % (", d: [0, 1]", ", {from: c, to: d, thickness: 0.1}"), "", 4)):
+            one = scene.read(text.replace("SECTION", section) + more)
+            figure = draw.draw(one)
+            marks = {m for m in (a.get_gid() for a in figure.findobj()) if m}
+            self.assertEqual(
+                sorted(m for m in marks if m.startswith("warping_")),
+                ["warping_a_0", "warping_b_1", "warping_c_0", "warping_c_1"] if drawn else [])
+            said = dict(describe.describe(one)).get("Warping at ends of members")
+            self.assertEqual(said, ["held (filled bar): p, c at r, t", "shared: q",
+                                    "free (open bar): b at r"] if drawn else None)
+            plt.close(figure)
+
     def test_nothing_written(self):
         self.assertIsNone(scene.read(""))
 
