@@ -97,7 +97,7 @@ class RestartTest(SceneCase):
                 (2, "step: 0.01,", (*again, "--set", "step=0.01")),
                 (2, "mass: 0.31,", (*again, "--set", "mass=0.31")),
                 (2, "which is read", (*again, "--ends", ends)),
-                (2, "leave --shapes, --matrices, --ends and", (*again, "--follow", "mass=0.1..0.2/2")),
+                (2, "leave -k, --shapes, --matrices, --ends and", (*again, "--follow", "mass=0.1..0.2/2")),
                 (2, "no motion in time", ("solve", "elastica", "--restart", ends)),
                 (2, "no motion in time", ("solve", "elastica", "--ends", self.folder / "none.h5")),
                 (4, "cut short", ("solve", "--scene", path, "--restart", cut)),

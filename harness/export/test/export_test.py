@@ -61,7 +61,7 @@ class Decks(ExportTest):
             self.assertEqual(len(np.unique(places.round(9), axis=0)), len(used), section)
             shared = collections.Counter(frozenset(e[list(f)]) for e in elements for f in faces)
             self.assertEqual(set(shared.values()), {1, 2}, section)
-            off, = re.findall(r"^\*\*AREA member 0: (\S+) % of",
+            off, = re.findall(r"^\*\*AREA member \w+: (\S+) % of",
                               deck.read_text(encoding="utf-8"), re.M)
             self.assertAlmostEqual(float(off), -100 * twice / area, delta=1e-2, msg=section)
 
