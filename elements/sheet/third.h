@@ -21,7 +21,7 @@ void sheet_third_geometric(const element_data *d, const double sigma[], double G
 
 /* In an element_type. */
 #define SHEET_THIRD_TYPE                                                                           \
-    SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
+    SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR, .limits = SHEET_BASE_LIMITS | LIMIT_FLAT_ARC,       \
         .lacks = LACKS_SHEAR_Y, .lacks_by = "N Eq. 50", .data_size = sheet_third_data_size,        \
         .stress = sheet_third_stress, .stress_many = sheet_third_stress_many,                      \
         .equations_many = sheet_third_equations_many, .geometric = sheet_third_geometric

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/algebra/factor_by_numbers.h"
 #include "harness/algebra/factor_symmetric.h"
 #include "harness/algebra/factor_unsymmetric.h"
 

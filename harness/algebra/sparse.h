@@ -25,6 +25,16 @@ void sparse_zero(sparse *a);
 void sparse_copy_leading(const sparse *whole, sparse *leading);
 void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
 
+/* Of a matrix that is stored whole, the upper triangle, and whether that is all there is. */
+typedef struct by_numbers by_numbers;
+
+status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f);
+void by_numbers_free(by_numbers *);
+/* Largest |a_ij - a_ji|/sqrt|a_ii a_jj| of `a`, whose upper triangle is copied; INFINITY where that
+ * has no measure. */
+double by_numbers_take(by_numbers *, const sparse *a);
+const sparse *by_numbers_upper(const by_numbers *);
+
 typedef struct factor factor;
 
 typedef struct factor_counts {

@@ -3,12 +3,16 @@
  * strains that members have by themselves. */
 #include "harness/analysis/buckling.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cases/scene/along_path.h"
 #include "harness/algebra/eigen.h"
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
+#include "harness/model/metric.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
 #include "harness/solver/quadratic_forms.h"
@@ -142,6 +146,17 @@ typedef struct buckling {
     eigen_result found;
 } buckling;
 
+/* All but what was found. */
+static void buckling_free(buckling *b)
+{
+    linear_system_free(&b->system);
+    sparse_free_values(&b->of.G);
+    sparse_free_values(&b->of.of_stay);
+    quadratic_forms_free(&b->of.growing);
+    quadratic_forms_free(&b->of.staying);
+    free(b->of.product);
+}
+
 /* With what buckling_analysis frees. */
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
@@ -163,18 +178,79 @@ static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
     return result;
 }
 
+/* Nodes that turn where they are, without a displacement: what shortens with the elements can be
+ * nothing but their own. */
+static int only_turns(const analysis_context *c, const eigen_side *side, int i)
+{
+    const double no_shift = 1e-6;
+    const model_size size = model_sizes(c->model);
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    if (x == NULL)
+        return 0;
+    memcpy(x, side->mode + (size_t)i * (size_t)size.free, (size_t)size.free * sizeof *x);
+    const double part = metric_shift_part(c->model, x);
+    free(x);
+    return part < no_shift;
+}
+
+/* The same problem on a mesh of half the element length. */
+static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
+{
+    model *halved = NULL;
+    buckling b = {0};
+    status result = model_halved(c->model, &halved, f);
+    if (result == STATUS_OK) {
+        analysis_context finer = {
+            .scene = c->scene, .model = halved, .options = c->options, .result = c->result};
+        context_set_frame(&finer, analysis);
+        result = solve(&finer, analysis, &b, f);
+    }
+    *found = b.found;
+    buckling_free(&b);
+    model_free(halved);
+    return result;
+}
+
+/* A load that grows with the square of the number of elements is no load of the structure (elements
+ * that are rigid in shear bend by themselves, with 12 EI/l^2 for GA): it and what lies beyond it go.
+ */
+static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
+{
+    const double diverging = 2;
+    const int is_there = i < finer->count && isfinite(finer->mu[i]);
+    const double ratio = is_there ? side->mu[i] / finer->mu[i] : INFINITY;
+    if (ratio < diverging)
+        return;
+    snprintf(side->reason, sizeof side->reason,
+             "%.4g is one of the mesh, whose nodes turn where they are: %s with elements half as "
+             "long",
+             1 / side->mu[i], is_there ? "it is several times as large" : "it is not there");
+    side->count = i;
+}
+
+static void judge_side(const analysis_context *c, int analysis, int positive, eigen_result *r)
+{
+    eigen_side *side = positive ? &r->positive : &r->negative;
+    eigen_result finer = {0};
+    for (int i = 0; i < side->count; i++) {
+        if (!isfinite(side->mu[i]) || !only_turns(c, side, i))
+            continue;
+        if (finer.n == 0 && solve_halved(c, analysis, &finer, NULL) == STATUS_FAULT)
+            break;
+        drop_of_mesh(side, positive ? &finer.positive : &finer.negative, i);
+    }
+    eigen_free(&finer);
+}
+
 status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     buckling b = {0};
     const status result = solve(c, analysis, &b, f);
+    for (int positive = 0; positive < 2; positive++)
+        judge_side(c, analysis, positive, &b.found);
     keep(&b.found.positive, &o->left.spectrum.positive);
     keep(&b.found.negative, &o->left.spectrum.negative);
     eigen_free(&b.found);
-    linear_system_free(&b.system);
-    sparse_free_values(&b.of.G);
-    sparse_free_values(&b.of.of_stay);
-    quadratic_forms_free(&b.of.growing);
-    quadratic_forms_free(&b.of.staying);
-    free(b.of.product);
+    buckling_free(&b);
     return result;
 }

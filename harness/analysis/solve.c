@@ -19,6 +19,7 @@
 #include "harness/analysis/static.h"
 #include "harness/motion/motion.h"
 #include "harness/solver/context.h"
+#include "harness/solver/linear_system.h"
 #include "harness/solver/singular.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
@@ -56,6 +57,31 @@ static int is_stuck(const analysis_outcome *o)
            (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
+/* Is there a step of the analysis whose tangent was indefinite? */
+static int has_negative(const solve_result *r, int from)
+{
+    for (int i = from; i < r->steps; i++)
+        if (r->step[i].negative_pivots > 0)
+            return 1;
+    return 0;
+}
+
+/* A path that begins at a stiffness that is indefinite by itself leads nowhere. Asked where the path
+ * was unstable or failed, and not counted as work. */
+static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
+{
+    if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
+        (o->status == STATUS_OK && !has_negative(c->result, first_step)))
+        return o->status;
+    fault why = {""};
+    linear_system s = {0};
+    const counters work = *model_counters(c->model);
+    const status at_rest = linear_system_alloc(c, &s, &why);
+    linear_system_free(&s);
+    *model_counters(c->model) = work;
+    return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
+}
+
 /* The first failure names the whole. */
 static void run_analyses(analysis_context *c)
 {
@@ -69,6 +95,7 @@ static void run_analyses(analysis_context *c)
         if (!context_runs(c, i) || (c->options->sample > 0 && a->kind != SCENE_STATIC))
             continue;
         c->singular = 0;
+        const int first_step = c->result->steps;
         o->status = run != NULL ? run(c, i, o, &f)
                                 : fault_set(&f, STATUS_REFUSED, "%s: not available",
                                             scene_called(c->scene, SCENE_ANALYSES, i).text);
@@ -76,6 +103,7 @@ static void run_analyses(analysis_context *c)
             singular_explain(c, &f);
         else if (is_stuck(o))
             o->status = singular_mechanism(c, o->status, &f);
+        o->status = judge_rest(c, o, first_step, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
             c->result->status = o->status;

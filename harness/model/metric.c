@@ -35,6 +35,19 @@ void metric_of(const model *m, double weight[])
     }
 }
 
+double metric_shift_part(const model *m, const double dx[])
+{
+    double shift = 0, all = 0;
+    for (int i = 0; i < m->vertices; i++)
+        for (int c = 0; c < VERTEX_COORDINATES && m->vertex[i].body == i; c++) {
+            const int k = m->vertex[i].coordinate[c];
+            const double x = k == NONE ? 0 : c < SCENE_RX ? dx[k] / m->size : dx[k];
+            shift += c < SCENE_RX ? x * x : 0;
+            all += x * x;
+        }
+    return all > 0 ? shift / all : 0;
+}
+
 static double turn(const model_state *a, const model_state *b, int vertex)
 {
     double angle[3];

@@ -7,6 +7,8 @@
 /* Weights [free + driven] of the square of an increment, (displacement/size)^2 + rotation^2 in the
  * mean over the bodies. */
 void metric_of(const model *, double weight[]);
+/* What the displacements of the nodes have of an increment [free + driven], measured so. */
+double metric_shift_part(const model *, const double dx[]);
 /* The same distance between two states. */
 double metric_distance(const model *, const model_state *, const model_state *);
 /* The largest angle [rad] between the orientations of a node in two states. */

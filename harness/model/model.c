@@ -108,6 +108,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
     m->scene = request->scene;
     m->given = m->type = request->type;
     m->keep_all = request->keep_all;
+    m->asked = request->elements;
     const status outcome = build(m, request, f);
     if (outcome == STATUS_OK)
         *out = m;
@@ -119,6 +120,12 @@ status model_alloc(const model_request *request, model **out, fault *f)
 status model_coarse(const model *m, model **out, fault *f)
 {
     const model_request request = {m->scene, m->given, m->options, 1, m->keep_all};
+    return model_alloc(&request, out, f);
+}
+
+status model_halved(const model *m, model **out, fault *f)
+{
+    const model_request request = {m->scene, m->given, m->options, 2 * m->asked, m->keep_all};
     return model_alloc(&request, out, f);
 }
 
@@ -185,6 +192,11 @@ int model_left_out(const model *m, const char *const **lines)
 unsigned model_leaves(const model *m)
 {
     return m->type->leaves;
+}
+
+const char *model_formulation(const model *m)
+{
+    return m->type->name;
 }
 
 unsigned model_limits(const model *m)

@@ -44,6 +44,8 @@ typedef struct model_size {
 model_size model_sizes(const model *);
 /* The same with one element per member. */
 status model_coarse(const model *, model **, fault *);
+/* The same with twice as many elements. */
+status model_halved(const model *, model **, fault *);
 /* Longest member [m]: displacements are small or large beside it. */
 double model_length(const model *);
 
@@ -76,6 +78,7 @@ typedef struct model_state model_state;
  * results do not depend on it. */
 status model_set_threads(model *, int threads, fault *);
 
+const char *model_formulation(const model *);
 unsigned model_limits(const model *); /* LIMIT_* of its formulation */
 unsigned model_leaves(const model *); /* LEAVES_* of it */
 /* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and

@@ -151,6 +151,7 @@ struct model {
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
     double size;             /* length of the longest member [m] */
+    int asked;               /* elements of a member */
     mesh_pattern pattern[5]; /* those of assemble.h */
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */

@@ -16,6 +16,7 @@ static const word_bit limits[] = {{"doubly symmetric", LIMIT_DOUBLY_SYMMETRIC},
                                   {"order dependent", LIMIT_ORDER_DEPENDENT},
                                   {"quarter turn", LIMIT_QUARTER_TURN},
                                   {"warping rigid", LIMIT_WARPING_RIGID},
+                                  {"flat arc", LIMIT_FLAT_ARC},
                                   {NULL, 0}};
 static const word_bit theories[] = {
     {"engesser", SHEAR_ENGESSER}, {"haringx", SHEAR_HARINGX}, {NULL, 0}};

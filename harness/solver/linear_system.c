@@ -36,7 +36,17 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     n->factor_entries = counts.entries;
     n->factor_flops += counts.flops;
     context_count_condition(c, out->factor, &out->K);
-    return STATUS_OK;
+    return counts.negative_pivots > 0
+               ? fault_set(f, STATUS_NOT_CONVERGED,
+                           "%s: %d negative pivot%s of the stiffness at rest, where nothing is "
+                           "loaded: elements move against their forces%s; use more elements or "
+                           "another formulation",
+                           model_formulation(c->model), counts.negative_pivots,
+                           counts.negative_pivots > 1 ? "s" : "",
+                           model_limits(c->model) & LIMIT_FLAT_ARC
+                               ? ", as where their arcs rise by 9.7 radii of gyration"
+                               : "")
+               : STATUS_OK;
 }
 
 void linear_system_free(linear_system *s)
