@@ -40,11 +40,14 @@ static int frame_of(const scene *s, const scene_member *m, double x[3], double y
             return 0;
         x[k] = q[k] - p[k];
     }
-    const double length = vec3_norm(x), along = vec3_dot(x, m->y_axis) / (length * length);
+    const double length = vec3_norm(x);
+    if (!(length > 0))
+        return 0;
+    const double along = vec3_dot(x, m->y_axis) / (length * length);
     for (int k = 0; k < 3; k++)
         y[k] = m->y_axis[k] - along * x[k];
     const double across = vec3_norm(y);
-    if (!(length > 0) || !(across > 0))
+    if (!(across > 0))
         return 0;
     for (int k = 0; k < 3; k++) {
         x[k] /= length;

@@ -67,6 +67,16 @@ static status write_out(const command_request *r, double level, const sweep *s, 
     return output_finish(&file, write_form(file.stream, r, level, s, t, f), f);
 }
 
+/* As far as the first formulation tells that is run. */
+static void tell_supports(const command_request *r, const sweep *s)
+{
+    int i = 0;
+    while (i < s->seriess - 1 && s->series[i].missing[0] != '\0')
+        i++;
+    if (s->seriess > 0)
+        supports_told(r, &s->series[i].formulation, &s->point[0].scene);
+}
+
 /* With what converge_request frees. */
 static status converge(command_request *r, const case_type *type, sweep *s, truths *t,
                        spread_end *end, fault *f)
@@ -83,7 +93,7 @@ static status converge(command_request *r, const case_type *type, sweep *s, trut
     TRY(narrow_to(s, r->select, f));
     if (s->points > 0) {
         case_input_tell_analysis(r, &s->point[0].scene);
-        supports_told(r, &r->formulation[0], &s->point[0].scene);
+        tell_supports(r, s);
     }
     TRY(convergence_work_run(r, &request, s, end, f));
     if (end->ended)
