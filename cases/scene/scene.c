@@ -218,8 +218,8 @@ int scene_load_along(const scene_load *load)
 
 int scene_load_unsymmetric(const scene_load *load)
 {
-    const int turns = load->follower || load->kind == SCENE_MOMENT ||
-                      load->kind == SCENE_DISTRIBUTED_MOMENT;
+    const int turns =
+        load->follower || load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT;
     return turns && vec3_norm(load->vector) > 0;
 }
 
@@ -272,6 +272,17 @@ int scene_has_body(const scene_node *n)
     for (int i = 0; i < 6; i++)
         has |= n->body.inertia[i] != 0;
     return has;
+}
+
+int scene_normal(const scene *s)
+{
+    return s->plane == SCENE_SPACE ? SCENE_NONE : (int)s->plane - (int)SCENE_PLANE_YZ;
+}
+
+const char *scene_plane_name(const scene *s)
+{
+    static const char *const name[] = {"", "yz", "xz", "xy"};
+    return name[s->plane];
 }
 
 void scene_need(scene *s, unsigned features)

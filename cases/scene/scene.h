@@ -31,6 +31,17 @@ enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 /* How one coordinate moves. A value >= 0 is a driver's index. */
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
+/* Held in a plane: nothing leaves it, neither the nodes nor what lies between them; warping is
+ * held.
+ */
+typedef enum scene_plane {
+    SCENE_SPACE,
+    SCENE_PLANE_YZ,
+    SCENE_PLANE_XZ,
+    SCENE_PLANE_XY
+} scene_plane;
+#define SCENE_PLANE_CHOICES "yz|xz|xy"
+
 typedef enum scene_rotation {
     SCENE_ROTATION_SPATIAL,  /* three increments about fixed axes, each free or held (all held:
                                 clamped) */
@@ -163,6 +174,7 @@ struct scene {
     scene_load *load;
     scene_analysis *analysis;
     scene_quantity *quantity;
+    scene_plane plane; /* that all is held in; SCENE_SPACE: none */
     unsigned needs; /* FEATURE_* bits that cannot be derived from the data: scene_need sets them */
     int meshes;     /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
@@ -232,6 +244,10 @@ void scene_set_body(scene *s, int node, scene_body body);
 int scene_has_body(const scene_node *n);
 /* Convention of moments that a quantity depends on, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
+/* The axis across the plane that the scene is held in, 0 to 2, or SCENE_NONE. */
+int scene_normal(const scene *s);
+/* "xy"; "" in space. */
+const char *scene_plane_name(const scene *s);
 /* Physics (FEATURE_* bits) that the scene is to have; the data say the rest: analyses, sections. */
 void scene_need(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);

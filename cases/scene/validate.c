@@ -5,6 +5,7 @@
 #include "cases/scene/names.h"
 #include "cases/scene/validate_motion.h"
 #include "cases/scene/validate_node.h"
+#include "cases/scene/validate_plane.h"
 #include "cases/scene/validate_release.h"
 #include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
@@ -236,5 +237,5 @@ status scene_validate(const scene *s, fault *f)
         for (int i = 0; i < count[k]; i++) {
             TRY(check[k](s, i, f));
         }
-    return STATUS_OK;
+    return scene_validate_plane(s, f);
 }

@@ -14,11 +14,12 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/release.h"
 
-/* Has what acts on the model no stiffness but at the ends of its members? */
+/* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
+ * them free? */
 static int applies(const model *m, int from)
 {
     int longest = 0;
-    if (m->rotates || m->keep_all)
+    if (m->rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
         return 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];

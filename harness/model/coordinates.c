@@ -1,4 +1,5 @@
 /* Which scalars are unknown, which are prescribed, and what was left out. */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,9 +26,25 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     return STATUS_OK;
 }
 
+/* Does the component leave the plane that the scene is held in? */
+static int leaves_plane(const model *m, int vertex, int component)
+{
+    const int normal = scene_normal(m->scene), turn = component - SCENE_RX;
+    const mesh_vertex *v = &m->vertex[vertex];
+    if (normal == SCENE_NONE)
+        return 0;
+    if (turn < 0)
+        return component == normal;
+    if (v->angles == 0)
+        return turn != normal;
+    return turn < v->angles && fabs(v->axis[turn][normal]) < 0.5 * vec3_norm(v->axis[turn]);
+}
+
 /* How a component of a body moves: SCENE_FREE, SCENE_HELD or a driver. */
 static int motion_of(const model *m, int vertex, int component)
 {
+    if (leaves_plane(m, vertex, component))
+        return SCENE_HELD;
     if (vertex >= m->scene->nodes)
         return SCENE_FREE;
     const scene_node *n = &m->scene->node[vertex];
@@ -75,7 +92,13 @@ static void number_release(model *m, int index)
     }
 }
 
-static void number_vertex(model *m, int index, int pass, int used, int *held, int *unused)
+/* How many coordinates are held, and how many of them because they leave the plane; vertices that
+ * nothing reaches. */
+typedef struct tally {
+    int held, across, unused;
+} tally;
+
+static void number_vertex(model *m, int index, int pass, int used, tally *of)
 {
     mesh_vertex *v = &m->vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
@@ -88,8 +111,9 @@ static void number_vertex(model *m, int index, int pass, int used, int *held, in
         const int is_free = used && (motion == SCENE_FREE || condition != NONE);
         if (pass == 0) {
             v->coordinate[c] = NONE;
-            *held += v->body == index && motion == SCENE_HELD && used && !kept;
-            *unused += motion == SCENE_FREE && !used && c == 0;
+            if (v->body == index && motion == SCENE_HELD && used && !kept)
+                *(leaves_plane(m, index, c) ? &of->across : &of->held) += 1;
+            of->unused += motion == SCENE_FREE && !used && c == 0;
             if (is_free)
                 v->coordinate[c] = m->free++;
             if (condition != NONE)
@@ -104,17 +128,16 @@ static void number_vertex(model *m, int index, int pass, int used, int *held, in
     }
 }
 
-static status number_vertices(model *m, int *held, fault *f)
+static status number_vertices(model *m, tally *of, fault *f)
 {
     char *used = calloc((size_t)m->vertices, 1);
-    int unused = 0;
     if (used == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory");
     mark_used(m, used);
     for (int pass = 0; pass < 2; pass++) {
         /* The warping amplitudes come between: they are free. */
         for (int i = 0; i < m->first_release; i++)
-            number_vertex(m, i, pass, used[i], held, &unused);
+            number_vertex(m, i, pass, used[i], of);
         if (pass > 0)
             continue;
         for (int i = m->first_release; i < m->vertices; i++)
@@ -123,8 +146,9 @@ static status number_vertices(model *m, int *held, fault *f)
             m->warp[i].coordinate = m->free++;
     }
     free(used);
-    return unused > 0 ? coordinates_note_left_out(m, f, "%d nodes that no member reaches", unused)
-                      : STATUS_OK;
+    return of->unused > 0
+               ? coordinates_note_left_out(m, f, "%d nodes that no member reaches", of->unused)
+               : STATUS_OK;
 }
 
 /* Those of a released end behind all others, turns first. A ball's place does not depend on how its
@@ -172,15 +196,18 @@ static int fixed_warps(const model *m, int *absent)
     return fixed;
 }
 
-/* What is not a coordinate, in lines; held: coordinates. */
-static status note_left_out(model *m, int held, fault *f)
+/* What is not a coordinate, in lines. */
+static status note_left_out(model *m, const tally *of, fault *f)
 {
     int absent = 0, attached = 0;
     for (int i = 0; i < m->scene->nodes; i++)
         attached += m->vertex[i].body != i;
     const int fixed = fixed_warps(m, &absent);
-    if (held > 0)
-        TRY(coordinates_note_left_out(m, f, "%d held coordinates", held));
+    if (of->held > 0)
+        TRY(coordinates_note_left_out(m, f, "%d held coordinates", of->held));
+    if (m->scene->plane != SCENE_SPACE)
+        TRY(coordinates_note_left_out(m, f, "%d coordinates held in the plane %s", of->across,
+                                      scene_plane_name(m->scene)));
     if (attached > 0)
         TRY(coordinates_note_left_out(m, f,
                                       "%d coordinates of %d nodes that move with a rigid body",
@@ -197,13 +224,13 @@ static status note_left_out(model *m, int held, fault *f)
 
 status coordinates_number(model *m, fault *f)
 {
-    int held = 0;
+    tally of = {0, 0, 0};
     for (int i = 0; i < m->scene->drivers; i++)
         m->driver_coordinate[i] = NONE;
-    TRY(number_vertices(m, &held, f));
+    TRY(number_vertices(m, &of, f));
     for (int i = 0; i < m->elements; i++)
         index_element(m, &m->element[i]);
     for (int i = 0; i < m->discretes; i++)
         index_element(m, &m->discrete[i].el);
-    return note_left_out(m, held, f);
+    return note_left_out(m, &of, f);
 }

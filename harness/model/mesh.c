@@ -187,7 +187,7 @@ static void add_warps(model *m, int *named)
         const int profile = profile_at(m, member, 0); /* warps as the other elements: profile.c */
         unsigned features;
         features_of_section(m, profile, &features, NULL);
-        const int warps = (features & FEATURE_WARPING) != 0,
+        const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,
                   nothing_warps = m->section[profile].Iw <= 0;
         for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++)
             for (int k = 0; k <= last; k++) {

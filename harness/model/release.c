@@ -36,7 +36,10 @@ static void add_end(model *m, int member, int end, const double R[9])
         m->vertex[vertex].vector_driver[k] = NONE;
     el->vertex[end ? el->nodes - 1 : 0] = vertex;
     for (int k = 0; k < what->count; k++) {
-        const int c = what->component[k];
+        const int c = what->component[k], normal = scene_normal(m->scene);
+        const int across = normal != SCENE_NONE && fabs(R[3 * normal + c % 3]) > 0.5;
+        if (normal != SCENE_NONE && across != (c >= SCENE_RX))
+            continue; /* it would leave the plane */
         double *axis = c < SCENE_RX ? r->slide[r->slides++] : r->turn[r->turns++];
         for (int i = 0; i < 3; i++)
             axis[i] = R[3 * i + c % 3];

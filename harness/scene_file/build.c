@@ -87,6 +87,12 @@ static void read_needs(builder *b)
             scene_need(b->scene, feature[i]);
 }
 
+static void read_plane(builder *b)
+{
+    const fields f = {b, b->names, b->root, b->root, NULL};
+    b->scene->plane = (scene_plane)(fields_word(&f, "plane", SCENE_PLANE_CHOICES, -1) + 1);
+}
+
 static void read_meshes(builder *b)
 {
     static const int usual[] = {1, 2, 4, 8};
@@ -159,6 +165,7 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
     builder_analyses(&b);
     builder_quantities(&b);
     builder_defaults(&b);
+    read_plane(&b);
     read_needs(&b);
     read_meshes(&b);
     m->out_of_memory |= a->failed || out->out_of_memory;

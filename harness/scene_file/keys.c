@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cases/scene/scene.h"
 #include "harness/catalogue/choice.h"
 #include "harness/language/range.h"
 
@@ -33,6 +34,8 @@ const scene_key keys_root[] = {
      .left_out = "of each analysis what is usual: displacements where it is loaded or driven, the "
                  "first eigenvalue"},
     {"truths", KEY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
+    {"plane", KEY_WORD, .words = SCENE_PLANE_CHOICES,
+     .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
     {"needs", KEY_WORDS, .words = PHYSICS, .summary = "physics", .usual = "shear"},
     {"meshes", KEY_NUMBERS, .summary = "elements per member", .usual = "[1, 2, 4, 8]"},
     {"parts", KEY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",

@@ -61,6 +61,8 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_structure_loads(&w);
     write_analyses(&w);
     write_quantities(&w);
+    if (s->plane != SCENE_SPACE)
+        fprintf(to, "plane: %s\n", scene_plane_name(s));
     write_needs(&w);
     write_meshes(&w);
     return w.unwritable ? fault_set(f, STATUS_REFUSED,

@@ -39,15 +39,16 @@ class Scene:
     Keys are those of a scene file (`beamwork scene --keys`); `from_` is `from`. Numbers may be
     numpy's, texts may be expressions ("2*pi/3"). parameters, let, sections, nodes, members,
     springs, motions, loads, analyses, quantities, parts and instances are dicts of entries; truths,
-    needs and meshes are lists. Entries may be changed between solutions.
+    needs and meshes are lists; plane ("xy") is a word: all is held in it. Entries may be changed
+    between solutions.
 
     Mistakes raise Refused, all together (error.mistakes). Threads that share a scene wait for each
     other."""
-    __slots__ = ("summary", "source", "_name", "_make", "_written", "_entries", "_values",
+    __slots__ = ("summary", "source", "plane", "_name", "_make", "_written", "_entries", "_values",
                  "_handle", "_lines", "_lock", "__weakref__")
 
-    def __init__(self, name="scene", *, summary="", source=""):
-        self._name, self.summary, self.source = name, summary, source
+    def __init__(self, name="scene", *, summary="", source="", plane=""):
+        self._name, self.summary, self.source, self.plane = name, summary, source, plane
         self._make = None  # of scenes that are not built here: what makes the handle
         self._entries = {key: [] if key in LISTS else {} for key in ENTRIES}
         self._values, self._written, self._handle, self._lines = {}, None, None, ()
@@ -102,7 +103,7 @@ class Scene:
         """The library's scene as it is now, with all values that were set."""
         lines = ()
         if self._make is None:
-            head = dict(zip(HEAD, (self._name, self.summary, self.source)))
+            head = dict(zip(HEAD, (self._name, self.summary, self.source, self.plane)))
             text, lines = scene_text(head, self._entries)
             if text != self._written:
                 self._handle = None
@@ -210,7 +211,7 @@ class Scene:
     __copy__ = copy
 
     def __deepcopy__(self, memo):
-        made = Scene(self._name, summary=self.summary, source=self.source)
+        made = Scene(self._name, summary=self.summary, source=self.source, plane=self.plane)
         made._make, made._values = self._make, dict(self._values)
         made._entries = copy.deepcopy(self._entries, memo)
         return made

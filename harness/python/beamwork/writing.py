@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from .errors import Refused
 
 # What a scene file begins with, in its order; then what is a list of entries, each on a line.
-HEAD = ("name", "summary", "source")
+HEAD = ("name", "summary", "source", "plane")
 ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "motions", "loads",
            "analyses", "quantities", "truths", "needs", "meshes", "parts", "instances")
 LISTS = ("truths", "needs", "meshes")

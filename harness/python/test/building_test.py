@@ -27,6 +27,19 @@ class Building(ModuleTest):
         self.assertEqual(values, dict(result.values))
         self.assertEqual(values, dict(bw.Scene.text(text).solve("beamw", 2).values))
 
+    def test_plane(self):
+        """Held in it, also as a copy; what leaves it is refused."""
+        scene = leaf()
+        space = scene.solve("beamw", 2)
+        scene.plane = "xy"
+        for held in (scene, scene.copy()):
+            self.assertIn("\nplane: xy\n", held.write())
+            flat = held.solve("beamw", 2)
+            self.assertAlmostEqual(flat.values["tip_uy"] / space.values["tip_uy"], 1, 9)
+        scene.loads["push"]["force"] = [0, 1, 1]
+        with self.assertRaises(bw.Refused):
+            scene.solve("beamw", 2)
+
     def test_bits_of_numbers(self):
         """Numbers of every size come back from the library as they were given."""
         draw = random.Random(1)

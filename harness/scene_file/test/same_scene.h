@@ -232,9 +232,9 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
 #undef EACH
     if (!same_sharing(a, b))
         return "sharing";
-    if (a->needs != b->needs || a->meshes != b->meshes ||
+    if (a->plane != b->plane || a->needs != b->needs || a->meshes != b->meshes ||
         memcmp(a->mesh, b->mesh, (size_t)a->meshes * sizeof *a->mesh) != 0)
-        return "needs or meshes";
+        return "plane, needs or meshes";
     return NULL;
 }
 
