@@ -5,6 +5,7 @@ import math
 
 from reports import answers, beside, case_truth, plots, question_figures, scene_drawing
 from reports.site import LEVELS
+from reports.verdicts import UNJUDGED
 
 NAVIGATION = []
 MOST_POINTS = 3  # parameter points with a figure
@@ -100,7 +101,7 @@ def limits_of(point):
         for v in s.verdicts:
             rows.setdefault(v.quantity, []).append((s.key, v))
     return [(q, [(key, v) for key, v in found if v.verdict != "skip"]) for q, found in rows.items()
-            if q in point.units and all(v.verdict in ("no truth", "skip") for _, v in found)]
+            if q in point.units and all(v.verdict in UNJUDGED for _, v in found)]
 
 
 def verdicts_of(point, index):

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from reports import answers
-from reports.verdicts import BY_NAME, UNJUDGED, remarks
+from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
 MOST_DIGITS = 15
 
@@ -66,9 +66,18 @@ class Cell:
     words: str
 
 
+def away(v):
+    """How far another model's limit is from the truth."""
+    if not math.isfinite(v.model_error):
+        return []
+    return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
+
+
 def cell_of(series, name):
     v = None if series.missing else answers.verdict_of(series, name)
     if v is None or v.verdict in UNJUDGED:
+        if series.other and v is not None:
+            return Cell("○", "model", "; ".join([series.without, *away(v)]))
         why = f"does not offer {series.missing}" if series.missing else v.verdict if v else ""
         return Cell("·", "skip", why)
     kind = BY_NAME[v.verdict]

@@ -122,6 +122,9 @@ def read_points(group, meshes, units, noise):
         series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"],
                                         row["missing"], [], [], row.get("imported", ""),
                                         row.get("model", "beam"))
+        series[of_series(row)].without = row.get("model_words", "")
+        if row.get("other_model"):
+            series[of_series(row)].other = row["not_modelled"]
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
     for row in rows(group, "verdicts"):

@@ -63,13 +63,13 @@ def rules(rows, known, titles):
     return out
 
 
-def not_offered(found):
-    """[(what is missing, cases)] of cases that it is not run on."""
-    missing = {}
+def lacking(found, attribute):
+    """[(what it lacks, cases)]: missing: it is not run on them; other: it solves another model."""
+    lacks = {}
     for case, _, series in found:
-        if series.missing:
-            missing.setdefault(series.missing, []).append(case.name)
-    return sorted(missing.items(), key=lambda item: (-len(item[1]), item[0]))
+        if getattr(series, attribute):
+            lacks.setdefault(getattr(series, attribute), []).append(case.name)
+    return sorted(lacks.items(), key=lambda item: (-len(item[1]), item[0]))
 
 
 def median(values):
@@ -182,7 +182,8 @@ def contents(site, key, known):
         "counts": sorted(counts.items(), key=lambda item: SEVERITY[item[0]]),
         "rules": rules(own, known.rules, known.titles),
         "wrong": [(c, v) for c, v in failing if v is not None and v.verdict in WRONG],
-        "missing": not_offered(found),
+        "missing": lacking(found, "missing"),
+        "others": lacking(found, "other"),
         "speed": (fast := speed(found, key, known.ways)),
         "posed": any(row[1] for row in fast),
         "table": table(everywhere),

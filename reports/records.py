@@ -110,6 +110,8 @@ class Series:
     model: str = "beam"
     unranked: str = ""  # why its costs rank nothing: derivatives by differences, another process
     is_new: bool = False  # not accepted yet: its verdicts do not gate
+    other: str = ""  # physics that it leaves out where that matters: another model
+    without: str = ""  # what it leaves out, and what that changes
 
     @property
     def marks(self):
@@ -119,7 +121,9 @@ class Series:
     @property
     def label(self):
         """Its name in a legend."""
-        return f"{self.key} ({self.marks})" if self.marks else self.key
+        other = f"without {self.other}" if self.other else ""
+        marks = "; ".join(filter(None, (self.marks, other)))
+        return f"{self.key} ({marks})" if marks else self.key
 
 
 @dataclass

@@ -34,12 +34,14 @@ KINDS = (
     Kind("diverged", "✗", "wrong", "the finest mesh has no value"),
     Kind("skip", "·", "skip", "needs what the formulation does not offer"),
     Kind("no truth", "·", "skip", "there is none of its theory"),
+    Kind("other model", "○", "skip",
+         "without physics that the formulation does not offer: shown, not judged"),
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
 SEVERITY = {kind.name: i for i, kind in enumerate(KINDS)}
 AS_PREDICTED = ("biased, as predicted", "wrong limit, as predicted")
 OWN_LIMITS = ("biased", "wrong limit", *AS_PREDICTED)
-UNJUDGED = ("skip", "no truth")
+UNJUDGED = ("skip", "no truth", "other model")
 
 
 def worst(verdicts):

@@ -76,12 +76,14 @@ static status measure(command_request *r, truths *t, sweep *s, judgement *j, spr
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
     const sweep_request request = {.select = r->select,
                                    .jobs = r->jobs,
+                                   .whole_only = 1,
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .progress = progress};
     int spread;
     TRY(files_check(r, 1, case_input_truths_path(r), f));
     TRY(case_input_truths(r, t, f));
+    s->whole_only = 1; /* times rank, and another model does not */
     TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->threads;
     TRY(timing_work_run(r, &request, floor_seconds, s, &spread, end, f));

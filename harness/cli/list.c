@@ -51,7 +51,8 @@ static void list_offer(const scene *s, const element_type *type)
     if (!here.runs)
         paragraph_write(stdout, at + printf("does not offer "), at, here.words);
     else if (here.words[0] != '\0')
-        paragraph_write(stdout, at + printf("runs without "), at, here.words);
+        paragraph_say(stdout, at + printf("runs without "), at, "%s%s", here.words,
+                      here.other ? " (another model)" : "");
     else
         printf("runs\n");
 }

@@ -217,6 +217,19 @@ static status compare(duel *d, const command_request *r, fault *f)
     return STATUS_OK;
 }
 
+/* Errors at which another model would be compared are not those of its elements. */
+static status check_models(const sweep *s, fault *f)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].without.other)
+            return fault_set(f, STATUS_REFUSED,
+                             "%.60s solves another model of %.60s, without %.100s: there is no "
+                             "error to compare at; give -n for meshes of your choice",
+                             s->series[i].formulation.key, s->point[s->series[i].point].type->name,
+                             s->series[i].without.words);
+    return STATUS_OK;
+}
+
 /* With what against_error frees. */
 static status fight(duel *d, command_request *r, const case_type *type, fault *f)
 {
@@ -229,6 +242,7 @@ static status fight(duel *d, command_request *r, const case_type *type, fault *f
     TRY(formulation_parse(r->against, &r->formulation[1], f));
     TRY(case_input_truths(r, &d->t, f));
     TRY(plan_one(type, r->parameter, r->formulation, 2, NULL, 0, &d->s, f));
+    TRY(check_models(&d->s, f));
     TRY(narrow_to(&d->s, r->select, f));
     TRY(run_sweep(&request, &d->s, f));
     TRY(families_add_truths(&d->s, 0, &d->t, f));

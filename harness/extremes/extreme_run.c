@@ -19,6 +19,7 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
         return STATUS_OK;
     const int n = one->mesh[0], coarser = n >= enough_elements;
     const int mesh[OUTCOME_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
+    s->neighbours.whole_only = 1;
     TRY(plan_add(&s->neighbours, p->type, p->parameter, &p->edit, mesh, OUTCOME_NEIGHBOURS, f));
     point *same = &s->neighbours.point[s->neighbours.points - 1];
     same->steps = p->steps;

@@ -39,7 +39,7 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
 {
     const series *one = &s->series[index];
     const point *p = &s->point[one->point];
-    if (one->missing[0] != '\0')
+    if (one->missing[0] != '\0' || one->without.other)
         return STATUS_OK;
     for (int r = 0; r < t->rows; r++) {
         const truth *row = &t->row[r];

@@ -21,13 +21,15 @@ static int known_limits(const sweep *s, int point_index, int quantity, known_lim
     int count = 0;
     for (int i = 0; i < s->seriess && count < MOST_SERIES; i++) {
         const series *one = &s->series[i];
-        if (one->point != point_index || one->missing[0] != '\0' ||
+        if (one->point != point_index || one->missing[0] != '\0' || one->without.other ||
             one->formulation.type->family == NULL)
             continue;
         const mesh_limit fit = verdict_limit(s, i, quantity, 0);
+        const double unmodelled =
+            one->without.what != 0 ? one->without.change * fabs(fit.limit) : 0;
         if (isfinite(fit.limit) && isfinite(fit.limit_uncertainty))
-            out[count++] =
-                (known_limit){i, one->formulation.type->family, fit.limit, fit.limit_uncertainty};
+            out[count++] = (known_limit){i, one->formulation.type->family, fit.limit,
+                                         fit.limit_uncertainty + unmodelled};
     }
     return count;
 }

@@ -65,7 +65,7 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
 {
     const series *one = &s->series[index];
     const scene *what = &s->point[one->point].scene;
-    if (one->missing[0] != '\0')
+    if (one->missing[0] != '\0' || one->without.other)
         return STATUS_OK;
     for (int i = 0; i < one->meshes; i++) {
         flaw c = {.series = index, .mesh = i};
@@ -156,7 +156,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
     out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
     out->unexpected += !v->matches;
     mark_met(t, p, &s->series[index].formulation, p->scene.quantity[quantity].name,
-             v->kind != VERDICT_SKIP);
+             v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
 /* Is a last change so small that noise may be all of it, or the verdict open? */
@@ -203,7 +203,8 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
         if (quantity->reduction == SCENE_CURVE)
-            mark_met(t, p, &one->formulation, quantity->name, one->missing[0] == '\0');
+            mark_met(t, p, &one->formulation, quantity->name,
+                     one->missing[0] == '\0' && !one->without.other);
         else if (sweep_selects(s, p, &one->formulation, quantity->name))
             judge_quantity(s, t, index, q, out);
     }

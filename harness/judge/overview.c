@@ -23,12 +23,14 @@ static const overview_mark marks[VERDICT_KINDS] = {
     [VERDICT_REFUSED] = OVERVIEW_NO_VALUE,
     [VERDICT_SKIP] = OVERVIEW_NOTHING,
     [VERDICT_NO_TRUTH] = OVERVIEW_NOTHING,
+    [VERDICT_OTHER_MODEL] = OVERVIEW_OTHER_MODEL,
 };
 
 static const struct {
     const char *ascii, *utf8, *words;
 } signs[OVERVIEW_MARKS] = {
     [OVERVIEW_NOTHING] = {".", "·", "nothing judged: not offered, or no truth is known"},
+    [OVERVIEW_OTHER_MODEL] = {"m", "○", "another model: shown, not judged"},
     [OVERVIEW_PASS] = {"ok", "✓", "all pass"},
     [OVERVIEW_LOW_ORDER] = {"v", "↓", "right limit, approached too slowly"},
     [OVERVIEW_UNDECIDED] = {"?", "?", "limit not known well enough"},
@@ -52,7 +54,7 @@ void overview_text(const overview_cell *c, int utf8, char text[OVERVIEW_TEXT])
 {
     const char *sign = utf8 ? signs[c->mark].utf8 : signs[c->mark].ascii;
     const char *first = c->unexpected ? "!" : "";
-    if (c->mark == OVERVIEW_NOTHING || c->mark == OVERVIEW_PASS)
+    if (c->mark <= OVERVIEW_PASS)
         snprintf(text, OVERVIEW_TEXT, "%s%s", first, sign);
     else
         snprintf(text, OVERVIEW_TEXT, "%s%s%d", first, sign, c->count);

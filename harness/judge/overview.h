@@ -10,6 +10,7 @@
 /* From calm to bad. */
 typedef enum overview_mark {
     OVERVIEW_NOTHING, /* skipped, or no truth */
+    OVERVIEW_OTHER_MODEL,
     OVERVIEW_PASS,
     OVERVIEW_LOW_ORDER,
     OVERVIEW_UNDECIDED,

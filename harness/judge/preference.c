@@ -12,7 +12,7 @@
 #include "harness/model/missing.h"
 
 /* What speaks against a formulation, weightiest first; the least one is chosen. */
-enum { AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
+enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];
 } standing;
@@ -42,11 +42,20 @@ static int holds_here(const rule *r, const scene *s, rule_subject at)
     return 0;
 }
 
+/* Features that it does not have, counted. */
+static int count_omits(const scene *s, const element_type *type)
+{
+    int count = 0;
+    for (unsigned left = missing_omits(s, type); left != 0; left &= left - 1)
+        count++;
+    return count;
+}
+
 static standing standing_of(const scene *s, const element_type *type, const rule_subject *where,
                             const rule *rules, int count)
 {
     const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
-    standing out = {{0}};
+    standing out = {.against[AGAINST_OMITTED] = count_omits(s, type)};
     rule_subject at = *where;
     at.formulation = type->name;
     for (int i = 0; i < count; i++) {
@@ -70,34 +79,49 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-static int can_run(const scene *s, const element_type *type)
+/* Has it all of the scene, or, where `other`, what it needs to be another model of it? */
+static int can_run(const scene *s, const element_type *type, int other)
 {
-    char words[200];
+    char words[OMIT_WORDS];
+    if (other)
+        return !missing_refused(s, type, words, sizeof words);
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
+}
+
+/* The best of those that can run; NULL: none can. */
+static const element_type *best_of(const scene *s, const rule_subject *where, const rule *rules,
+                                   int count, int other, standing *best)
+{
+    const element_type *chosen = NULL;
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *type = registry_formulations[i];
+        if (formulations_is_new(type) || !can_run(s, type, other)) /* its defects are not known */
+            continue;
+        const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
+        if (chosen != NULL && !is_better(&here, best))
+            continue;
+        chosen = type;
+        *best = here;
+    }
+    return chosen;
 }
 
 status preference_formulation(const scene *s, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f)
 {
-    const element_type *chosen = NULL;
     standing best = {{0}};
-    for (int i = 0; registry_formulations[i] != NULL; i++) {
-        const element_type *type = registry_formulations[i];
-        if (formulations_is_new(type) || !can_run(s, type)) /* nobody knows its defects yet */
-            continue;
-        const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
-        if (chosen != NULL && !is_better(&here, &best))
-            continue;
-        chosen = type;
-        best = here;
-    }
+    const element_type *chosen = best_of(s, where, rules, count, 0, &best);
+    const int whole = chosen != NULL;
+    if (!whole)
+        chosen = best_of(s, where, rules, count, 1, &best);
     if (chosen == NULL)
         return fault_set(f, STATUS_REFUSED,
                          "no formulation offers all that %.60s needs; 'beamwork list' shows what "
                          "each offers",
                          s->name);
     formulation_default(chosen, out);
-    snprintf(why, FAULT_TEXT, "offers all that is needed%s%s",
+    snprintf(why, FAULT_TEXT, "%s%s%s",
+             whole ? "offers all that is needed" : "another model, which lacks the least",
              rules == NULL                     ? ""
              : best.against[AGAINST_HERE] == 0 ? ", no known defect here"
                                                : ", but has a known defect here",

@@ -29,7 +29,8 @@ int reach_mesh(const sweep *s, const verdict *v, double level)
 
 int reach_is_defect(verdict_kind kind)
 {
-    return kind != VERDICT_PASS && kind != VERDICT_NO_TRUTH && kind != VERDICT_SKIP;
+    return kind != VERDICT_PASS && kind != VERDICT_NO_TRUTH && kind != VERDICT_SKIP &&
+           kind != VERDICT_OTHER_MODEL;
 }
 
 const char *reach_defect_words(verdict_kind kind)
@@ -68,7 +69,8 @@ static const verdict *verdict_on(const reach_question *q, int series_index, int 
 int reach_asks(const reach_question *q, int series_index)
 {
     const series *one = &q->s->series[series_index];
-    if (one->point != q->point || one->missing[0] != '\0' || one->imported != NULL)
+    if (one->point != q->point || one->missing[0] != '\0' || one->imported != NULL ||
+        one->without.other)
         return -1;
     for (int i = 0; i < q->s->point[one->point].scene.quantities; i++) {
         const verdict *v = is_asked(q, i) ? verdict_on(q, series_index, i) : NULL;
@@ -160,7 +162,7 @@ static void add_verdict(const sweep *s, const truths *t, int index, int quantity
     const point *p = &s->point[s->series[index].point];
     *out = (verdict){.series = index, .quantity = quantity};
     verdict_reach(s, t, out);
-    if (out->truth == NULL && s->series[index].imported == NULL)
+    if (out->truth == NULL && s->series[index].imported == NULL && !s->series[index].without.other)
         out->truth = verdict_reference(t, p, &s->series[index].formulation, quantity);
 }
 

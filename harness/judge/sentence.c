@@ -55,6 +55,18 @@ static void unjudged(const verdict *v, char *text, size_t size)
         snprintf(text, size, "no truth to judge by");
 }
 
+/* What it leaves out, and how far that takes it from the truth. */
+static void other_model(const verdict *v, char *text, size_t size)
+{
+    const int agreed = v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0;
+    if (v->model_truth != NULL && isfinite(v->model_error))
+        snprintf(text, size, "%s; its limit is %+.3g %% from %s%s%s", v->reason,
+                 100 * v->model_error, agreed ? "that on which " : "the ",
+                 agreed ? v->model_truth->source : v->model_truth->kind, agreed ? "" : " value");
+    else
+        snprintf(text, size, "%s", v->reason);
+}
+
 void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size)
 {
     switch (v->kind) {
@@ -89,6 +101,9 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
         return;
     case VERDICT_SKIP:
         snprintf(text, size, "skipped: %s", v->reason);
+        return;
+    case VERDICT_OTHER_MODEL:
+        other_model(v, text, size);
         return;
     case VERDICT_NO_TRUTH:
     case VERDICT_KINDS:

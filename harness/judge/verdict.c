@@ -19,7 +19,8 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "diverged",
                                                  "refused",
                                                  "skip",
-                                                 "no truth"};
+                                                 "no truth",
+                                                 "other model"};
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
 /* so many uncertainties from the truth, a limit is another one */
 static const double surely = 3;
@@ -135,7 +136,7 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
             return VERDICT_UNDECIDED;
         return is_predicted(v) ? VERDICT_WRONG_AS_PREDICTED : VERDICT_WRONG_LIMIT;
     }
-    if (known && error > surely * doubt + v->truth->uncertainty)
+    if (known && error > surely * doubt + v->truth->uncertainty + v->unmodelled)
         return is_predicted(v) ? VERDICT_BIASED_AS_PREDICTED : VERDICT_BIASED;
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
@@ -180,7 +181,8 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
         v->model_truth = truth_of(t, p->type, p->parameter, name, "same");
     if (v->truth == NULL && v->model_truth == NULL)
         v->model_truth = truth_agreed(t, p->type, p->parameter, name);
-    if (one->imported != NULL && !imported_same_model(one->imported) && v->truth != NULL) {
+    const int foreign = one->imported != NULL && !imported_same_model(one->imported);
+    if ((foreign || one->without.other) && v->truth != NULL) {
         v->model_truth = v->truth; /* a difference of models, whoever solved it */
         v->truth = NULL;
     }
@@ -204,6 +206,15 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
             return row;
     }
     return NULL;
+}
+
+/* Another model is shown and never judged, whatever came of it. */
+static void say_other_model(const series *one, verdict *v)
+{
+    char words[OMISSION_TEXT];
+    omission_words(&one->without, words);
+    v->kind = v->expected = VERDICT_OTHER_MODEL;
+    snprintf(v->reason, sizeof v->reason, "%.*s", (int)sizeof v->reason - 1, words);
 }
 
 /* What keeps the series from being judged at all. 1: something does. */
@@ -233,6 +244,7 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
     const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
+    v->unmodelled = 0;
     v->finest = v->error = v->departure = v->model_error = v->tolerance = NAN;
     v->fit = (mesh_limit){.limit = NAN,
                           .limit_uncertainty = NAN,
@@ -241,17 +253,26 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
                           .last_change = NAN};
     v->expected = VERDICT_PASS;
     find_truths(s, t, v);
-    if (is_hindered(s, v))
+    if (is_hindered(s, v)) {
+        if (one->without.other && one->missing[0] == '\0')
+            say_other_model(one, v);
         return;
+    }
     v->finest = one->cell[one->meshes - 1].solve.quantity[v->quantity].value;
     v->fit = verdict_limit(s, v->series, v->quantity, 0);
     if (v->model_truth != NULL)
         v->model_error = verdict_error(q, v->fit.limit, v->model_truth->value);
+    if (one->without.other) {
+        say_other_model(one, v);
+        return;
+    }
     if (v->truth == NULL) {
         v->kind = v->expected = VERDICT_NO_TRUTH;
         return;
     }
-    v->tolerance = q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty;
+    v->unmodelled = one->without.what != 0 ? one->without.change * scale_of(q, v->truth->value) : 0;
+    v->tolerance =
+        q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty + v->unmodelled;
     v->error = v->departure = verdict_error(q, v->fit.limit, v->truth->value);
     if (v->predicted != NULL)
         v->departure -= verdict_error(q, v->predicted->value, v->truth->value);

@@ -18,8 +18,9 @@ typedef enum verdict_kind {
     VERDICT_UNDECIDED, /* the limit is not known well enough for any of the others */
     VERDICT_DIVERGED,  /* the finest mesh has no value: not converged, singular, crashed */
     VERDICT_REFUSED,
-    VERDICT_SKIP,     /* needs what the formulation does not offer */
-    VERDICT_NO_TRUTH, /* none of its own theory of shear, at least */
+    VERDICT_SKIP,        /* needs what the formulation does not offer */
+    VERDICT_NO_TRUTH,    /* none of its own theory of shear, at least */
+    VERDICT_OTHER_MODEL, /* without physics of the scene that change what is asked for */
     VERDICT_KINDS
 } verdict_kind;
 
@@ -40,7 +41,9 @@ typedef struct verdict {
     double error;
     double departure;   /* the same of the limit from the derived one; from the truth without one */
     double model_error; /* against the truth of another model */
-    double tolerance;   /* absolute, uncertainty of the truth included */
+    /* absolute, uncertainty of the truth and what is not modelled included */
+    double tolerance;
+    double unmodelled; /* absolute: bound of what physics that is left out changes */
     /* 1: the limit differs from the truth by less than the truth is uncertain */
     int below_digits;
     int matches;       /* 1: verdict as expected */

@@ -39,7 +39,7 @@ static unsigned needs_of_analyses(const scene *s)
 }
 
 /* The torque of stresses along the fibres is there where they are turned. */
-static unsigned needs_of_quantities(const scene *s)
+unsigned features_of_quantities(const scene *s)
 {
     unsigned needs = 0;
     for (int i = 0; i < s->quantities; i++)
@@ -71,7 +71,7 @@ static unsigned needs_of_matrices(const scene *s, const section *c, unsigned nee
 
 unsigned features_needed(const scene *s)
 {
-    unsigned needs = s->needs | needs_of_analyses(s) | needs_of_quantities(s);
+    unsigned needs = s->needs | needs_of_analyses(s) | features_of_quantities(s);
     for (int i = 0; i < s->members; i++)
         needs |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
     for (int i = 0; i < s->sections; i++) {

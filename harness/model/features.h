@@ -7,6 +7,8 @@
 /* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in
  * words; 0: it can run. */
 unsigned features_needed(const scene *);
+/* Those without which an asked quantity means nothing. */
+unsigned features_of_quantities(const scene *);
 /* The same with the theory of shear in stability that the type has instead of the one the scene
  * asks for: FEATURE_* bits. */
 unsigned features_needed_of(const scene *, const element_type *);

@@ -73,14 +73,15 @@ static status build(model *m, const model_request *request, fault *f)
     const scene *s = request->scene;
     const element_type *type = request->type;
     char words[200];
-    TRY(profile_scene(m, f));
-    if (missing_words(s, type, words, sizeof words))
+    if (missing_refused(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s does not offer %s, which scene %s needs", type->name,
                          words, s->name);
-    m->features = features_needed_of(s, type) | (type->offers & FEATURE_CURVATURE);
+    m->omits = missing_omits(s, type) | request->omit;
+    TRY(profile_scene(m, f));
+    m->features = (features_needed_of(s, type) & ~m->omits) | (type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
-        m->features |= FEATURE_WARPING | FEATURE_ECCENTRIC;
+        m->features |= (FEATURE_WARPING | FEATURE_ECCENTRIC) & ~m->omits;
     TRY(choose_options(m, request->options, f));
     m->driver_coordinate = malloc(((size_t)s->drivers + 1) * sizeof *m->driver_coordinate);
     if (m->driver_coordinate == NULL)
@@ -91,6 +92,10 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(coordinates_number(m, f));
     if (lacks_of(s, type, words, sizeof words))
         TRY(coordinates_note_left_out(m, f, "%s", words));
+    if (m->omits != 0) {
+        missing_omit_words(m->omits, words);
+        TRY(coordinates_note_left_out(m, f, "physics not modelled: %s", words));
+    }
     if (adapters_words(type)[0] != '\0')
         TRY(coordinates_note_left_out(m, f, "%s", adapters_words(type)));
     if (process_serves(type))
@@ -119,7 +124,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
 
 status model_coarse(const model *m, model **out, fault *f)
 {
-    const model_request request = {m->scene, m->given, m->options, 1, m->keep_all};
+    const model_request request = {m->scene, m->given, m->options, 1, m->keep_all, m->omits};
     return model_alloc(&request, out, f);
 }
 
@@ -181,6 +186,11 @@ int model_stresses(const model *m)
 double model_length(const model *m)
 {
     return m->size;
+}
+
+unsigned model_omits(const model *m)
+{
+    return m->omits;
 }
 
 int model_left_out(const model *m, const char *const **lines)

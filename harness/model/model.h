@@ -29,10 +29,11 @@ typedef struct model_request {
     const double *options; /* of the formulation; NULL: defaults */
     int elements;          /* per member */
     int keep_all;          /* 1: leave nothing out (same answer, more work) */
+    unsigned omit; /* physics of the scene to be left out besides what the type does not offer */
 } model_request;
 
-/* REFUSED (with the reason) when the formulation does not offer what the scene needs: see
- * missing_words. */
+/* What the formulation does not offer of the scene's physics is left out, and model_left_out says
+ * so; REFUSED (with the reason) where that leaves nothing to solve: see harness/model/missing.h. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
@@ -49,6 +50,8 @@ status model_halved(const model *, model **, fault *);
 /* Longest member [m]: displacements are small or large beside it. */
 double model_length(const model *);
 
+/* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits (missing.h). */
+unsigned model_omits(const model *);
 /* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
 int model_left_out(const model *, const char *const **lines);
 

@@ -132,7 +132,7 @@ struct model {
     element_type completed;
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all, nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
-    unsigned features;
+    unsigned features, omits; /* what it has, and what it has not of what the scene has */
     section *section; /* of the scene; behind them of members whose section changes: profile.h */
     int *profile;     /* [members] section of the first element */
     int vertices, elements, kinds, warps;

@@ -20,6 +20,7 @@ status profile_scene(model *m, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for sections");
     for (int i = 0; i < s->sections; i++) {
         TRY(scene_constants(s, i, &m->section[i], f));
+        missing_omit(&m->section[i], m->omits);
     }
     return STATUS_OK;
 }
@@ -61,6 +62,7 @@ static status fill(model *m, int member, const taper *t, fault *f)
         if (section_compute(&spec, c, &why) != STATUS_OK)
             return fault_set(f, STATUS_REFUSED, "%s, between its ends: %s",
                              scene_called(m->scene, SCENE_MEMBERS, member).text, why.text);
+        missing_omit(c, m->omits);
         TRY(check_between(m, member, c, f));
     }
     return STATUS_OK;

@@ -83,6 +83,7 @@ static int frames_of(const pace_group *g, double spacing)
 static status add_motion(pace *p, const pace_group *g, const pace_plan_request *q, pace_run *r,
                          double spacing, fault *f)
 {
+    p->sweep.whole_only = 1;
     TRY(plan_add(&p->sweep, q->type, q->parameter, NULL, &g->elements, 1, f));
     point *at = &p->sweep.point[p->sweep.points - 1];
     if (at->status != STATUS_OK)

@@ -122,7 +122,7 @@ static void check_verdicts(reader *r)
         snprintf(word, sizeof word, "%.*s", (int)length, at);
         for (int k = 0; k < VERDICT_KINDS; k++)
             found |= k != VERDICT_PASS && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH &&
-                     strcmp(verdict_name((verdict_kind)k), word) == 0;
+                     k != VERDICT_OTHER_MODEL && strcmp(verdict_name((verdict_kind)k), word) == 0;
         if (!found)
             WRONG(r, VERDICTS, "'%.60s' is no verdict that a finding explains%s", word,
                   mistakes_remedy(choice_nearest(word, verdict_at, NULL), "", near));

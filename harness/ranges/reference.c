@@ -23,9 +23,10 @@ static int same_physics(const sweep *s, int a, int b)
 {
     const series *one = &s->series[a], *other = &s->series[b];
     const scene *here = &s->point[one->point].scene;
-    return one->point == other->point && other->missing[0] == '\0' &&
-           features_theory(here, one->formulation.type) ==
-               features_theory(here, other->formulation.type);
+    if (one->point != other->point || other->missing[0] != '\0' || other->without.other)
+        return 0;
+    return one->without.other || features_theory(here, one->formulation.type) ==
+                                     features_theory(here, other->formulation.type);
 }
 
 typedef struct known_limit {

@@ -48,7 +48,7 @@ static void open_test(FILE *to, const point *p)
 /* A skip that was not expected is a failure. */
 static int is_skipped(const verdict *v)
 {
-    return v->kind == VERDICT_SKIP && v->matches;
+    return (v->kind == VERDICT_SKIP || v->kind == VERDICT_OTHER_MODEL) && v->matches;
 }
 
 static void write_verdict(FILE *to, const sweep *s, const verdict *v)

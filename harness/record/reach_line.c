@@ -122,6 +122,19 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
     }
 }
 
+/* Those that another model was solved with, each kind once. */
+static void write_other_models(FILE *to, const reach_question *q)
+{
+    const char *before = "; another model, which is not ranked: ";
+    for (int i = 0; i < q->s->seriess; i++) {
+        const series *one = &q->s->series[i];
+        if (one->point != q->point || !one->without.other)
+            continue;
+        fprintf(to, "%s%s (without %s)", before, one->formulation.key, one->without.words);
+        before = ", ";
+    }
+}
+
 static int has_reference(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -213,6 +226,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
         write_others(to, q, list, count, 1, "; not reached by ");
         write_others(to, q, list, count, 0, "; without a truth of its theory in all of it: ");
     }
+    write_other_models(to, q);
     write_model_error(to, q, list, count);
 }
 

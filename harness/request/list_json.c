@@ -71,7 +71,8 @@ static json_t *quantities_of(const scene *s)
 
 static json_t *runs_of(const char *what, const runs_on *r)
 {
-    return json_pack("{s:s,s:b,s:s}", what, r->name, "runs", r->runs, "without", r->words);
+    return json_pack("{s:s,s:b,s:s,s:b}", what, r->name, "runs", r->runs, "without", r->words,
+                     "other_model", r->other);
 }
 
 /* What a type declares at its options. */

@@ -10,11 +10,13 @@ enum { RUNS_ON_WORDS = 200 };
 typedef struct runs_on {
     const char *name; /* of the case, or of the formulation */
     int runs;
-    char words[RUNS_ON_WORDS]; /* what is missing; where it runs: what it lacks in one direction */
+    int other;                 /* 1: as another model (harness/study/omission.h) */
+    char words[RUNS_ON_WORDS]; /* what is missing; where it runs: what it leaves out */
 } runs_on;
 
 void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
-/* The built-in cases at their defaults, at most `room`; their number. */
+/* The built-in cases at their defaults, at most `room`; their number. Whether as another model is
+ * not looked at: `other` is 0. */
 int runs_on_cases(const element_type *type, runs_on out[], int room);
 
 #endif

@@ -71,12 +71,31 @@ static void get_model(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
+/* NAN: nothing is left out, or nobody knows. */
+static void get_model_change(const subject *s, field_value *out)
+{
+    schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);
+}
+
+static void get_without(const subject *s, field_value *out)
+{
+    omission_words(&s->series->without, out->room);
+    out->text = out->room;
+}
+
 static const schema_field fields_of_series[] = {
     {"type", "", FIELD_TEXT, "name of the formulation", TEXT_OF(FORMULATION, element_type, name)},
     {"summary", "", FIELD_TEXT, "what it is", TEXT_OF(FORMULATION, element_type, summary)},
     {"source", "", FIELD_TEXT, "where it is published", TEXT_OF(FORMULATION, element_type, source)},
-    {"missing", "", FIELD_TEXT, "what the case needs and it does not offer: it was not run",
-     AT(series, missing)},
+    {"missing", "", FIELD_TEXT,
+     "what the case cannot do without and it does not offer: it was not run", AT(series, missing)},
+    {"not_modelled", "", FIELD_TEXT, "physics of the case that it leaves out",
+     AT(series, without.words)},
+    {"model_change", "1", FIELD_DOUBLE, "bound of what that changes in any asked value",
+     .get = get_model_change},
+    {"other_model", "", FIELD_FLAG, "that is more than 1e-4, or not known: it is not judged",
+     AT(series, without.other)},
+    {"model_words", "", FIELD_TEXT, "the three in words", .get = get_without},
     {"imported", "", FIELD_TEXT, "file of another program that it was read from; empty: run here",
      .get = get_imported},
     {"model", "", FIELD_TEXT, "beam, or another one that the other program has", .get = get_model},

@@ -25,6 +25,11 @@ static void get_model_error(const subject *s, field_value *out)
                       error_of(s, ((const quantity_result *)s->record)->value, s->model_truth));
 }
 
+static void get_not_modelled(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->without.other ? s->series->without.words : "");
+}
+
 static double predicted(const subject *s)
 {
     return fields_keys_quantity(s)->prediction.source != NULL
@@ -49,6 +54,8 @@ static const schema_field fields_of_quantity[] = {
      .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
+    {"not_modelled", "", FIELD_TEXT, "physics that the formulation leaves out where that matters",
+     .get = get_not_modelled},
     {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
     {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger",
      .get = get_error},

@@ -80,6 +80,10 @@ static void compare_with(const gathering *g, int series_index, subject *s)
     if (j == NULL) {
         if (g->truths != NULL)
             s->truth = verdict_reference(g->truths, s->point, &s->series->formulation, s->index);
+        if (s->series->without.other) {
+            s->model_truth = s->truth;
+            s->truth = NULL;
+        }
         return;
     }
     for (int i = first_verdict(j, series_index);

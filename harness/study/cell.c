@@ -32,8 +32,12 @@ status cell_scene(const case_type *type, const double parameter[], const scene_e
 static status set_up(const cell_request *request, const scene *s, model **m, cell_result *out,
                      fault *f)
 {
-    const model_request what = {s, request->formulation, request->option, request->elements,
-                                request->keep_all};
+    const model_request what = {s,
+                                request->formulation,
+                                request->option,
+                                request->elements,
+                                request->keep_all,
+                                request->omit};
     TRY(model_alloc(&what, m, f));
     TRY(model_set_threads(*m, request->threads, f));
     out->size = model_sizes(*m);

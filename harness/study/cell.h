@@ -17,7 +17,8 @@ typedef struct cell_request {
     solve_options solve;
     int elements;
     int keep_all;
-    int threads; /* of the loop over elements; 0, 1: one */
+    unsigned omit; /* physics that the model leaves out: model_request */
+    int threads;   /* of the loop over elements; 0, 1: one */
     /* Is the same thing solved already? Asked once the model is made; NULL: nobody is asked. */
     int (*is_known)(void *context, const model *);
     void *context;

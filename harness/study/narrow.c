@@ -4,6 +4,7 @@
 
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/parameters.h"
+#include "harness/study/plan.h"
 
 /* Which are kept: of the point's quantities and of the series. */
 typedef struct kept {
@@ -68,6 +69,11 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     mark(s, select, &words, k);
     TRY(check_words(s, select, &words, f));
     drop(s, k);
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].without.what != 0) {
+            plan_omissions(s, s->series[i].point);
+            break; /* there is one point */
+        }
     return s->seriess > 0 ? STATUS_OK
                           : fault_set(f, STATUS_REFUSED,
                                       "-k '%.100s' holds for no quantity of %.60s; 'beamwork list "

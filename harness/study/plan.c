@@ -111,7 +111,8 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     one->point = index;
     one->formulation = *chosen;
     if (p->status == STATUS_OK)
-        missing_words(&p->scene, chosen->type, one->missing, sizeof one->missing);
+        (s->whole_only ? missing_words : missing_refused)(&p->scene, chosen->type, one->missing,
+                                                          sizeof one->missing);
     for (int i = 0; i < p->scene.meshes; i++)
         TRY(add_mesh(one, p->type->name, p->scene.mesh[i], f));
     TRY(double_meshes(one, p->type->name, s->doublings, f));
@@ -121,6 +122,29 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
                 truth_holds(&t->row[i], p->type, p->parameter))
                 TRY(add_mesh(one, p->type->name, t->row[i].elements, f));
     return STATUS_OK;
+}
+
+/* Of a formulation that leaves out the same at the same point; else it is found. */
+static void find_omission(const sweep *s, int index)
+{
+    series *one = &s->series[index];
+    const scene *here = &s->point[one->point].scene;
+    const unsigned what = missing_omits(here, one->formulation.type);
+    for (int i = 0; i < index; i++)
+        if (s->series[i].point == one->point && s->series[i].without.what == what) {
+            one->without = s->series[i].without;
+            return;
+        }
+    omission_of(here, one->formulation.type, &one->without);
+}
+
+void plan_omissions(sweep *s, int point_index)
+{
+    const point *p = &s->point[point_index];
+    for (int i = 0; i < s->seriess && p->status == STATUS_OK; i++)
+        if (s->series[i].point == point_index && s->series[i].missing[0] == '\0' &&
+            s->series[i].imported == NULL)
+            find_omission(s, i);
 }
 
 /* Room for the formulations of a point; what does not fit is left out. */
@@ -223,6 +247,7 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, asked, f);
     drop_quantities(&s->point[index].scene, asked);
+    plan_omissions(s, index);
     free(asked);
     return outcome;
 }
@@ -258,6 +283,7 @@ status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fau
     out->given = request->formulation;
     out->givens = request->formulations;
     out->doublings = request->doublings;
+    out->whole_only = request->whole_only;
     const status outcome = plan_all(request, t, out, f);
     if (outcome != STATUS_OK)
         sweep_free(out);
@@ -277,6 +303,7 @@ status plan_extend(sweep *s, const formulation those[], int count, fault *f)
 {
     for (int i = 0; i < count; i++)
         TRY(add_series(s, s->points - 1, &those[i], NULL, f));
+    plan_omissions(s, s->points - 1);
     return alloc_cells(s, f);
 }
 

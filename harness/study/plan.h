@@ -15,4 +15,6 @@ status plan_add(sweep *s, const case_type *type, const double value[], const sce
                 const int mesh[], int meshes, fault *f);
 /* Series of the last point, on its scene's meshes. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
+/* Finds again what the series of a point leave out, when its quantities have changed. */
+void plan_omissions(sweep *s, int point_index);
 #endif

@@ -9,6 +9,7 @@
 #include "harness/catalogue/select.h"
 #include "harness/study/cell.h"
 #include "harness/study/imported.h"
+#include "harness/study/omission.h"
 #include "harness/truth/truths.h"
 
 enum { SERIES_MAX_MESHES = SCENE_MESHES };
@@ -31,7 +32,9 @@ typedef struct point {
 typedef struct series {
     int point;
     formulation formulation;
-    char missing[200]; /* what the scene needs and the formulation does not offer; empty: it runs */
+    /* what it cannot do without and the formulation does not offer; empty: it runs, ... */
+    char missing[200];
+    omission without; /* ... without this, as another model where that matters */
     int meshes, mesh[SERIES_MAX_MESHES];
     cell_result *cell; /* [meshes]; their scenes are empty: the point has it */
     /* [quantities] relative, of the finest mesh (harness/study/noise.h); NULL: not measured */
@@ -49,6 +52,7 @@ typedef struct sweep {
     const formulation *given;
     int givens;
     int shapes;      /* of the request */
+    int whole_only;  /* 1: what a formulation does not offer keeps it from running */
     int values_only; /* 1: what only curves and matrices show is not computed */
     int doublings;   /* of the request */
     int threads;     /* of the loop over elements in every cell; 0, 1: one */
@@ -75,6 +79,7 @@ typedef struct sweep_follower {
 typedef struct sweep_request {
     const char *select; /* expression over "case/point/formulation/quantity", or NULL */
     int jobs;           /* processes, >= 1 */
+    int whole_only;     /* of the sweep */
     int share;      /* 1: cells that are known to have the same answers are solved once: they have
               the same times, too */
     int time_limit; /* [s] of one cell, measured by its process and from outside; 0: none */

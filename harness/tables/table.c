@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "harness/judge/rounding.h"
+#include "harness/tables/paragraph.h"
 
 void table_percent(FILE *to, double error)
 {
@@ -46,6 +47,10 @@ void table_series(FILE *to, const sweep *s, int index)
 {
     const series *one = &s->series[index];
     const point *p = &s->point[one->point];
+    char words[OMISSION_TEXT];
     fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text,
             p->text[0] != '\0' ? ")" : "", one->formulation.key);
+    omission_words(&one->without, words);
+    if (words[0] != '\0')
+        paragraph_write(to, 0, 2, words);
 }

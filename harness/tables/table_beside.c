@@ -23,6 +23,7 @@ typedef struct column {
     const truth *row; /* NULL: none */
     verdict shown;
     const char *name; /* what is left of it to be written in the header */
+    char title[FORMULATION_KEY + 16];
 } column;
 
 /* A quantity of some formulations. */
@@ -40,7 +41,7 @@ static int piece_of(const char *name)
     if (length < COLUMN)
         return length;
     for (int i = 0; i < COLUMN - 1; i++)
-        if (strchr("_:,=", name[i]) != NULL)
+        if (strchr("_:,= ", name[i]) != NULL)
             fits = i + 1;
     return fits > 0 ? fits : COLUMN - 1;
 }
@@ -150,8 +151,8 @@ static void write_sentences(FILE *to, const block *b)
     for (int i = 0; i < b->count; i++) {
         char text[2 * FAULT_TEXT];
         const column *c = &b->list[i];
-        if (c->shown.kind == VERDICT_PASS)
-            continue;
+        if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
+            continue; /* of the latter once, at the end */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
@@ -160,6 +161,8 @@ static void write_sentences(FILE *to, const block *b)
 static void write_block(FILE *to, block *b)
 {
     const char *head = "n";
+    for (int i = 0; i < b->count; i++)
+        b->list[i].name = b->list[i].title;
     while (write_names(to, b, head))
         head = "";
     write_meshes(to, b);
@@ -215,8 +218,9 @@ static void write_quantity(FILE *to, const sweep *s, const truths *t, int quanti
             column *c = &b.list[b.count++];
             *c = (column){.one = one,
                           .row = verdict_reference(t, &s->point[0], &one->formulation, quantity),
-                          .shown = {.series = i, .quantity = quantity},
-                          .name = one->formulation.key};
+                          .shown = {.series = i, .quantity = quantity}};
+            snprintf(c->title, sizeof c->title, "%s%s", one->formulation.key,
+                     one->without.other ? " (other model)" : "");
             verdict_reach(s, t, &c->shown);
         }
         if (b.count == COLUMNS || (b.count > 0 && i + 1 == s->seriess)) {
@@ -247,6 +251,17 @@ static void write_missing(FILE *to, const sweep *s)
     }
 }
 
+/* What those that ran leave out. */
+static void write_omissions(FILE *to, const sweep *s)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        char words[OMISSION_TEXT];
+        omission_words(&s->series[i].without, words);
+        if (words[0] != '\0')
+            paragraph_write(to, fprintf(to, "%s: ", s->series[i].formulation.key), 4, words);
+    }
+}
+
 void table_beside(FILE *to, const sweep *s, const truths *t)
 {
     table_point(to, &s->point[0]);
@@ -255,5 +270,6 @@ void table_beside(FILE *to, const sweep *s, const truths *t)
         if (s->point[0].scene.quantity[q].reduction != SCENE_CURVE)
             write_quantity(to, s, t, q);
     fputc('\n', to);
+    write_omissions(to, s);
     write_missing(to, s);
 }

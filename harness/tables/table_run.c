@@ -117,23 +117,38 @@ static void print_kinds(FILE *to, const judgement *j)
 {
     int parts = 0;
     for (int k = 0; k < VERDICT_KINDS; k++)
-        if (j->by_kind[k] > 0 && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH)
+        if (j->by_kind[k] > 0 && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH &&
+            k != VERDICT_OTHER_MODEL)
             fprintf(to, "%s%d %s", parts++ > 0 ? "; " : " ", j->by_kind[k],
                     verdict_name((verdict_kind)k));
 }
 
 static void print_verdicts(FILE *to, const judgement *j)
 {
-    const int skipped = j->by_kind[VERDICT_SKIP], unknown = j->by_kind[VERDICT_NO_TRUTH];
+    const struct {
+        int count;
+        const char *words;
+    } more[] = {{j->by_kind[VERDICT_SKIP], "not offered (skip)"},
+                {j->by_kind[VERDICT_OTHER_MODEL], "of another model"},
+                {j->by_kind[VERDICT_NO_TRUTH], "without a truth"}};
+    int parts = 0, left = 0;
     paragraph words;
     FILE *line = paragraph_begin(&words, to);
     fprintf(line, "%d verdict%s against truths%s", j->judged, j->judged == 1 ? "" : "s",
             j->judged > 0 ? ":" : "");
     print_kinds(line, j);
-    if (skipped > 0)
-        fprintf(line, "; besides %d not offered (skip)", skipped);
-    if (unknown > 0)
-        fprintf(line, "%s %d without a truth", skipped > 0 ? " and" : "; besides", unknown);
+    for (int i = 0; i < 3; i++)
+        left += more[i].count > 0;
+    for (int i = 0; i < 3; i++) {
+        if (more[i].count == 0)
+            continue;
+        fprintf(line, "%s %d %s",
+                parts == 0          ? "; besides"
+                : parts + 1 == left ? " and"
+                                    : ",",
+                more[i].count, more[i].words);
+        parts++;
+    }
     paragraph_end(&words, 0, 0);
 }
 

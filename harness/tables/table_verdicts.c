@@ -77,7 +77,9 @@ static int number_of_rule(block *b, const rule *r)
 static void add_difference(const verdict *v, char *text, size_t size)
 {
     const truth *other = v->model_truth;
-    if (other->theory[0] != '\0')
+    if (v->kind == VERDICT_OTHER_MODEL && strcmp(other->kind, "agreement") != 0)
+        snprintf(text, size, "; %+.3g %% from the %s value", 100 * v->model_error, other->kind);
+    else if (other->theory[0] != '\0')
         snprintf(text, size, "; %+.3g %% from %s", 100 * v->model_error, other->theory);
     else
         snprintf(text, size, "; %+.3g %% from %s (%s)", 100 * v->model_error,
@@ -117,7 +119,7 @@ static void print_verdict(block *b, const verdict *v)
     verdict_words(b, v, words, sizeof words);
     fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
-    if (v->reason[0] != '\0')
+    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* at the end, once */
         paragraph_say(b->to, 0, 6, "%s", v->reason);
 }
 
@@ -166,6 +168,30 @@ static void print_skipped(block *b)
     }
 }
 
+/* What series leave out, those that leave out the same together. */
+static void print_omissions(const block *b)
+{
+    const sweep *s = b->s;
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        char text[OMISSION_TEXT];
+        paragraph words;
+        int first = &s->point[one->point] == b->at && one->without.what != 0;
+        for (int k = 0; k < i && first; k++)
+            first =
+                s->series[k].point != one->point || s->series[k].without.what != one->without.what;
+        if (!first)
+            continue;
+        omission_words(&one->without, text);
+        FILE *line = paragraph_begin(&words, b->to);
+        for (int k = i; k < s->seriess; k++)
+            if (s->series[k].point == one->point && s->series[k].without.what == one->without.what)
+                fprintf(line, "%s%s", k > i ? ", " : "", s->series[k].formulation.key);
+        fprintf(line, ": %s", text);
+        paragraph_end(&words, 0, 2);
+    }
+}
+
 static void print_rules(const block *b)
 {
     for (int i = 0; i < b->rules; i++)
@@ -194,6 +220,7 @@ static void print_point(block *b, const judgement *j, int index)
     for (int q = 0; q < b->at->scene.quantities; q++)
         print_judged(b, q);
     print_skipped(b);
+    print_omissions(b);
     print_rules(b);
 }
 

@@ -40,7 +40,8 @@ class Refusals(ProgramTest):
         self.refused(2, "tip_deflection", *solve("sheet_cantilever", "tip_deflection=0.2"))
         self.refused(2, "elements", "solve", "c_column", "-f", "beamw", "-n", "0")
         self.refused(2, "memory", "solve", "c_column", "-f", "beamw", "-n", "10000000")
-        self.refused(2, "does not offer", "solve", "c_column", "-f", "beamw_vlasov", "-n", "2")
+        self.refused(2, "does not offer coupled section", "solve", "coupled_beam", "-f",
+                     "beamw_vlasov", "-n", "2")
         self.refused(2, "give newton=mixed", "solve", "sheet_cantilever", "-f",
                      "collocation:newton=dense", "-n", "2", "--set", "modes=3")
 

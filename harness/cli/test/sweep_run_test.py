@@ -112,8 +112,8 @@ class Going(ProgramTest):
                 (("elastica", "--vary", "load=1..2", "--design", "halton"), "--points N"),
                 (("elastica", "--vary", "load=1..2/3", "--error", "2"), "error"),
                 (("elastica", "--vary", "load=1..2/3", "--format", "json"), "text, csv"),
-                (("shear_column", "--vary", "length=1,2", "-f", "beamw_vlasov"),
-                 "does not offer shear"),
+                (("coupled_beam", "--vary", "length=1,2", "-f", "beamw_vlasov"),
+                 "does not offer coupled section"),
                 (("c_column", "--vary", "height=0.4,0.5", "--set", "section_data=printed"),
                  "no scene can be built")):
             done = self.answered("sweep", *words, code=2)

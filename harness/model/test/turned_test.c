@@ -57,9 +57,11 @@ static int compare(int original, const element_type *element)
     cell_result before, after;
     int compared = 0;
     const int runs = solve(original, 0, element, &before) == STATUS_OK;
-    gsl_test(runs != ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
+    gsl_test(!runs && ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
              before.scene.name, element->name, before.solve.reason);
-    const size_t angles = runs ? sizeof angle / sizeof angle[0] : 0;
+    /* what lacks shear along y is another model where y is another axis */
+    const int lacks = (element->lacks & LACKS_SHEAR_Y) && !ask_offered(&before.scene, element);
+    const size_t angles = runs && !lacks ? sizeof angle / sizeof angle[0] : 0;
     for (size_t k = 0; k < angles; k++) {
         gsl_test(solve(original, angle[k], element, &after) != STATUS_OK, "%s, %s turned by %g: %s",
                  before.scene.name, element->name, angle[k], after.solve.reason);
