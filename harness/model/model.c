@@ -130,7 +130,8 @@ status model_coarse(const model *m, model **out, fault *f)
 
 status model_halved(const model *m, model **out, fault *f)
 {
-    const model_request request = {m->scene, m->given, m->options, 2 * m->asked, m->keep_all};
+    const model_request request = {m->scene,     m->given,    m->options,
+                                   2 * m->asked, m->keep_all, m->omits};
     return model_alloc(&request, out, f);
 }
 
