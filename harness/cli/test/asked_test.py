@@ -120,7 +120,8 @@ class Asked(ProgramTest):
     def test_verify(self):
         """A selection computes what it names; a whole run computes everything."""
         out = self.folder / "v.h5"
-        self.answered("verify", "-k", "c_column/default/ and buckling_load", "-f", "beamw", "-o", out)
+        self.answered("verify", "-k", "c_column/default/ and buckling_load", "-f", "beamw", "-o",
+                      out)
         with h5py.File(out) as file:
             group = file["cases/c_column"]
             self.assertEqual({q.decode() for q in group["quantities"]["quantity"][()]},

@@ -27,6 +27,28 @@ needs: []
 """
 
 
+FRAME = """beamwork: 1
+name: frame
+sections: {s: {rectangle: {width: 0.02, thickness: 0.01}, young: 210e9, shear_modulus: 81e9,
+               density: 7850}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0, 1, 0]}, c: {at: [1, 1.2, 0]},
+        d: {at: [1, 0, 0], hold: [ux, uy, uz, rx, ry]}}
+members:
+  m: {from: a, to: b, section: s, y: [1, 0, 0]}
+  n: {from: b, to: c, section: s, y: [0, 1, 0], release: {from: %s}}
+  o: {from: c, to: d, section: s, y: [1, 0, 0]}
+loads: {t: {force: [10, 0, 0], on: b}, q: {distributed: [0, -5, 0], on: n}}
+analyses: {path: {static: {stations: [1]}}, modes: {modal: {}}, b: {buckling: {}}, l: {linear: {}}}
+quantities:
+  ux: {displacement: {analysis: path, node: b, component: ux}}
+  uc: {displacement: {analysis: path, node: c, component: uy}}
+  ul: {displacement: {analysis: l, node: b, component: ux}}
+  mz: {internal: {analysis: path, member: m, resultant: Mz, end: from}}
+  f: {frequency: {analysis: modes}}
+  p: {critical_factor: {analysis: b}}
+"""
+
+
 def turned(text, plane):
     """The strip in another plane: its x and y become those two axes."""
     to = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}[plane]
@@ -92,6 +114,18 @@ class Plane(ProgramTest):
                 self.assertLess(abs(plane[key] - value), 1e-7 * max(abs(value), 1e-6),
                                 (name, key, plane[key], value))
             self.assertGreater(compared, 0)
+
+    def test_released_ends(self):
+        """What would leave the plane of a released end is held as the rest."""
+        values = []
+        for release, plane in (("rz", ""), ("rz", "plane: xy\n"),
+                               ("[rx, ry, rz]", "plane: xy\n"),
+                               ("[uz, rx, rz]", "plane: xy\n")):
+            _, found = self.solved(FRAME % release + plane, n=4)
+            values.append(found)
+        for found in values[1:]:
+            for name, value in values[0].items():
+                self.assertLess(abs(found[name] / value - 1), 1e-8, name)
 
     def test_keep_all(self):
         text = self.answered("scene", "elastica").stdout + "plane: xy\n"
