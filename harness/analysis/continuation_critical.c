@@ -15,6 +15,7 @@
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
 static const double closeness = 1e-10;      /* of a trial, relative to the step */
+static const double one_point = 1e-6;       /* nearer ones are one, relative to the step */
 
 /* One end of the interval in which the critical point lies. */
 typedef struct bound {
@@ -65,18 +66,26 @@ static path_goal part_of(const continuation *p, path_goal goal, double part)
     return (path_goal){goal.by_arc, from + part * (goal.value - from)};
 }
 
-/* Is what changes at the critical point still as it is at `here`? */
-static int is_before(const continuation *p, int by_rate)
+/* What is looked for: the first point behind `from` where something changes. */
+typedef struct sought {
+    int by_rate;
+    double from;  /* part of the step */
+    int negative; /* pivots there */
+} sought;
+
+/* Is what changes at the critical point still as it is at its beginning? */
+static int is_before(const continuation *p, const sought *s)
 {
-    if (by_rate)
+    if (s->by_rate)
         return (p->trial.rate < 0) == (p->here.rate < 0);
-    if (p->here.negative < 0)
+    if (p->here.negative < 0 || p->trial.negative < 0)
         return p->trial.determinant == p->here.determinant;
-    return p->trial.negative == p->here.negative;
+    return p->trial.negative == s->negative;
 }
 
 /* The point at that part of the step; *before: 1 when it lies before the critical one. */
-static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int *before, fault *f)
+static status try_at(continuation *p, path_goal goal, const sought *s, bound *b, int *before,
+                     fault *f)
 {
     step_record record = {0};
     continuation_step_go_back(p);
@@ -84,12 +93,12 @@ static status try_at(continuation *p, path_goal goal, int by_rate, bound *b, int
     history_drop_step(p->c->result, &record);
     TRY(corrected);
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
-    *before = is_before(p, by_rate);
-    b->value = by_rate ? p->trial.rate : least_eigenvalue(p);
+    *before = is_before(p, s);
+    b->value = s->by_rate ? p->trial.rate : least_eigenvalue(p);
     /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
     const int falls =
-        p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > p->here.negative;
-    if (!by_rate && (b->value > 0) != (*before == falls))
+        p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
+    if (!s->by_rate && (b->value > 0) != (*before == falls))
         b->value = NAN;
     return STATUS_OK;
 }
@@ -103,16 +112,19 @@ static double next_part(const bound *low, const bound *high)
 }
 
 /* Narrows the interval; the state is then the critical point as near as it can be told. *gone: the
- * test function has no zero. */
-static status locate(continuation *p, path_goal goal, int by_rate, int *gone, fault *f)
+ * test function has no zero; *behind: part of the step at which the point was passed. */
+static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
+                     fault *f)
 {
-    bound low = {0, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
-    double scale = by_rate ? fmax(fabs(low.value), fabs(high.value)) : 0, value = scale;
+    const int by_rate = s->by_rate;
+    bound low = {s->from, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
+    double at = s->from, scale = by_rate ? fmax(fabs(low.value), fabs(high.value)) : 0, value = scale;
     int last = 0;
     for (int i = 0; i < MOST_TRIALS && high.at - low.at > closeness; i++) {
         bound trial = {i % 8 == 7 ? (low.at + high.at) / 2 : next_part(&low, &high), NAN};
         int before = 0;
-        const status outcome = try_at(p, goal, by_rate, &trial, &before, f);
+        const status outcome = try_at(p, goal, s, &trial, &before, f);
+        at = trial.at;
         if (outcome == STATUS_SINGULAR)
             break;
         TRY(outcome);
@@ -130,38 +142,81 @@ static status locate(continuation *p, path_goal goal, int by_rate, int *gone, fa
         *(before ? &low : &high) = trial;
     }
     *gone = value > 1e-3 * scale;
+    *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
 
-/* The critical point inside the step becomes an event. */
-static status report_critical(continuation *p, path_goal goal, int by_rate, int *jump, fault *f)
+/* The pivots behind the point, where all eigenvalues that vanish at it have passed zero; *at: part of
+ * the step there. */
+static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
+                           int *negative, fault *f)
 {
-    TRY(locate(p, goal, by_rate, jump, f));
+    *at += one_point;
+    *negative = p->next.negative;
+    if (*at >= 1)
+        return STATUS_OK;
+    int before = 0;
+    bound trial = {*at, NAN};
+    TRY(try_at(p, goal, s, &trial, &before, f));
+    *negative = p->trial.negative;
+    return STATUS_OK;
+}
+
+/* The critical point inside the step becomes an event. *s goes on behind it. */
+static status report_critical(continuation *p, path_goal goal, sought *s, int *jump, fault *f)
+{
+    double behind = 1;
+    TRY(locate(p, goal, s, jump, &behind, f));
     if (*jump)
         return STATUS_OK;
     path_event event = {
-        .kind = by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
+        .kind = s->by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
         .analysis = p->analysis,
-        .negative_before = p->here.negative,
-        .negative_after = p->next.negative,
+        .negative_before = s->negative,
         .factor = kinematics_state_path(p->n.state),
         .control = kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component),
         .other_factor = NAN};
     least_eigenvalue(p);
     event.measure = load_work(p);
-    *jump = !by_rate && event.measure > least_load_work;
+    *jump = !s->by_rate && event.measure > least_load_work;
+    if (*jump)
+        return STATUS_OK;
+    s->from = 1;
+    if (s->by_rate || s->negative < 0)
+        s->negative = p->next.negative;
+    else if (abs(p->next.negative - s->negative) == 1)
+        s->negative = p->next.negative;
+    else {
+        s->from = behind;
+        TRY(count_behind(p, goal, s, &s->from, &s->negative, f));
+    }
+    event.negative_after = s->negative;
+    *jump = !s->by_rate && event.negative_before >= 0 &&
+            event.negative_after == event.negative_before;
     return *jump ? STATUS_OK : history_add_event(p->c->result, &event, f);
+}
+
+/* All of them, in their order. */
+static status report_all(continuation *p, path_goal goal, int by_rate, int *jump, fault *f)
+{
+    sought s = {by_rate, 0, p->here.negative};
+    do
+        TRY(report_critical(p, goal, &s, jump, f));
+    while (!*jump && s.from < 1 && s.negative != p->next.negative);
+    return STATUS_OK;
 }
 
 status continuation_critical(continuation *p, path_goal goal, int *jump, fault *f)
 {
-    const int by_rate = (p->here.rate < 0) != (p->next.rate < 0);
+    const int by_rate = (p->here.rate < 0) != (p->next.rate < 0), events = p->c->result->events;
     *jump = 0;
     if (!by_rate && p->here.negative == p->next.negative &&
-        p->here.determinant == p->next.determinant)
+        (p->here.negative >= 0 || p->here.determinant == p->next.determinant))
         return STATUS_OK;
     kinematics_state_copy(p->c->model, p->n.state, p->end);
-    const status outcome = report_critical(p, goal, by_rate, jump, f);
+    const status outcome = report_all(p, goal, by_rate, jump, f);
+    if (*jump || outcome != STATUS_OK)
+        p->c->result->events = events;
     kinematics_state_copy(p->c->model, p->end, p->n.state);
     p->looked = 0;
     return outcome;

@@ -46,7 +46,10 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
     int order = 0;
     for (int i = 0; i < c->result->events; i++) {
         const path_event *e = &c->result->event[i];
-        if (e->analysis != q->analysis || e->kind != kind || order++ < what->order)
+        if (e->analysis != q->analysis || e->kind != kind)
+            continue;
+        order += result_event_multiplicity(e);
+        if (order <= what->order)
             continue;
         r->value = quantity_scaled(q, what->ordinate == SCENE_LOAD_FACTOR ? e->factor : e->control);
         r->x = quantity_abscissa(q, e->control);

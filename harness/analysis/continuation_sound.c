@@ -30,10 +30,10 @@ const char *continuation_sound_doubt(const continuation *p, int last_resort, dou
         return "its direction changes too much";
     if (!(turned <= largest_turn))
         return "a node turns too far";
-    /* A limit point changes the sign of the rate and of the determinant by one pivot, a simple
-     * bifurcation only the latter. */
+    /* A limit point changes the sign of the rate and of the determinant by one pivot; bifurcations
+     * only the latter, and may be several at one point. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
-    if (!last_resort && (pivots > 1 || (reversed && a->determinant == b->determinant)))
+    if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
         return "the pivots of its tangent stiffness change by more than one critical point "
                "explains";
     return NULL;

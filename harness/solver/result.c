@@ -9,6 +9,12 @@ const char *result_event_name(event_kind kind)
     return name[kind];
 }
 
+int result_event_multiplicity(const path_event *e)
+{
+    const int changed = abs(e->negative_after - e->negative_before);
+    return e->kind == EVENT_BIFURCATION && changed > 1 ? changed : 1;
+}
+
 void result_free(solve_result *r)
 {
     if (r->quantity != NULL)

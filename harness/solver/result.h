@@ -133,6 +133,8 @@ typedef struct solve_result {
 } solve_result;
 
 const char *result_event_name(event_kind); /* "limit point", ... */
+/* How many eigenvalues of the tangent pass zero there: one load each. */
+int result_event_multiplicity(const path_event *);
 void result_free(solve_result *);
 
 #endif

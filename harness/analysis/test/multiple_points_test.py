@@ -1,0 +1,66 @@
+"""Paths find the first critical points whatever there is of them at one place, however long the
+steps, and whatever loads of zero act beside."""
+import json
+import math
+import unittest
+
+from harness.test.program import ProgramTest, run
+
+# E Iz = 1, L = 1, pinned or clamped: P = (c pi)^2 E I, hardly shortened.
+COLUMN = """beamwork: 1
+sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
+nodes: {a: {at: [0, 0, 0], hold: %(a)s}, b: {at: [1, 0, 0]%(b)s}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+loads: {p: {force: [-1, 0, 0], on: b}%(more)s}
+analyses: {path: {continuation: {control: {node: b, component: ux}, by: coordinate, to: [-%(to)r],
+                                 step: %(step)r, step_max: %(step)r}}}
+quantities:
+  P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
+needs: []
+"""
+PINNED = {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz, rx]", "more": ""}
+CLAMPED = {"a": "all", "b": "", "more": ""}
+ZERO = ("", ", z: {moment: [0, 0, 0], on: b}", ", z: {force: [0, 0, 0], on: b, follower: true}",
+        ", z: {distributed_moment: [0, 0, 0], on: m}")
+PI2 = math.pi ** 2
+
+
+class MultiplePoints(ProgramTest):
+    def points(self, formulation="collocation", n=8, **column):
+        path = self.folder / "scene.yaml"
+        path.write_text(COLUMN % column)
+        done = run("solve", "--scene", path, "-f", formulation, "-n", n, "--format", "json")
+        self.assertEqual(done.returncode, 0, (column, done.stdout + done.stderr))
+        return [q.get("value") for q in json.loads(done.stdout)["quantities"]]
+
+    def near(self, found, exact, part, *about):
+        for value, right in zip(found, exact):
+            self.assertIsNotNone(value, (found, about))
+            self.assertLess(abs(value / right - 1), part, (found, about))
+
+    def test_equal_and_almost_equal(self):
+        """Two points or one double one, never none; in one step over all of them or many."""
+        for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
+            for step in (1e-6, 1e-5, 4.5e-5):
+                self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),
+                          (PI2, PI2, 4 * PI2, 4 * PI2), 2e-3, off, step)
+
+    def test_formulations(self):
+        for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
+            for n in (8, 16):
+                self.near(self.points(formulation, n, Iy=1, step=3e-5, to=3e-5, **CLAMPED),
+                          [PI2 / 4] * 2 + [9 * PI2 / 4] * 2, 2e-2, formulation, n)
+
+    def test_zero_loads(self):
+        """The last bit is that without them."""
+        for ends in (PINNED, CLAMPED):
+            for Iy in (1, 3):
+                found = [self.points(Iy=Iy, step=1e-3, to=1e-3, **{**ends, "more": more})
+                         for more in ZERO]
+                for other in found[1:]:
+                    self.assertEqual(other, found[0], (ends, Iy))
+        self.near(self.points(Iy=3, step=1e-3, to=1e-3, **PINNED), (PI2, 3 * PI2, 4 * PI2), 1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
