@@ -137,7 +137,7 @@ static int runs_on(const scene *s, member_end first, member_end second)
 }
 
 /* Of each node: how many ends are at it, the sum of their numbers, and whether it is part of a
- * body or of one that members reach at other nodes too. */
+ * body, or of one that members or springs reach at other nodes too. */
 typedef struct place {
     int ends, tied;
     long sum;
@@ -148,18 +148,28 @@ static int number_of(member_end e)
     return 2 * e.member + e.end;
 }
 
+static void tie(const scene *s, place *all, int node)
+{
+    const int body = node >= 0 && node < s->nodes ? s->node[node].attached : SCENE_NONE;
+    if (body < 0 || body >= s->nodes)
+        return;
+    all[node].tied = 1;
+    all[body].tied = 1;
+}
+
 static void find_places(const scene *s, place *all)
 {
     for (int i = 0; i < 2 * s->members; i++) {
         const int node = i % 2 == 0 ? s->member[i / 2].p : s->member[i / 2].q;
         if (node < 0 || node >= s->nodes)
             continue;
-        const int body = s->node[node].attached;
         all[node].ends++;
         all[node].sum += i;
-        all[node].tied |= body != SCENE_NONE;
-        if (body >= 0 && body < s->nodes)
-            all[body].tied = 1;
+        tie(s, all, node);
+    }
+    for (int i = 0; i < s->springs; i++) {
+        tie(s, all, s->spring[i].p);
+        tie(s, all, s->spring[i].q);
     }
 }
 

@@ -74,7 +74,7 @@ static void tell_supports(const command_request *r, const sweep *s)
     while (i < s->seriess - 1 && s->series[i].missing[0] != '\0')
         i++;
     if (s->seriess > 0)
-        supports_told(r, &s->series[i].formulation, &s->point[0].scene);
+        supports_told(r->scene, r->parameter, &s->series[i].formulation, &s->point[0].scene);
 }
 
 /* With what converge_request frees. */

@@ -6,6 +6,7 @@
 #include "harness/cli/cli.h"
 #include "harness/command/own_tables.h"
 #include "harness/command/scenes.h"
+#include "harness/command/supports_told.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/sentence.h"
 #include "harness/record/output.h"
@@ -126,9 +127,22 @@ static status add_all_beside(const command_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
+/* Of each scene file, by the first formulation that is run on it. */
+static void tell_supports(const scenes *own, const sweep *s)
+{
+    for (int k = 0; k < own->count; k++)
+        for (int i = 0; i < s->seriess; i++) {
+            const point *p = &s->point[s->series[i].point];
+            if (p->type != scene_file_case(own->file[k]) || s->series[i].missing[0] != '\0')
+                continue;
+            supports_told(own->file[k], p->parameter, &s->series[i].formulation, &p->scene);
+            break;
+        }
+}
+
 /* Here, or by batches of shards, which are judged when all of them are there. */
-static status run_and_judge(const command_request *r, const sweep_request *request, trial *v,
-                            fault *f)
+static status run_and_judge(const command_request *r, const scenes *own,
+                            const sweep_request *request, trial *v, fault *f)
 {
     const int whole =
         r->select == NULL && r->formulations == 0 && (r->built_in || r->scene_count == 0);
@@ -136,6 +150,7 @@ static status run_and_judge(const command_request *r, const sweep_request *reque
     int asked;
     TRY(spread_asked(r, &asked, f));
     TRY(plan_sweep(request, &v->truths, &v->sweep, f));
+    tell_supports(own, &v->sweep);
     if (asked)
         TRY(verification_work_run(r, request, &v->truths, &v->sweep, &v->end, f));
     if (v->end.ended)
@@ -166,7 +181,7 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
                                    .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL};
     TRY(check_files(r, own, f));
     TRY(scenes_truths(own, r, &v->truths, f));
-    TRY(run_and_judge(r, &request, v, f));
+    TRY(run_and_judge(r, own, &request, v, f));
     if (v->end.ended)
         return STATUS_OK;
     show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);

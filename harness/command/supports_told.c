@@ -64,13 +64,14 @@ static int differs(const scene *now, const scene *before, const formulation *cho
     return !same;
 }
 
-void supports_told(const command_request *r, const formulation *chosen, const scene *s)
+void supports_told(const scene_file *file, const double parameter[], const formulation *chosen,
+                   const scene *s)
 {
     char ends[FAULT_TEXT] = "";
     scene before;
-    if (r->scene == NULL)
+    if (file == NULL)
         return;
-    if (scene_file_build_before(r->scene, r->parameter, &before, NULL) == STATUS_OK)
+    if (scene_file_build_before(file, parameter, &before, NULL) == STATUS_OK)
         warping_ends_freed(s, &before, ends, sizeof ends);
     if (ends[0] != '\0' && differs(s, &before, chosen))
         fprintf(stderr,

@@ -7,6 +7,7 @@
 /* For one minor version: one line where ends of members hold their warping because of their
  * supports, were free before, and the answers of this formulation depend on it, as far as two
  * elements for each member tell. Of built-in cases: none. */
-void supports_told(const command_request *, const formulation *, const scene *);
+void supports_told(const scene_file *, const double parameter[], const formulation *,
+                   const scene *);
 
 #endif

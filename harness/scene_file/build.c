@@ -160,6 +160,7 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
     builder_nodes(&b);
     builder_members(&b);
     builder_springs(&b);
+    scene_warping_by_supports(out);
     builder_motions(&b);
     builder_loads(&b);
     builder_analyses(&b);

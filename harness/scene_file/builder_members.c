@@ -2,7 +2,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/scene/warping.h"
 #include "elements/section/taper.h"
 #include "harness/language/range.h"
 #include "harness/scene_file/builder.h"
@@ -133,7 +132,6 @@ void builder_members(builder *b)
         m->damping = fields_number(&f, "damping", 0);
         m->divisions = fields_whole(&f, "divisions", 0, 0, 10000000);
     }
-    scene_warping_by_supports(b->scene);
 }
 
 /* What a motion moves has its unit. */

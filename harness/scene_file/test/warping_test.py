@@ -120,6 +120,8 @@ class WarpingTest(SceneCase):
         looked = base + TIP + "}\n  eye: {at: [3, 0.1, 0], part_of: tip}\n" + CANTILEVER
         self.assertEqual(self.words(looked), ["fixed, free"])
         self.is_twisted(looked + TWIST, ONE_HELD)
+        hung = looked.replace("nodes:", "springs: {hook: {to: eye, stiffness: [0, 1, 0, 0, 0, 0]}}\nnodes:")
+        self.assertEqual(self.words(hung), ["fixed, fixed"])
         both = base + TIP + "}\n  side: {at: [3, 1, 0], part_of: tip}\n  foot: {at: [0, 1, 0], hold: all}\n" + \
             "members:\n  one: {from: base, to: tip, section: beam, y: [0, 1, 0]}\n" + \
             "  two: {from: side, to: foot, section: beam, y: [0, 1, 0]}\n"
@@ -243,6 +245,7 @@ instances:
         scene = self.scene(torsion + TWIST)
         for verb in ("solve", "converge"):
             self.assertIn(told, run(verb, "--scene", scene, "-f", "collocation", "-n", 2).stderr)
+        self.assertIn(told, run("verify", "--scene", scene, "-f", "beamw", "-o", self.folder / "v.h5").stderr)
         done = run("solve", "--scene", scene)
         self.assertIn(f"\nwarping: {ends}\n", done.stdout)
         self.assertEqual(done.stderr.count("\n"), 1)
