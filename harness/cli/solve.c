@@ -195,8 +195,8 @@ static int solve_and_write(const command_request *r, const char *note, const sol
 {
     fault f = {""}, unwritten = {""};
     case_input_tell_analysis(r, &s->point[0].scene);
-    supports_told(r->scene, r->parameter, &what->formulation, &s->point[0].scene);
     guard_formulation(&what->formulation, r->time_limit);
+    supports_told(r->scene, r->parameter, &what->formulation, &s->point[0].scene);
     const status solved = solution_run(what, s, &f);
     if (solved == STATUS_REFUSED || solved == STATUS_FAULT)
         return message_fail(solved, f.text);
