@@ -106,6 +106,20 @@ void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, 
     snprintf(q->x.unit, sizeof q->x.unit, "%s", x_unit);
 }
 
+void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *unit)
+{
+    scene_set_curve(q, quantity, unit, 1, 0);
+    q->x.is_quantity = 1;
+}
+
+int scene_abscissa_of(const scene *s, const scene_quantity *q)
+{
+    for (int i = 0; i < s->quantities && q->reduction == SCENE_CURVE && q->x.is_quantity; i++)
+        if (strcmp(s->quantity[i].name, q->x.name) == 0)
+            return i;
+    return SCENE_NONE;
+}
+
 void scene_set_at(scene_quantity *q, double at)
 {
     q->reduction = SCENE_AT;

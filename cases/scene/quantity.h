@@ -218,6 +218,8 @@ scene_extract scene_stress_at(int member, double place, scene_stress_measure mea
 /* Abscissa of a curve. */
 typedef struct scene_abscissa {
     char name[SCENE_NAME], unit[SCENE_UNIT];
+    int is_quantity; /* 1: the curve of the quantity that is called so, station by station, in its
+                        unit; else: */
     double factor, offset; /* the path parameter, or the control coordinate, times factor plus
                               offset */
 } scene_abscissa;
@@ -251,6 +253,10 @@ scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit,
 /* All along the path, over its parameter or the control coordinate times factor plus offset. */
 void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, double factor,
                      double offset);
+/* All along the path, over another quantity whose curve is of the same stations. */
+void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *unit);
+/* Index of the quantity that a curve is over; SCENE_NONE: it is over its path. */
+int scene_abscissa_of(const scene *s, const scene_quantity *q);
 /* At one value of the path parameter or the control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
 /* Of a motion, of its whole time: SCENE_MAX_TIME to SCENE_MEAN, SCENE_MAX, SCENE_MIN. */

@@ -239,6 +239,36 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
+/* The path whose stations the curve is of, and whether it has points of its own between them. */
+static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
+{
+    const scene_analysis *a = &s->analysis[q->analysis];
+    *points = a->kind == SCENE_CONTINUATION &&
+              (q->what.kind == SCENE_FACTOR_AT || q->what.kind == SCENE_COORDINATE);
+    return a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE ? a->follows : q->analysis;
+}
+
+static status check_abscissa(const scene *s, const scene_quantity *q, fault *f)
+{
+    int points, others;
+    if (q->reduction != SCENE_CURVE || !q->x.is_quantity)
+        return STATUS_OK;
+    const int over = scene_abscissa_of(s, q);
+    const scene_quantity *x = over != SCENE_NONE ? &s->quantity[over] : NULL;
+    if (x == NULL || x == q || x->reduction != SCENE_CURVE)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its curve is over %s, which is no other quantity with take: "
+                         "curve; add take: curve there, or name one that has it",
+                         q->name, q->x.name);
+    if (x->analysis < 0 || x->analysis >= s->analyses ||
+        path_of_curve(s, q, &points) != path_of_curve(s, x, &others) || points != others)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: its curve is over %s, which is of another path; name a "
+                         "quantity of the same one",
+                         q->name, x->name);
+    return STATUS_OK;
+}
+
 status scene_validate_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];
@@ -254,5 +284,6 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
                          "quantity %s: an analysis of this kind does not have it; name another one",
                          q->name);
     TRY(check_passing(s, q, f));
+    TRY(check_abscissa(s, q, f));
     return check_extract(s, q, f);
 }

@@ -132,6 +132,16 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
+/* A curve over another quantity: its values where both have a point. */
+static void put_over(const scene *s, solve_result *r, int quantity)
+{
+    const int over = scene_abscissa_of(s, &s->quantity[quantity]);
+    const curve *of = over != SCENE_NONE ? &r->quantity[over].curve : NULL;
+    curve *c = &r->quantity[quantity].curve;
+    for (int i = 0; of != NULL && i < c->points; i++)
+        c->x[i] = i < of->points ? of->value[i] : NAN;
+}
+
 status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result,
                    fault *f)
 {
@@ -162,6 +172,8 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
             snprintf(result->reason, sizeof result->reason, "%s", q->reason);
         }
     }
+    for (int i = 0; i < s->quantities; i++)
+        put_over(s, result, i);
     const counters work =
         *model_counters(m); /* shapes are drawn, not solved for: they do not count */
     keep_states(&c);

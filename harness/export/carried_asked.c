@@ -63,6 +63,8 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
                       "the largest and least of a path are not written for solids; ask at a "
                       "value of it",
                       f);
+    if (scene_abscissa_of(s, q) != SCENE_NONE)
+        return refuse(q, "a curve over another quantity is not written for solids; leave x out", f);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_REACTION:

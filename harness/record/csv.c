@@ -3,6 +3,27 @@
 #include "harness/record/csv_record.h"
 #include "harness/schema/gather.h"
 
+/* A line for a value; for a curve one for each of its points, and one that says why it ends early.
+ */
+static void write_lines(FILE *to, int parts, csv_part row[], int value)
+{
+    const subject s = row[value].s;
+    const quantity_result *r = s.record;
+    quantity_result point = *r;
+    point.status = STATUS_OK;
+    point.reason[0] = '\0';
+    row[value].s.record = &point;
+    row[value].s.truth = row[value].s.model_truth = NULL;
+    for (int i = 0; i < r->curve.points; i++) {
+        point.x = r->curve.x[i];
+        point.value = r->curve.value[i];
+        csv_record_line(to, parts, row);
+    }
+    row[value].s = s;
+    if (r->curve.points == 0 || r->status != STATUS_OK)
+        csv_record_line(to, parts, row);
+}
+
 void csv_solution(FILE *to, const sweep *s)
 {
     const gathering g = {s, NULL, NULL};
@@ -12,7 +33,7 @@ void csv_solution(FILE *to, const sweep *s)
     csv_record_head(to, 1, &row);
     for (int i = 0; i < list.count; i++) {
         row.s = list.row[i];
-        csv_record_line(to, 1, &row);
+        write_lines(to, 1, &row, 0);
     }
     gather_free(&list);
 }
@@ -35,7 +56,9 @@ static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts,
                         if (type == &record_timing)
                             row[part].s.record = &s->series[i].timing[k];
                     }
-                    if (!with_truth || list.row[q].truth != NULL)
+                    if (!with_truth)
+                        write_lines(to, parts, row, 0);
+                    else if (list.row[q].truth != NULL)
                         csv_record_line(to, parts, row);
                 }
                 gather_free(&list);

@@ -68,9 +68,35 @@ static void read_unit(const fields *f, scene_quantity *q)
     snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : usual_unit(f->b->scene, q));
 }
 
+/* A quantity with a curve, too. */
+static void read_abscissa_of(const fields *x, scene_quantity *q)
+{
+    static const char *const own[] = {"name", "unit", "factor", "offset"};
+    const int over = fields_entry(x, "quantity", LIST_QUANTITIES);
+    for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
+        if (fields_have(x, own[i]))
+            document_mistake(x->b->mistakes, document_find(x->map, own[i]), 0,
+                             "a curve over a quantity has its %s; say it there", own[i]);
+    scene_set_curve_over(q, over >= 0 ? x->b->list[LIST_QUANTITIES].entry[over].name : "", "");
+}
+
+/* Known when all quantities are. */
+static void take_abscissa_units(scene *s)
+{
+    for (int i = 0; i < s->quantities; i++) {
+        const int over = scene_abscissa_of(s, &s->quantity[i]);
+        if (over != SCENE_NONE)
+            memcpy(s->quantity[i].x.unit, s->quantity[over].unit, SCENE_UNIT);
+    }
+}
+
 static void read_abscissa(const fields *f, scene_quantity *q)
 {
     const fields x = fields_below(f, "x");
+    if (fields_have(&x, "quantity")) {
+        read_abscissa_of(&x, q);
+        return;
+    }
     const scene *s = f->b->scene;
     const int timed = q->analysis >= 0 && q->analysis < s->analyses &&
                       s->analysis[q->analysis].kind == SCENE_MOTION;
@@ -176,5 +202,6 @@ void builder_quantities(builder *b)
         q->least_order = fields_number(&f, "order", 0);
         read_prediction(&f, entry, q);
     }
+    take_abscissa_units(b->scene);
     check_wanted(b);
 }

@@ -236,6 +236,8 @@ static const scene_key critical_point[] = {
     {.name = NULL}};
 
 static const scene_key abscissa[] = {
+    {"quantity", KEY_NAME, .summary = "whose curve, of the same path, it is",
+     .left_out = "the path, or time"},
     {"name", KEY_TEXT, .summary = "its name", .left_out = "path, or time"},
     {"unit", KEY_TEXT, .summary = "its unit", .left_out = "1; over time, with factor 1, s"},
     {"factor", KEY_NUMBER, .summary = "times the path parameter", .usual = "1"},

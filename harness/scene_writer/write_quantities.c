@@ -195,12 +195,14 @@ static void write_rest(writer *w, const scene_quantity *q)
     write_values_if(w, "tolerance", q->tolerance, SCENE_TOLERANCE);
     write_values_if(w, "order", q->least_order, 0);
     if (q->reduction == SCENE_CURVE) {
-        fputs(", x: {name: ", w->to);
+        fputs(q->x.is_quantity ? ", x: {quantity: " : ", x: {name: ", w->to);
         write_values_quoted(w, q->x.name);
-        fputs(", unit: ", w->to);
-        write_values_quoted(w, q->x.unit);
-        write_values_if(w, "factor", q->x.factor, 1);
-        write_values_if(w, "offset", q->x.offset, 0);
+        if (!q->x.is_quantity) {
+            fputs(", unit: ", w->to);
+            write_values_quoted(w, q->x.unit);
+            write_values_if(w, "factor", q->x.factor, 1);
+            write_values_if(w, "offset", q->x.offset, 0);
+        }
         fputc('}', w->to);
     }
     write_passing(w, q);

@@ -62,6 +62,8 @@ static const schema_field fields_of_quantity[] = {
     {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model",
      .get = get_model_error},
     {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
+    {"x_name", "", FIELD_TEXT, "what it is, of a curve", OF(QUANTITY, scene_quantity, x.name)},
+    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
     {"rounding", "1", FIELD_DOUBLE,
      "estimate of its round-off, or of what reading a motion between its steps adds, by the value; "
      "0: none was made",

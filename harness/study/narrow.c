@@ -28,6 +28,9 @@ static void drop(sweep *s, const kept *k)
 {
     scene *wanted = &s->point[0].scene;
     int quantities = 0, seriess = 0;
+    for (int q = 0; q < wanted->quantities; q++) /* with what their curves are over */
+        if (k->quantity[q] && scene_abscissa_of(wanted, &wanted->quantity[q]) != SCENE_NONE)
+            k->quantity[scene_abscissa_of(wanted, &wanted->quantity[q])] = 1;
     for (int q = 0; q < wanted->quantities; q++)
         if (k->quantity[q])
             wanted->quantity[quantities++] = wanted->quantity[q];

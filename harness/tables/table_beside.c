@@ -8,6 +8,7 @@
 #include "harness/judge/sentence.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+#include "harness/tables/table_curves.h"
 
 enum {
     HEAD = 8,
@@ -269,6 +270,7 @@ void table_beside(FILE *to, const sweep *s, const truths *t)
     for (int q = 0; q < s->point[0].scene.quantities; q++)
         if (s->point[0].scene.quantity[q].reduction != SCENE_CURVE)
             write_quantity(to, s, t, q);
+    table_curves_errors(to, s);
     fputc('\n', to);
     write_omissions(to, s);
     write_missing(to, s);

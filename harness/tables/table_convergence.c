@@ -6,6 +6,7 @@
 #include "harness/judge/sentence.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+#include "harness/tables/table_curves.h"
 
 enum { DIGITS = 10, VALUE = 20 };
 
@@ -88,4 +89,6 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             if (wanted->quantity[q].reduction != SCENE_CURVE)
                 quantity_block(to, s, t, i, q);
     }
+    if (s->points > 0)
+        table_curves_errors(to, s);
 }

@@ -142,7 +142,7 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
         momentum_line(to, &e);
     }
     if (r->motions > 0)
-        fputs("  --format json has every step and curve; 'beamwork motion' measures the error of "
+        fputs("  --format json has every step; 'beamwork motion' measures the error of "
               "time\n",
               to);
 }

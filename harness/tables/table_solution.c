@@ -6,6 +6,7 @@
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+#include "harness/tables/table_curves.h"
 #include "harness/tables/table_motion.h"
 #include "harness/tables/table_path.h"
 #include "harness/truth/truth.h"
@@ -78,6 +79,19 @@ static void count_steps(const counters *c, char text[FAULT_TEXT])
         snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural);
 }
 
+/* Why curves end early. */
+static void unfinished_curves(FILE *to, const point *p, const solve_result *r)
+{
+    for (int i = 0; i < r->quantities; i++) {
+        const quantity_result *v = &r->quantity[i];
+        if (p->scene.quantity[i].reduction != SCENE_CURVE || v->status == STATUS_OK)
+            continue;
+        const int column = fprintf(to, "%-*s %*s ", NAME, p->scene.quantity[i].name, VALUE, "-");
+        paragraph_say(to, column, INDENT, "%s%s", is_told(r, i) ? "likewise" : v->reason,
+                      v->curve.points > 0 ? "; the curve ends there" : "");
+    }
+}
+
 void table_solution(FILE *to, const sweep *s, const truths *t)
 {
     const series *one = &s->series[0];
@@ -109,6 +123,8 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
         if (p->scene.quantity[i].reduction != SCENE_CURVE)
             quantity_line(to, s, t, i);
     predictions(to, p, t);
+    unfinished_curves(to, p, &c->solve);
+    table_curves_values(to, &p->scene, &c->solve);
     table_path_matrices(to, &p->scene, &c->solve);
     table_motion(to, &p->scene, &c->solve);
     table_path_steps(to, &c->solve);
