@@ -5,6 +5,7 @@
 #include "harness/analysis/loaded.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
+#include "harness/solver/history.h"
 #include "harness/solver/newton.h"
 #include "harness/solver/singular.h"
 
@@ -22,6 +24,7 @@ enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
 static const double growth =
     0.5; /* of the path beyond its beginning, at most, from one state to the next */
+static const double halfway = 0.5; /* part of the way to what is predicted */
 static const double approached = 0.9; /* part of the way to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
 static const double wanted_error = 1e-9;
@@ -102,13 +105,51 @@ typedef struct search {
         sigma[POINTS]; /* shift: the first sigma; that of K + shift scale is lost in no round-off */
     int points;
     double estimate, change,
-        unstable; /* unstable: least path known to be beyond the critical point */
+        unstable;     /* unstable: least path known to be beyond the critical point */
+    int wanted;       /* loads */
+    double size;      /* of the path so far */
+    double predicted; /* from the beginning to the first point, by the rate of K there; INFINITY:
+                         none */
+    double farthest;  /* path at which the search ends */
     eigen_result found;
 } search;
+
+/* A state beyond a critical point: the search begins at path 0. */
+static status begin_at_rest(newton *n, fault *f)
+{
+    step_record unused = {0};
+    kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);
+    TRY(newton_to(n, 0, &unused, f));
+    TRY(newton_direction(n, 0, &unused, f));
+    history_drop_step(n->c->result, &unused);
+    return factor_count(n->factor).negative_pivots == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "critical loads are those of a stable state: neither the one to start "
+                           "from is one, nor that at path 0");
+}
+
+static int loads_wanted(const analysis_context *c, int analysis)
+{
+    int wanted = 1;
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR) &&
+            scene_critical_load_of(q)->sign > 0 && scene_critical_load_of(q)->order >= wanted)
+            wanted = scene_critical_load_of(q)->order + 1;
+    }
+    return wanted;
+}
 
 static status search_alloc(analysis_context *c, int analysis, search *s, fault *f)
 {
     TRY(start(c, analysis, "critical loads", &s->n, f));
+    s->wanted = loads_wanted(c, analysis);
+    s->size = fabs(kinematics_state_path(s->n.state));
+    if (s->size == 0)
+        s->size = 1;
+    if (factor_count(s->n.factor).negative_pivots > 0)
+        TRY(begin_at_rest(&s->n, f));
     TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
     TRY(kinematics_state_alloc(c->model, &s->stable, f));
     TRY(predictor_alloc(c->model, &s->guess, f));
@@ -137,7 +178,7 @@ static void search_free(search *s)
 static status take_state(search *s, fault *f)
 {
     const eigen_problem p = {
-        .K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = 1};
+        .K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = s->wanted};
     eigen_free(&s->found);
     for (int i = 0; i < s->scale.column[s->scale.n]; i++)
         s->n.K.value[i] += s->shift * s->scale.value[i];
@@ -195,12 +236,61 @@ static double extrapolate(const search *s)
     return parabola > p[0] ? parabola : line;
 }
 
+/* How far the first critical point is by (K, -dK): K at the beginning, dK what it changes in a step.
+ * A has the pattern of K. */
+static status predict(search *s, double step, sparse *A, fault *f)
+{
+    newton *n = &s->n;
+    step_record unused = {0};
+    eigen_result found = {0};
+    s->predicted = INFINITY;
+    s->p[0] = s->begin;
+    kinematics_state_copy(n->c->model, n->state, s->stable);
+    if (tangent_at_path(s, s->begin + step, f) != STATUS_OK)
+        step = 0;
+    memcpy(A->value, n->K.value, (size_t)A->column[A->n] * sizeof *A->value);
+    kinematics_state_copy(n->c->model, s->stable, n->state);
+    predictor_forget(&s->guess);
+    TRY(predictor_add(n->c->model, n->state, 0, &s->guess, f));
+    TRY(newton_direction(n, s->begin, &unused, f));
+    if (step == 0)
+        return STATUS_OK;
+    for (int i = 0; i < A->column[A->n]; i++)
+        A->value[i] -= n->K.value[i];
+    const eigen_problem p = {.K = &n->K, .A = A, .K_factor = n->factor, .sign = -1, .largest = 1};
+    const status outcome = eigen_solve(&p, &found, f);
+    context_count_eigen(n->c, &found);
+    if (outcome != STATUS_FAULT && found.positive.count > 0 && found.positive.mu[0] > 0)
+        s->predicted = step / found.positive.mu[0];
+    eigen_free(&found);
+    return outcome == STATUS_FAULT ? outcome : STATUS_OK;
+}
+
+/* Scale-free: the second step is small beside what the first one has predicted. */
+static status predict_twice(search *s, fault *f)
+{
+    const double small = 1e-3;
+    sparse A = {0};
+    TRY(sparse_alloc_like(&s->n.K, &A, f));
+    status outcome = predict(s, small * s->size, &A, f);
+    const double first = s->predicted;
+    if (outcome == STATUS_OK && isfinite(first) && (first < s->size || first > 1e3 * s->size))
+        outcome = predict(s, small * first, &A, f);
+    if (!isfinite(s->predicted))
+        s->predicted = first;
+    sparse_free_values(&A);
+    return outcome;
+}
+
 static status find_critical(search *s, fault *f)
 {
     int stable = 0;
-    double target = s->begin + first_step * (s->begin != 0 ? fabs(s->begin) : 1);
+    TRY(predict_twice(s, f));
+    const int is_predicted = isfinite(s->predicted);
+    double target = s->begin + (is_predicted ? halfway * s->predicted : first_step * s->size);
     TRY(take_state(s, f));
-    const double farthest_path = s->begin + farthest * (s->begin != 0 ? fabs(s->begin) : 1);
+    s->farthest = s->begin + fmax(farthest * s->size, is_predicted ? 10 * s->predicted : 0);
+    const double farthest_path = s->farthest;
     for (int i = 0; i < MAX_STATES && target <= farthest_path; i++) {
         TRY(go_to(s, target, &stable, f));
         if (!stable) {
@@ -226,7 +316,91 @@ static status find_critical(search *s, fault *f)
                            "the critical load was not found: near path %g it still changes by %.1e",
                            s->estimate, s->change)
                : fault_set(f, STATUS_NOT_CONVERGED,
-                           "no critical load: nothing loses stiffness up to path %g", s->p[0]);
+                           "no critical load from path %g to %g: nothing loses stiffness there",
+                           s->begin, s->p[0]);
+}
+
+/* How many eigenvalues are negative at `path`, walked to from the kept state, which it becomes. */
+static status count_at(search *s, double path, int *negative, fault *f)
+{
+    s->p[0] = kinematics_state_path(s->stable);
+    TRY(tangent_at_path(s, path, f));
+    *negative = factor_count(s->n.factor).negative_pivots;
+    predictor_forget(&s->guess);
+    return STATUS_OK;
+}
+
+/* Loads behind the first one, by the inertia on the way: value[] of those that are wanted, up to a
+ * thousand times the first. *count: how many there are. */
+static status find_more(search *s, double value[], int *count, fault *f)
+{
+    const double apart = 1e-9;
+    double low = s->estimate, high = s->estimate;
+    int passed = 0, above = 0;
+    const double end = s->begin + farthest * fabs(s->estimate - s->begin);
+    *count = 1;
+    value[0] = s->estimate;
+    TRY(count_at(s, low = s->estimate + 2 * closest * fabs(s->estimate - s->begin), &passed, f));
+    kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
+    for (; *count < passed && *count < s->wanted; (*count)++)
+        value[*count] = s->estimate;
+    while (*count < s->wanted && low < end) {
+        high = fmin(end, low + 0.2 * (low - s->begin));
+        TRY(count_at(s, high, &above, f));
+        while (above > passed && high - low > apart * fabs(high)) {
+            const double middle = (low + high) / 2;
+            int inside = 0;
+            const status outcome = count_at(s, middle, &inside, f);
+            if (outcome == STATUS_SINGULAR)
+                break;
+            TRY(outcome);
+            if (inside > passed) {
+                high = middle;
+                above = inside;
+            } else {
+                low = middle;
+                kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
+            }
+        }
+        for (int k = passed; k < above && *count < s->wanted; k++)
+            value[(*count)++] = high;
+        passed = above > passed ? above : passed;
+        low = high * (above > passed ? 1 + apart : 1);
+        int unused = 0;
+        TRY(count_at(s, low, &unused, f));
+        kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
+    }
+    return STATUS_OK;
+}
+
+/* The first load with its mode; others, which are counted, have none. */
+static status hand_over(search *s, outcome_side *out, fault *f)
+{
+    const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
+    double *mode = calloc(wanted * n + 1, sizeof *mode), *value = calloc(wanted, sizeof *value),
+           *error = calloc(wanted, sizeof *error);
+    int count = 1;
+    fault why = {""};
+    if (mode == NULL || value == NULL || error == NULL) {
+        free(mode);
+        free(value);
+        free(error);
+        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+    }
+    value[0] = s->estimate;
+    const int modes = s->found.positive.count < s->wanted ? s->found.positive.count : s->wanted;
+    if (s->found.positive.mode != NULL)
+        memcpy(mode, s->found.positive.mode, (size_t)modes * n * sizeof *mode);
+    const status more = s->wanted > 1 ? find_more(s, value, &count, &why) : STATUS_OK;
+    *out = (outcome_side){.count = count, .value = value, .mode = mode, .error = error};
+    if (more != STATUS_OK) {
+        out->status = more;
+        snprintf(out->reason, sizeof out->reason, "%s", why.text);
+    } else if (count < s->wanted) {
+        snprintf(out->reason, sizeof out->reason, "none up to path %g",
+                 kinematics_state_path(s->stable));
+    }
+    return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
 /* With what loaded_buckling frees. */
@@ -234,10 +408,7 @@ static status run(analysis_context *c, int analysis, search *s, outcome_side *ou
 {
     TRY(search_alloc(c, analysis, s, f));
     TRY(find_critical(s, f));
-    outcome_take(&s->found.positive, out);
-    *out->value = s->estimate;
-    *out->error = 0; /* that of the eigenvalue is not the estimate's */
-    return STATUS_OK;
+    return hand_over(s, out, f);
 }
 
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
