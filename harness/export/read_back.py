@@ -87,7 +87,7 @@ def rows(deck):
         if line.startswith("**Q "):
             answer = line[len("**Q "):].split("|")
             value, uncertainty = value_of(answer, blocks)
-            out.append((answer[0], answer[1], elements, count, "", answer[9], repr(value),
+            out.append((answer[0], answer[1], elements, count, "", answer[9], repr(float(value)),
                         f"{uncertainty:.3g}"))
     return head, out
 

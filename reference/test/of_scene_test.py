@@ -107,7 +107,7 @@ class Scenes(unittest.TestCase):
         w = values(bar("force: [0, 3, 0], on: tip", {"w": tip("uy")}))["w"][0]
         driven = bar("force: [0, 0, 0], on: tip", {"f": tip("uy", "reaction")},
                      tip=", drive: {uy: push}",
-                     motions=f"motions:\n  push: {{path: [0, 1], value: [0, {w!r}]}}\n")
+                     motions=f"motions:\n  push: {{path: [0, 1], value: [0, {float(w)!r}]}}\n")
         self.close(values(driven)["f"], 3.0)
 
     def test_unknown_motion(self):

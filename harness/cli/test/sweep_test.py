@@ -52,7 +52,7 @@ class Grid(ProgramTest):
 
     def test_same_bits_as_solve(self):
         for point, formulation, mesh in ((0, 0, 0), (7, 1, 2), (11, 0, 1)):
-            length, side = self.of["points"][point]
+            length, side = self.of["points"][point].tolist()
             alone = solved("shear_column", "--set", f"length={length!r}", "--set",
                            f"side={side!r}", "-f", ("beamw", "collocation")[formulation],
                            "-n", self.of["meshes"][mesh], quantity="buckling_load")

@@ -27,8 +27,12 @@ class Loading(unittest.TestCase):
         """Where HDF5 is there as an archive, the program loads none of the thirty libraries that
         the shared one brings along."""
         places = run("--libs-only-L", "hdf5", program="pkg-config").stdout.split()
-        if not any(pathlib.Path(place[2:], "libhdf5.a").exists() for place in places):
-            self.skipTest("HDF5 is not installed as an archive")
+        archive = next((path for path in (pathlib.Path(place[2:], "libhdf5.a") for place in places)
+                        if path.exists()), None)
+        if archive is None:
+            self.skipTest("needs HDF5 as an archive")
+        if " U curl_" in run(archive, program="nm").stdout:
+            self.skipTest("needs an archive of HDF5 that does without curl: before 1.14")
         linked = pathlib.Path(PROGRAM).with_name("program_libraries")
         if linked.read_text(encoding="ascii").startswith("shared"):
             self.skipTest("built with HDF5=shared")
