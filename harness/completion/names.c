@@ -28,7 +28,7 @@ static void offer_assignment(const offer *o, const parameter_type *p)
 {
     char name[100];
     const size_t length = strlen(p->name);
-    snprintf(name, sizeof name, "%s=", p->name);
+    snprintf(name, sizeof name, "%.*s=", (int)sizeof name - 2, p->name);
     if (strncmp(o->begun, name, length + 1) != 0) {
         offer_text(o, name, p->summary);
     } else if (p->choices != NULL) {
