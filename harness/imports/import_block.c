@@ -150,10 +150,11 @@ static void name_series(import_block *b, const import_header *h, int line)
     if (strlen(h->model) >= IMPORTED_WORD || strlen(h->convention) >= IMPORTED_WORD)
         mistakes_add(b->m, h->model_line > 0 ? h->model_line : h->convention_line, 1,
                      "model and convention are words of at most %d bytes", IMPORTED_WORD - 1);
-    snprintf(to->program, sizeof to->program, "%s", h->program);
+    snprintf(to->program, sizeof to->program, "%.*s", FORMULATION_KEY - 1, h->program);
     snprintf(to->file, sizeof to->file, "%s", b->path);
-    snprintf(to->model, sizeof to->model, "%s", h->model[0] != '\0' ? h->model : "beam");
-    snprintf(to->convention, sizeof to->convention, "%s", h->convention);
+    snprintf(to->model, sizeof to->model, "%.*s", IMPORTED_WORD - 1,
+             h->model[0] != '\0' ? h->model : "beam");
+    snprintf(to->convention, sizeof to->convention, "%.*s", IMPORTED_WORD - 1, h->convention);
 }
 
 import_block import_block_open(import_set *set, const import_header *h, const char *path,
