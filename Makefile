@@ -50,7 +50,7 @@ in_order = $(if $(word 2,$(1)),$(eval $(word 2,$(1)): | $(word 1,$(1)))$(call in
 $(call in_order,$(MAKECMDGOALS))
 endif
 
-QUIET := $(filter help clean format mutants,$(or $(MAKECMDGOALS),help))
+QUIET := $(filter help clean format format-check mutants,$(or $(MAKECMDGOALS),help))
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
@@ -188,14 +188,15 @@ ASAN_PYTHON ?= $(filter $(addprefix harness/,$(addsuffix /test,completion import
 asan: ## tests under the address and undefined-behaviour sanitizers: those in C, and those of the readers
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PYTHON_TESTS="$(ASAN_PYTHON)" test
 
-tidy: ## clang-tidy, findings are errors
-	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
+# One version, that both Debian 12 and 13 have (harness/tools/dependencies.sh): others lay out and find otherwise.
+tidy: needs-layout ## clang-tidy, findings are errors
+	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy-19 --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
 
-format: ## rewrite the C sources in the house's layout
-	@git ls-files '*.c' '*.h' | xargs clang-format -i
+format: needs-layout ## rewrite the C sources in the house's layout
+	@git ls-files '*.c' '*.h' | xargs clang-format-19 -i
 
-format-check:
-	@git ls-files '*.c' '*.h' | xargs clang-format --dry-run -Werror
+format-check: needs-layout
+	@git ls-files '*.c' '*.h' | xargs clang-format-19 --dry-run -Werror
 
 check: ## everything CI runs: gcc and clang with warnings as errors, layout, tidy, sanitizers, tests, verify
 	@.ci/run
@@ -207,8 +208,9 @@ $(BUILD)/flags.mk: harness/tools/dependencies.sh
 	@CC="$(CC)" harness/tools/dependencies.sh build "$@"
 
 # What a command needs beside the program; what single tests need is never installed.
-.PHONY: needs-report needs-test needs-truths
+.PHONY: needs-report needs-test needs-truths needs-layout
 needs-report needs-test needs-truths: | $(TRUTHS) # one apt at a time
+needs-report needs-test needs-truths needs-layout:
 	@harness/tools/dependencies.sh $(@:needs-%=%)
 
 $(REGISTRY): FORCE

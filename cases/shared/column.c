@@ -20,9 +20,7 @@ const parameter_type column_parameters[] = {
 };
 
 #define SHEAR(is_default)                                                                          \
-    {                                                                                              \
-        "shear", "1", is_default, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"               \
-    }
+    {"shear", "1", is_default, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"}
 const parameter_type column_flexible[] = {SHEAR(1), {0}}, column_rigid[] = {SHEAR(0), {0}};
 
 const parameter_type column_stability[] = {

@@ -21,10 +21,7 @@ const parameter_type sheet_parameters[] = {
     {0},
 };
 
-#define WAGNER(is_default)                                                                         \
-    {                                                                                              \
-        "wagner", "1", is_default, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"                       \
-    }
+#define WAGNER(is_default) {"wagner", "1", is_default, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"}
 const parameter_type sheet_wagner[] = {WAGNER(1), {0}}, sheet_no_wagner[] = {WAGNER(0), {0}};
 
 /* SHEET_SHEAR_FACTOR, SHEET_MOMENTS. */

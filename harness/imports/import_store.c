@@ -20,18 +20,9 @@ typedef struct value_row {
     double factor, seconds, x, value, uncertainty;
 } value_row;
 
-#define TEXT(row, member)                                                                          \
-    {                                                                                              \
-#member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member                       \
-    }
-#define INT(row, member)                                                                           \
-    {                                                                                              \
-#member, FIELD_INT, offsetof(row, member), 0                                               \
-    }
-#define DOUBLE(row, member)                                                                        \
-    {                                                                                              \
-#member, FIELD_DOUBLE, offsetof(row, member), 0                                            \
-    }
+#define TEXT(row, member)   {#member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member}
+#define INT(row, member)    {#member, FIELD_INT, offsetof(row, member), 0}
+#define DOUBLE(row, member) {#member, FIELD_DOUBLE, offsetof(row, member), 0}
 static const table_column point_columns[] = {TEXT(point_row, point), TEXT(point_row, parameters)};
 static const table_column value_columns[] = {
     TEXT(value_row, point),     TEXT(value_row, formulation), TEXT(value_row, quantity),

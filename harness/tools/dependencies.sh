@@ -1,19 +1,27 @@
 #!/bin/sh
 # Checks what one command needs, installs what is missing (as root, on Debian), or prints the one line that does.
-# What only single tests use (chromium, gfortran, octave-cli, python3-vtk9) is asked for by nobody: those tests are skipped by name.
+# What only single tests use (chromium, gfortran, octave-cli, python3-vtk9) is asked for by .ci/run alone: else those tests are skipped by name.
 # usage: dependencies.sh build FLAGS.mk     the compiler's part: libraries; writes their flags
 #        dependencies.sh verify|report|test|truths
+#        dependencies.sh layout              clang's tools, of the one version that Debian 12 and 13 both have
+#        dependencies.sh ci                  layout, and what any test is skipped without
 set -eu
 command=$1
 python=${PYTHON:-/usr/bin/python3}
+modules= tools= clang="clang-19 clang-format-19 clang-tidy-19"
 
 case $command in
-build) modules= ;;
+build) ;;
 verify) modules="h5py numpy" ;;
 report) modules="h5py numpy scipy matplotlib jinja2 markdown yaml" ;;
 truths) modules="numpy scipy mpmath yaml" ;;
 test) modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml" ;;
-*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, truths or test" >&2; exit 2 ;;
+layout) tools=$clang ;;
+ci)
+    tools="$clang c++:g++ cmake gfortran octave-cli:octave ccx:calculix-ccx chromium doxygen mandoc zsh"
+    modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml pandas vtk:python3-vtk9 nbclient nbformat ipykernel pip setuptools wheel"
+    ;;
+*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, truths, test, layout or ci" >&2; exit 2 ;;
 esac
 
 packages=
@@ -39,17 +47,27 @@ find_libraries() {
 find_missing() {
     packages=
     [ "$command" != build ] || find_libraries
-    for module in $modules; do
-        "$python" -I -c "import importlib.util, sys; sys.exit(importlib.util.find_spec('$module') is None)" >/dev/null 2>&1 ||
-            need "python3-$module"
+    [ "$command" != ci ] || [ -e /usr/share/bash-completion/bash_completion ] || need bash-completion
+    for tool in $tools; do # or tool:package
+        command -v "${tool%:*}" >/dev/null 2>&1 || need "${tool#*:}"
     done
+    for module in $modules; do # or module:package
+        name=${module%:*}
+        "$python" -I -c "import importlib.util, sys; sys.exit(importlib.util.find_spec('$name') is None)" >/dev/null 2>&1 ||
+            case $module in *:*) need "${module#*:}" ;; *) need "python3-$name" ;; esac
+    done
+}
+
+install() { # package...
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends -o DPkg::Lock::Timeout=600 "$@" >&2
 }
 
 find_missing
 if [ -n "$packages" ] && can_install; then
     echo "beamwork: installing$packages" >&2
-    { apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
-        -o DPkg::Lock::Timeout=600 $packages; } >&2
+    apt-get update -q >&2 || true
+    # One that is not to be had keeps none of the others away.
+    install $packages || for package in $packages; do install "$package" || true; done
     find_missing
 fi
 if [ -n "$packages" ]; then

@@ -92,8 +92,10 @@ static void relays(int threads)
         taken += log.taken;
         expected += last < pieces ? last + 1 : pieces;
         wrong += log.wrong;
-        for (int i = 0; i < PIECES; i++)
-            wrong += i < log.taken ? log.fills[i] != 1 : log.fills[i] > (i < pieces);
+        for (int i = 0; i < PIECES; i++) {
+            const int most = i < pieces, least = i < log.taken;
+            wrong += log.fills[i] < least || log.fills[i] > most;
+        }
     }
     gsl_test_int(wrong, 0, "%d threads: pieces in order, each once", threads);
     gsl_test_int(taken, expected, "%d threads: all pieces that are wanted", threads);

@@ -54,13 +54,13 @@ static void remedy_of(const char *unit, const char *si, double factor)
     double amount = NAN, value = NAN;
     gsl_test(text == NULL, "%s has a remedy", unit);
     const char *as = text != NULL ? strstr(text, " as ") : NULL,
-               *and = text != NULL ? strstr(text, " and unit: ") : NULL;
-    gsl_test(as == NULL || and == NULL, "%s: a value and its unit", unit);
-    if (as == NULL || and == NULL)
+               *unit_at = text != NULL ? strstr(text, " and unit: ") : NULL;
+    gsl_test(as == NULL || unit_at == NULL, "%s: a value and its unit", unit);
+    if (as == NULL || unit_at == NULL)
         return;
     sscanf(text, "write %lf", &amount);
-    snprintf(written, sizeof written, "%.*s", (int)(and-as - 4), as + 4);
-    snprintf(taken, sizeof taken, "%s", and+strlen(" and unit: "));
+    snprintf(written, sizeof written, "%.*s", (int)(unit_at - as - 4), as + 4);
+    snprintf(taken, sizeof taken, "%s", unit_at + strlen(" and unit: "));
     mistakes none = {.file = "test"};
     const document_node node = {
         .kind = DOCUMENT_TEXT, .line = 1, .column = 1, .inset = 0, .text = written};
