@@ -95,9 +95,16 @@ static status try_step(continuation *p, path_goal goal, double station, int last
         p->next.control = goal.value;
     turn_start(p);
     t->doubt = continuation_sound_doubt(p, last_resort, &t->swing);
-    int jump = 0;
-    if (t->doubt == NULL)
+    int jump = 0, hidden = 0;
+    const int changes = p->here.negative != p->next.negative ||
+                        p->here.determinant != p->next.determinant ||
+                        (p->here.rate < 0) != (p->next.rate < 0);
+    if (t->doubt == NULL && !changes && !last_resort)
+        TRY(continuation_critical_within(p, goal, &hidden, f));
+    if (t->doubt == NULL && !hidden)
         TRY(continuation_critical(p, goal, &jump, f));
+    if (hidden)
+        t->doubt = "stability changes within it and back";
     if (jump)
         t->doubt = "the pivots of its tangent stiffness change without a critical point";
     return STATUS_OK;

@@ -15,6 +15,7 @@
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
 static const double closeness = 1e-10;      /* of a trial, relative to the step */
+static const double near = 1e-3;             /* of a vanishing eigenvalue, beside those before */
 static const double one_point = 1e-6;       /* nearer ones are one, relative to the step */
 
 /* One end of the interval in which the critical point lies. */
@@ -125,7 +126,8 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         int before = 0;
         const status outcome = try_at(p, goal, s, &trial, &before, f);
         at = trial.at;
-        if (outcome == STATUS_SINGULAR)
+        const int at_it = i > 0 && value <= near * scale; /* where corrections are noise */
+        if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
         value = fabs(trial.value);
@@ -141,7 +143,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         last = before;
         *(before ? &low : &high) = trial;
     }
-    *gone = value > 1e-3 * scale;
+    *gone = value > near * scale;
     *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
@@ -204,6 +206,48 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
         TRY(report_critical(p, goal, &s, jump, f));
     while (!*jump && s.from < 1 && s.negative != p->next.negative);
     return STATUS_OK;
+}
+
+/* Is the part of the step another than its ends: in pivots, or in where the load goes? */
+static status look_at(continuation *p, path_goal goal, double part, int *differs, double *least,
+                      fault *f)
+{
+    const sought s = {0, 0, p->here.negative};
+    bound trial = {part, NAN};
+    int before = 0;
+    TRY(try_at(p, goal, &s, &trial, &before, f));
+    *differs = !before || (p->trial.rate < 0) != (p->here.rate < 0);
+    *least = least_eigenvalue(p);
+    return STATUS_OK;
+}
+
+/* The middle, and the rest where a parabola through the least eigenvalues is not clear of zero. */
+static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
+{
+    static const double part[] = {0.2, 0.4, 0.6, 0.8};
+    const double clear = 0.5; /* of the least one: what it may change by from the ends */
+    const double a = p->here.least, b = p->next.least;
+    double middle;
+    TRY(look_at(p, goal, 0.5, hidden, &middle, f));
+    const double least = fmin(fmin(fabs(a), fabs(b)), fabs(middle));
+    if (fabs(middle - a) < clear * least && fabs(middle - b) < clear * least)
+        return STATUS_OK;
+    for (int i = 0; i < 4 && !*hidden; i++)
+        TRY(look_at(p, goal, part[i], hidden, &middle, f));
+    return STATUS_OK;
+}
+
+status continuation_critical_within(continuation *p, path_goal goal, int *hidden, fault *f)
+{
+    *hidden = 0;
+    if (!p->asks_critical)
+        return STATUS_OK;
+    p->next.least = least_eigenvalue(p);
+    kinematics_state_copy(p->c->model, p->n.state, p->end);
+    const status outcome = look_within(p, goal, hidden, f);
+    kinematics_state_copy(p->c->model, p->end, p->n.state);
+    p->looked = 0;
+    return outcome == STATUS_SINGULAR ? STATUS_OK : outcome;
 }
 
 status continuation_critical(continuation *p, path_goal goal, int *jump, fault *f)

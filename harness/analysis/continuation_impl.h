@@ -18,6 +18,7 @@ typedef struct path_point {
     double *tangent;        /* [free + driven] dx/ds */
     int negative;           /* negative pivots of K; -1: not symmetric */
     int determinant;        /* sign of det K */
+    double least;           /* eigenvalue of K of least size; NAN: not asked for */
 } path_point;
 
 /* Where a step goes: to this value of the control coordinate, or so far along the arc. */
@@ -32,6 +33,7 @@ typedef struct continuation {
     const scene_path *path;
     outcome_continuation *o;
     int analysis, room; /* room: for points in the outcome */
+    int asks_critical;  /* 1: a quantity asks for critical points */
     int keeps_states;   /* 1: the outcome keeps the state of every point */
     newton n;           /* n.backup: state at the start of the step */
     model_state *end;   /* of the step, while a critical point inside it is looked for */
@@ -81,5 +83,8 @@ status continuation_sound_report_jump(continuation *, const rival *, double from
  * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
  * a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
+/* Where critical points are asked for: *hidden 1 when something changes within the step and back, as
+ * far as that lasts a fifth of it. */
+status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 #endif

@@ -22,6 +22,8 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
     p->o = o;
     p->analysis = analysis;
     p->keeps_states = continuation_extract_keeps_states(c->scene, analysis);
+    for (int i = 0; i < c->scene->quantities; i++)
+        p->asks_critical |= scene_asks(&c->scene->quantity[i], analysis, SCENE_CRITICAL_POINT);
     if (c->options->newton == SOLVE_DENSE)
         return fault_set(
             f, STATUS_REFUSED,
@@ -145,6 +147,7 @@ static status point_of(continuation *p, const double along[], path_point *out,
     out->control = control_value(p);
     out->negative = record->negative_pivots;
     out->determinant = factor_count(p->n.factor).determinant;
+    out->least = NAN;
     p->looked = 1;
     return STATUS_OK;
 }

@@ -18,6 +18,21 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 needs: []
 """
+# Pushed through: stability is lost and regained, with as many negative pivots behind as before.
+ARCH = """beamwork: 1
+sections: {s: {constants: {A: 1e4, Iy: 10, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
+nodes: {a: {at: [-1, 0, 0], hold: [ux, uy, uz, rx, ry]}, t: {at: [0, 0.12, 0]},
+        b: {at: [1, 0, 0], hold: [ux, uy, uz, rx, ry]}}
+members: {l: {from: a, to: t, section: s, y: [0, 1, 0]},
+          r: {from: t, to: b, section: s, y: [0, 1, 0]}}
+loads: {p: {force: [0, -1, 0], on: t}%(more)s}
+analyses: {path: {continuation: {control: {node: t, component: uy}, by: coordinate, to: [-0.24],
+                                 step: %(step)r, step_max: %(step)r}}}
+quantities:
+  b_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
+  l_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: limit, which: $i}, unit: N}
+needs: []
+"""
 PINNED = {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz, rx]", "more": ""}
 CLAMPED = {"a": "all", "b": "", "more": ""}
 ZERO = ("", ", z: {moment: [0, 0, 0], on: b}", ", z: {force: [0, 0, 0], on: b, follower: true}",
@@ -26,9 +41,9 @@ PI2 = math.pi ** 2
 
 
 class MultiplePoints(ProgramTest):
-    def points(self, formulation="collocation", n=8, **column):
+    def points(self, formulation="collocation", n=8, scene=COLUMN, **column):
         path = self.folder / "scene.yaml"
-        path.write_text(COLUMN % column)
+        path.write_text(scene % column)
         done = run("solve", "--scene", path, "-f", formulation, "-n", n, "--format", "json")
         self.assertEqual(done.returncode, 0, (column, done.stdout + done.stderr))
         return [q.get("value") for q in json.loads(done.stdout)["quantities"]]
@@ -60,6 +75,15 @@ class MultiplePoints(ProgramTest):
                 for other in found[1:]:
                     self.assertEqual(other, found[0], (ends, Iy))
         self.near(self.points(Iy=3, step=1e-3, to=1e-3, **PINNED), (PI2, 3 * PI2, 4 * PI2), 1e-3)
+
+    def test_lost_and_regained(self):
+        """The arch of two bars, in steps of a hundredth of its way and in one."""
+        fine = self.points(n=4, scene=ARCH, step=0.0024, more="")
+        self.near(fine, (2.15466, -0.612777, 2.99647, -0.620572), 1e-5)
+        for step in (0.024, 0.08, 0.24):
+            for more in ZERO[:2] if step == 0.24 else ZERO[:1]:
+                more = more.replace("on: b", "on: t")
+                self.near(self.points(n=4, scene=ARCH, step=step, more=more), fine, 1e-7, step)
 
 
 if __name__ == "__main__":
