@@ -68,8 +68,8 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
 /* Without a state whose tangent could be measured, eigenvalues are those of a symmetric one. */
 static status check_potential(const scene *s, int i, fault *f)
 {
-    static const char *const what[] = {[SCENE_BUCKLING] = "critical loads",
-                                       [SCENE_MODAL] = "frequencies about a loaded state"};
+    static const char *const what[] = {
+        [SCENE_BUCKLING] = "critical loads", [SCENE_MODAL] = "frequencies about a loaded state"};
     for (int k = 0; k < s->loads; k++)
         if (scene_load_unsymmetric(&s->load[k]) &&
             (s->load[k].follower || s->load[k].kind != SCENE_MOMENT))

@@ -41,9 +41,8 @@ status sheet_base_inertia(const element_data *d, const node_state x[],
 
 /* In an element_type: what every sheet element has; and those whose strains see no shear. */
 #define SHEET_BASE_TYPE                                                                            \
-    .family = "sheet", .abi = ELEMENT_ABI, .strain = sheet_base_strain,                                    \
-    .inertia = sheet_base_inertia, .lanes = LANES_TOGETHER,                                        \
-    .strain_many = sheet_base_strain_many
+    .family = "sheet", .abi = ELEMENT_ABI, .strain = sheet_base_strain,                            \
+    .inertia = sheet_base_inertia, .lanes = LANES_TOGETHER, .strain_many = sheet_base_strain_many
 #define SHEET_BASE_WITHOUT_SHEAR                                                                   \
     .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
     .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)"

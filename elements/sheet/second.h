@@ -19,7 +19,7 @@ void sheet_second_equations_many(int count, const element_data *const data[], co
 /* In an element_type. */
 #define SHEET_SECOND_TYPE                                                                          \
     SHEET_BASE_TYPE, .limits = SHEET_BASE_LIMITS, .data_size = sheet_second_data_size,             \
-                     .stress = sheet_second_stress, .stress_many = sheet_second_stress_many,                                      \
-                     .equations_many = sheet_second_equations_many
+        .stress = sheet_second_stress, .stress_many = sheet_second_stress_many,                    \
+        .equations_many = sheet_second_equations_many
 
 #endif

@@ -19,7 +19,7 @@ struct factor {
     by_numbers *whole;               /* of a matrix by its numbers; NULL: another one */
     int upper;                       /* 1: `symmetric` has the numbers factored last */
     factor_counts counts, of_upper;  /* of_upper: entries and flops of `symmetric` beside a whole */
-    double *residual, *other; /* [n]; other: unsymmetric */
+    double *residual, *other;        /* [n]; other: unsymmetric */
 };
 
 /* All but the factors. */

@@ -1,8 +1,8 @@
 /* Sparse matrices in compressed columns, and their direct factorisation.
  *
- * Symmetric matrices keep the upper triangle (row <= column) only; the rest keep everything. Some of
- * these are factored as symmetric all the same when their numbers are.
- * The pattern is fixed once; numbers are added by position, so assembly searches nothing. */
+ * Symmetric matrices keep the upper triangle (row <= column) only; the rest keep everything. Some
+ * of these are factored as symmetric all the same when their numbers are. The pattern is fixed
+ * once; numbers are added by position, so assembly searches nothing. */
 #ifndef BEAMWORK_SPARSE_H
 #define BEAMWORK_SPARSE_H
 
@@ -10,9 +10,9 @@
 
 typedef struct sparse {
     int n, symmetric;
-    int *column;   /* [n + 1] */
-    int *row;      /* [column[n]], ascending in each column */
-    double *value; /* [column[n]] */
+    int *column;    /* [n + 1] */
+    int *row;       /* [column[n]], ascending in each column */
+    double *value;  /* [column[n]] */
     int by_numbers; /* 1: stored whole; symmetric where its numbers are */
 } sparse;
 

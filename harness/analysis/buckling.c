@@ -212,7 +212,8 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
 }
 
 /* A load that grows with the square of the number of elements is no load of the structure (elements
- * that are rigid in shear bend by themselves, with 12 EI/l^2 for GA): it and what lies beyond it go.
+ * that are rigid in shear bend by themselves, with 12 EI/l^2 for GA): it and what lies beyond it
+ * go.
  */
 static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
 {

@@ -15,7 +15,7 @@
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
 static const double closeness = 1e-10;      /* of a trial, relative to the step */
-static const double near = 1e-3;             /* of a vanishing eigenvalue, beside those before */
+static const double near = 1e-3;            /* of a vanishing eigenvalue, beside those before */
 static const double one_point = 1e-6;       /* nearer ones are one, relative to the step */
 
 /* One end of the interval in which the critical point lies. */
@@ -119,7 +119,8 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
 {
     const int by_rate = s->by_rate;
     bound low = {s->from, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
-    double at = s->from, scale = by_rate ? fmax(fabs(low.value), fabs(high.value)) : 0, value = scale;
+    double at = s->from, scale = by_rate ? fmax(fabs(low.value), fabs(high.value)) : 0,
+           value = scale;
     int last = 0;
     for (int i = 0; i < MOST_TRIALS && high.at - low.at > closeness; i++) {
         bound trial = {i % 8 == 7 ? (low.at + high.at) / 2 : next_part(&low, &high), NAN};
@@ -148,8 +149,8 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
     return STATUS_OK;
 }
 
-/* The pivots behind the point, where all eigenvalues that vanish at it have passed zero; *at: part of
- * the step there. */
+/* The pivots behind the point, where all eigenvalues that vanish at it have passed zero; *at: part
+ * of the step there. */
 static status count_behind(continuation *p, path_goal goal, const sought *s, double *at,
                            int *negative, fault *f)
 {
@@ -193,8 +194,8 @@ static status report_critical(continuation *p, path_goal goal, sought *s, int *j
         TRY(count_behind(p, goal, s, &s->from, &s->negative, f));
     }
     event.negative_after = s->negative;
-    *jump = !s->by_rate && event.negative_before >= 0 &&
-            event.negative_after == event.negative_before;
+    *jump =
+        !s->by_rate && event.negative_before >= 0 && event.negative_after == event.negative_before;
     return *jump ? STATUS_OK : history_add_event(p->c->result, &event, f);
 }
 

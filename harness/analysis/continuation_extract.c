@@ -38,6 +38,15 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, o->status, o->reason);
 }
 
+/* Did any step end at a tangent that is not symmetric? */
+static int was_unsymmetric(const solve_result *r)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (r->step[i].negative_pivots < 0)
+            return 1;
+    return 0;
+}
+
 static void take_critical(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -55,8 +64,16 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         r->x = quantity_abscissa(q, e->control);
         return;
     }
-    quantity_no_value(r, o->status,
-                      o->status != STATUS_OK ? o->reason : "no such point on the path");
+    if (o->status != STATUS_OK)
+        quantity_no_value(r, o->status, o->reason);
+    else if (was_unsymmetric(c->result))
+        quantity_no_value(
+            r, STATUS_NOT_CONVERGED,
+            "undecided: where loads make the tangent unsymmetric only the sign of its "
+            "determinant is followed, and that changes at no such point; two points "
+            "within a step, or a double one, do not change it: take smaller steps");
+    else
+        quantity_no_value(r, o->status, "no such point on the path");
 }
 
 int continuation_extract(const analysis_context *c, const scene_quantity *q,

@@ -83,8 +83,8 @@ status continuation_sound_report_jump(continuation *, const rival *, double from
  * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
  * a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
-/* Where critical points are asked for: *hidden 1 when something changes within the step and back, as
- * far as that lasts a fifth of it. */
+/* Where critical points are asked for: *hidden 1 when something changes within the step and back,
+ * as far as that lasts a fifth of it. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 #endif

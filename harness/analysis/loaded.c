@@ -24,7 +24,7 @@ enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */
 static const double growth =
     0.5; /* of the path beyond its beginning, at most, from one state to the next */
-static const double halfway = 0.5; /* part of the way to what is predicted */
+static const double halfway = 0.5;    /* part of the way to what is predicted */
 static const double approached = 0.9; /* part of the way to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
 static const double wanted_error = 1e-9;
@@ -71,8 +71,11 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
     TRY(sparse_alloc_like(pattern, M, f));
     TRY(rotating_frame_inertia(c->model, n->state, 0, M, NULL, f));
     const sparse *upper = factor_upper(n->factor);
-    const eigen_problem p = {
-        .K = upper != NULL ? upper : &n->K, .A = M, .K_factor = n->factor, .sign = 1, .largest = modal_wanted(c, analysis)};
+    const eigen_problem p = {.K = upper != NULL ? upper : &n->K,
+                             .A = M,
+                             .K_factor = n->factor,
+                             .sign = 1,
+                             .largest = modal_wanted(c, analysis)};
     const status result = eigen_solve(&p, e, f);
     context_count_eigen(c, e);
     return result;
@@ -134,8 +137,8 @@ static int loads_wanted(const analysis_context *c, int analysis)
     int wanted = 1;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR) &&
-            scene_critical_load_of(q)->sign > 0 && scene_critical_load_of(q)->order >= wanted)
+        if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR) && scene_critical_load_of(q)->sign > 0 &&
+            scene_critical_load_of(q)->order >= wanted)
             wanted = scene_critical_load_of(q)->order + 1;
     }
     return wanted;
@@ -236,8 +239,8 @@ static double extrapolate(const search *s)
     return parabola > p[0] ? parabola : line;
 }
 
-/* How far the first critical point is by (K, -dK): K at the beginning, dK what it changes in a step.
- * A has the pattern of K. */
+/* How far the first critical point is by (K, -dK): K at the beginning, dK what it changes in a
+ * step. A has the pattern of K. */
 static status predict(search *s, double step, sparse *A, fault *f)
 {
     newton *n = &s->n;

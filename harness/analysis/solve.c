@@ -66,8 +66,8 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* A path that begins at a stiffness that is indefinite by itself leads nowhere. Asked where the path
- * was unstable or failed, and not counted as work. */
+/* A path that begins at a stiffness that is indefinite by itself leads nowhere. Asked where the
+ * path was unstable or failed, and not counted as work. */
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||

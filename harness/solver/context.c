@@ -46,11 +46,12 @@ status context_symmetric(const factor *fa, const char *what, fault *f)
     const factor_counts counts = factor_count(fa);
     return counts.negative_pivots >= 0
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED,
-                           "%s need a symmetric tangent: this one and its transpose differ by %.1e "
-                           "of their diagonal (symmetric: %.0e); moments dead about fixed axes, and "
-                           "loads that follow, have no potential here",
-                           what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "%s need a symmetric tangent: this one and its transpose differ by %.1e "
+                     "of their diagonal (symmetric: %.0e); moments dead about fixed axes, and "
+                     "loads that follow, have no potential here",
+                     what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
 }
 
 void context_leave_factor(analysis_context *c, factor *fa)

@@ -31,7 +31,8 @@ status context_condensation(const analysis_context *, int count, const int relea
                             condensation **out, fault *);
 /* The same of a tangent whose members are condensed. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
-/* REFUSED where what was factored is not symmetric: `what` (critical loads) need that of the state. */
+/* REFUSED where what was factored is not symmetric: `what` (critical loads) need that of the state.
+ */
 status context_symmetric(const factor *, const char *what, fault *f);
 /* A symmetric factor of the pattern of the free coordinates is not needed any more: it is kept
  * where a compliance may ask for one, so that order and pattern need not be found again. */

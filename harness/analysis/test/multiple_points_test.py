@@ -85,6 +85,19 @@ class MultiplePoints(ProgramTest):
                 more = more.replace("on: b", "on: t")
                 self.near(self.points(n=4, scene=ARCH, step=step, more=more), fine, 1e-7, step)
 
+    def test_what_is_undecided_is_said(self):
+        """Greenhill's round shaft under thrust and torque: double points, which no determinant
+        shows."""
+        path = self.folder / "scene.yaml"
+        path.write_text(COLUMN % {**PINNED, "Iy": 1, "step": 1.5e-5, "to": 1.5e-5,
+                                  "more": ", t: {moment: [0.5, 0, 0], on: b, factor: [1, 1], "
+                                          "path: [0, 1]}"})
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
+        for q in json.loads(done.stdout).get("quantities", []):
+            self.assertTrue("value" not in q or q["value"] is None or q["value"] < 9.87, q)
+            if q.get("value") is None:
+                self.assertIn("undecided", q["reason"])
+
 
 if __name__ == "__main__":
     unittest.main()
