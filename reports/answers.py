@@ -166,7 +166,7 @@ def answer(point, quantity, level):
              out.unranked if found.unranked else sound).append(found)
         elif verdicts_on(series, quantities):
             out.missed.append(series.key)
-        elif not series.missing:
+        elif not series.missing and not series.other:
             out.unjudged.append(series.key)
     sound.sort(key=by_cost)
     out.defective.sort(key=by_cost)
@@ -191,7 +191,8 @@ def differ(a, b):
 
 def front(point, quantity):
     """[(series, mesh)] not beaten in both time and error, by time; of what ranks."""
-    cells = [(s, m) for s in point.series if not s.missing and not s.unranked for m in s.meshes
+    cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
+             for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
     best, out = math.inf, []
     for series, mesh in sorted(cells, key=lambda c: (c[1].seconds, abs(c[1].errors[quantity]))):

@@ -127,6 +127,8 @@ def read_points(group, meshes, units, noise):
             series[of_series(row)].other = row["not_modelled"]
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
+        if series[point, key].other:  # drawn beside the others, and never ranked
+            mesh.errors.update(mesh.model_errors)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))
     for row in rows(group, "points"):

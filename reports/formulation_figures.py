@@ -23,7 +23,7 @@ def candidates(found):
     for case, point, series in found:
         names = answers.judged(point)[:1]
         names += [v.quantity for v in series.verdicts if v.verdict in WRONG]
-        for name in dict.fromkeys(names) if not series.missing else ():
+        for name in dict.fromkeys(names) if not series.missing and not series.other else ():
             points = curve(series, name)
             if len(points) >= 3:
                 out.append((points[-1][1], case.name, name, (case, point, series)))
@@ -44,7 +44,8 @@ def draw(site, key, items, name):
         one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
                           "relative error", whole=True)
         for other in point.series:
-            points = [] if other.missing or other.key == key else curve(other, quantity)
+            skipped = other.missing or other.other or other.key == key
+            points = [] if skipped else curve(other, quantity)
             if points and ":" not in other.key:
                 one.plot(*zip(*points), **GREY)
         own = curve(series, quantity)

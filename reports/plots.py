@@ -139,8 +139,9 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
 
     def own(which):
         meshes = [pairs[i][0] for i in which]
+        other = {"linestyle": ":"} if series.other else {}
         return {**(marks_of(site, point, series, quantity, meshes, errors) if told else
-                   site.styles.of(series.key)), **look}
+                   site.styles.of(series.key)), **other, **look}
 
     panel.plot(x, y, label=series.label, marks=known, **own(known))
     if lost:

@@ -241,6 +241,13 @@ static void find_change(const scene *s, omission *out)
         estimate(s, whole, out);
 }
 
+double omission_on_mesh(const scene *s, unsigned what, int elements)
+{
+    const element_type *whole = whole_model(s);
+    omission out = {.what = what};
+    return whole != NULL ? change_on(s, whole, elements, &out) : NAN;
+}
+
 void omission_of(const scene *s, const element_type *type, omission *out)
 {
     *out = (omission){.what = missing_omits(s, type), .change = NAN};

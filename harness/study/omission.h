@@ -24,6 +24,9 @@ extern const double omission_safety;
 /* What the type leaves out of a scene. Where no formulation of the program has all of it, or the
  * one that has finds no values, the bound is unknown, and the model another one. */
 void omission_of(const scene *, const element_type *, omission *out);
+/* What leaving that out changes on one mesh, of the asked value that it changes most; NAN: not all
+ * have a value there, or no formulation has all of the scene. */
+double omission_on_mesh(const scene *, unsigned what, int elements);
 /* "without shear: changes no asked value by more than 2e-06", "another model: shear is not modelled
  * (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
