@@ -225,6 +225,9 @@ static void estimate(const scene *s, const element_type *type, omission *out)
                      last, change, n);
         last = change;
     }
+    if (out->why[0] == '\0')
+        snprintf(out->why, sizeof out->why, "no two meshes of up to %d elements have all values",
+                 FINEST);
 }
 
 static void find_change(const scene *s, omission *out)
