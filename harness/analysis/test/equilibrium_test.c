@@ -96,6 +96,8 @@ static void columns(void)
     gsl_test(solve_column(SCENE_BUCKLING, 1, 0, 0.5, &value, &f) != STATUS_OK, "column: %s",
              f.text);
     gsl_test_rel(value, euler, 1e-4, "Euler's load on the nonlinear path");
+    gsl_test(solve_column(SCENE_BUCKLING, 10, 0, 1, &value, &f) != STATUS_OK, "column: %s", f.text);
+    gsl_test_rel(10 * value, euler, 1e-4, "Euler's load from a state beyond it");
     gsl_test(solve_column(SCENE_MODAL, euler, 0, 1e-9, &rest, &f) != STATUS_OK, "column: %s",
              f.text);
     gsl_test_rel(2 * PI * rest, 1.8751040687 * 1.8751040687 / sqrt(1e6), 2e-3,
@@ -110,9 +112,9 @@ static void refused(void)
 {
     double value = NAN;
     fault f = {""};
-    gsl_test(solve_column(SCENE_BUCKLING, 10, 0, 1, &value, &f) != STATUS_REFUSED ||
+    gsl_test(solve_column(SCENE_MODAL, 10, 0, 1, &value, &f) != STATUS_REFUSED ||
                  strstr(f.text, "critical") == NULL,
-             "a state beyond the critical load: %s", f.text);
+             "frequencies of a state beyond the critical load: %s", f.text);
     gsl_test(solve_column(SCENE_MODAL, 0, 1, 1, &value, &f) != STATUS_REFUSED ||
                  strstr(f.text, "symmetric") == NULL,
              "a moment dead about fixed axes has no potential: %s", f.text);
