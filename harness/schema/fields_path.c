@@ -1,5 +1,6 @@
 /* Records of what a cell found and of the way there. */
 #include <math.h>
+#include <stdio.h>
 
 #include "cases/scene/names.h"
 #include "harness/schema/fields_keys.h"
@@ -109,6 +110,17 @@ const record_type record_curve = {
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
 
 #define STEP(member) AT(step_record, member)
+/* By inertia; an unsymmetric tangent has none that would tell. */
+static void get_stability(const subject *s, field_value *out)
+{
+    const int negative = ((const step_record *)s->record)->negative_pivots;
+    if (negative > 0)
+        snprintf(out->room, sizeof out->room, "unstable (%d)", negative);
+    else
+        snprintf(out->room, sizeof out->room, "%s", negative == 0 ? "stable" : "undecided");
+    out->text = out->room;
+}
+
 static const schema_field fields_of_step[] = {
     {"step", "1", FIELD_INT, "its number, from 0", OF(SUBJECT, subject, index)},
     {"path", "1", FIELD_DOUBLE, "path parameter that was reached", STEP(path)},
@@ -116,6 +128,8 @@ static const schema_field fields_of_step[] = {
     {"iterations", "1", FIELD_INT, "until the criterion was met", STEP(iterations)},
     {"rejected", "1", FIELD_INT, "tries of longer steps before it", STEP(rejected)},
     {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
+    {"stability", "", FIELD_TEXT, "stable, unstable (negative pivots), undecided (not symmetric)",
+     .get = get_stability},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
     {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
     {"remaining", "1", FIELD_DOUBLE, "what another one would change, predicted", STEP(remaining)},

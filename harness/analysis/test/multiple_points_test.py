@@ -98,6 +98,13 @@ class MultiplePoints(ProgramTest):
             if q.get("value") is None:
                 self.assertIn("undecided", q["reason"])
 
+    def test_stability_of_steps(self):
+        path = self.folder / "scene.yaml"
+        path.write_text(COLUMN % {**CLAMPED, "Iy": 1, "step": 1e-6, "to": 5e-6})
+        done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
+        said = [step["stability"] for step in json.loads(done.stdout)["steps"]]
+        self.assertEqual(said, ["stable"] * 2 + ["unstable (2)"] * 3)
+
 
 if __name__ == "__main__":
     unittest.main()
