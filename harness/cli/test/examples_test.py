@@ -72,7 +72,7 @@ class Ancf(Judged, PluginTest):
              "weighted_column")
 
 
-@unittest.skipUnless(shutil.which("gfortran"), "no gfortran")
+@unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Uel(Judged, PluginTest):
     """A user element in Fortran; the same beam as that of corotational.c."""
 
