@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* Each number times x to the power of its length. */
 typedef struct scaled {
@@ -192,6 +193,9 @@ static void scale_quantity(const scene *s, scene_quantity *q, double x)
     if (q->analysis >= 0 && q->analysis < s->analyses &&
         s->analysis[q->analysis].kind == SCENE_CONTINUATION)
         q->at *= x;
+    if (q->reduction == SCENE_CURVE && q->analysis >= 0 && q->analysis < s->analyses &&
+        s->analysis[q->analysis].kind == SCENE_CONTINUATION)
+        q->x.factor /= x;
 }
 
 status scene_change_unit(scene *s, double x, fault *f)
@@ -216,4 +220,122 @@ status scene_change_unit(scene *s, double x, fault *f)
     for (int i = 0; i < s->quantities; i++)
         scale_quantity(s, &s->quantity[i], x);
     return scale_drivers(s, x, f);
+}
+
+/* Power of force in what is extracted. */
+static int force_of(const scene_quantity *q)
+{
+    switch (q->what.kind) {
+    case SCENE_REACTION:
+    case SCENE_STIFFNESS_ENTRY:
+    case SCENE_INTERNAL:
+    case SCENE_STRESS:
+    case SCENE_BALANCE:
+        return 1;
+    case SCENE_COMPLIANCE_ENTRY:
+        return -1;
+    default:
+        return 0;
+    }
+}
+
+void scene_change_force(scene *s, double y)
+{
+    for (int i = 0; i < s->sections; i++) {
+        section_spec *spec = &s->section[i];
+        section *c = &spec->constants;
+        double *const list[] = {&spec->young, &spec->shear_modulus, &spec->density,
+                                &c->young,    &c->shear_modulus,    &c->density};
+        for (size_t k = 0; k < sizeof list / sizeof list[0]; k++)
+            *list[k] *= y;
+        for (int k = 0; k < 36; k++) {
+            c->stiffness[k] *= y;
+            c->mass[k] *= y;
+        }
+    }
+    for (int i = 0; i < s->nodes; i++) {
+        s->node[i].body.mass *= y;
+        scale_vector(s->node[i].body.inertia, y);
+        scale_vector(s->node[i].body.inertia + 3, y);
+    }
+    for (int i = 0; i < s->springs; i++)
+        for (int k = 0; k < 36; k++)
+            s->spring[i].stiffness[k] *= y;
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].kind != SCENE_GRAVITY && s->load[i].kind != SCENE_WEIGHT)
+            scale_vector(s->load[i].vector, y);
+    for (int i = 0; i < s->quantities; i++) {
+        scene_quantity *q = &s->quantity[i];
+        const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
+        q->factor *= times ? 1 : pow(y, -force_of(q));
+        q->passing.level *= pow(y, force_of(q));
+    }
+}
+
+/* Largest size of a section that is described by sizes; 0: none is. */
+static double size_of(const section_spec *spec)
+{
+    double low[2] = {0}, high[2] = {0};
+    if (spec->kind == SECTION_RECTANGLE)
+        return fmax(spec->width, spec->height);
+    if (spec->kind == SECTION_TUBE)
+        return spec->diameter;
+    for (int i = 0; spec->kind == SECTION_WALLS && i < spec->points; i++)
+        for (int k = 0; k < 2; k++) {
+            low[k] = i == 0 ? spec->point[i][k] : fmin(low[k], spec->point[i][k]);
+            high[k] = i == 0 ? spec->point[i][k] : fmax(high[k], spec->point[i][k]);
+        }
+    return fmax(high[0] - low[0], high[1] - low[1]);
+}
+
+static double longest(const scene *s)
+{
+    double most = 0;
+    for (int i = 0; i < s->members; i++) {
+        const scene_node *p = &s->node[s->member[i].p], *q = &s->node[s->member[i].q];
+        most = fmax(most,
+                    hypot(hypot(p->position[0] - q->position[0], p->position[1] - q->position[1]),
+                          p->position[2] - q->position[2]));
+    }
+    return most;
+}
+
+/* Bounds that no structure in SI units passes but by wrong units: solids stiffer than foam and
+ * heavier than it carry waves faster than 30 m/s, and none faster than 30 km/s. */
+int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
+{
+    static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;
+    const double length = longest(s);
+    for (int i = 0; i < s->sections; i++) {
+        const section_spec *spec = &s->section[i];
+        const double E = spec->kind == SECTION_CONSTANTS && !(spec->young > 0)
+                             ? spec->constants.young
+                             : spec->young,
+                     rho = spec->kind == SECTION_CONSTANTS && !(spec->density > 0)
+                               ? spec->constants.density
+                               : spec->density,
+                     size = size_of(spec), speed = rho > 0 ? sqrt(E / rho) : NAN;
+        if (spec->kind == SECTION_MATRICES || !(E > 0))
+            continue;
+        if (E >= soft[0] && E <= soft[1] && length >= 10 && size >= 0.1) {
+            snprintf(words, FAULT_TEXT,
+                     "young's modulus of %g Pa with members of %g m looks like mm, N and MPa", E,
+                     length);
+            return 1;
+        }
+        if (E >= stiff && size >= wide && length >= wide) {
+            snprintf(words, FAULT_TEXT,
+                     "a section %g m wide with young's modulus of %g Pa looks like lengths in mm",
+                     size, E);
+            return 1;
+        }
+        if ((rho >= 300 && speed < slow) || (E >= soft[0] && speed > fast)) {
+            snprintf(words, FAULT_TEXT,
+                     "young's modulus of %g Pa with a density of %g kg/m^3 is no solid, and looks "
+                     "like other units",
+                     E, rho);
+            return 1;
+        }
+    }
+    return 0;
 }

@@ -19,6 +19,7 @@
 #include "harness/analysis/static.h"
 #include "harness/motion/motion.h"
 #include "harness/solver/context.h"
+#include "harness/solver/history.h"
 #include "harness/solver/linear_system.h"
 #include "harness/solver/singular.h"
 
@@ -99,6 +100,7 @@ static void run_analyses(analysis_context *c)
         o->status = run != NULL ? run(c, i, o, &f)
                                 : fault_set(&f, STATUS_REFUSED, "%s: not available",
                                             scene_called(c->scene, SCENE_ANALYSES, i).text);
+        history_judge_steps(c->result, c->scene, i, first_step);
         if (o->status == STATUS_SINGULAR && c->singular)
             singular_explain(c, &f);
         else if (is_stuck(o))

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/unit.h"
 #include "harness/catalogue/case_find.h"
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
@@ -112,6 +113,12 @@ status case_input_truths(const command_request *r, truths *t, fault *f)
 
 void case_input_tell_analysis(const command_request *r, const scene *s)
 {
+    char words[FAULT_TEXT];
+    if (r->scene != NULL && !scene_file_states(r->scene, "units") && scene_looks_foreign(s, words))
+        fprintf(stderr,
+                "beamwork: warning: %s; numbers are in m, N, Pa and kg, else the scene says units: "
+                "mm, N, MPa\n",
+                words);
     if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
         return;
     const scene_analysis *a = &s->analysis[0];

@@ -164,7 +164,17 @@ static step step_between(const scene *s, const cell_result *before, const cell_r
     return out;
 }
 
-static void tell_elements(const scene *s, int mesh, const step *last, char why[FAULT_TEXT])
+/* Of a path of which a coarse mesh may follow another branch. */
+static int met_unstable(const solve_result *r)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (r->step[i].stability == STEP_UNSTABLE)
+            return 1;
+    return 0;
+}
+
+static void tell_elements(const scene *s, int mesh, const step *last, int unstable,
+                          char why[FAULT_TEXT])
 {
     if (last->change <= PREFERENCE_SETTLED)
         snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
@@ -173,7 +183,8 @@ static void tell_elements(const scene *s, int mesh, const step *last, char why[F
         snprintf(why, FAULT_TEXT, "the finest mesh of the case; %s still changed by %.2g %%",
                  s->quantity[last->which].name, 100 * last->change);
     else
-        snprintf(why, FAULT_TEXT, "the finest mesh of the case");
+        snprintf(why, FAULT_TEXT, "the finest mesh of the case%s",
+                 unstable ? "; coarser ones met unstable states" : "");
 }
 
 int preference_elements(const cell_request *request, char why[FAULT_TEXT])
@@ -182,9 +193,9 @@ int preference_elements(const cell_request *request, char why[FAULT_TEXT])
     cell_request one = *request;
     cell_result cell[2];
     step last = {INFINITY, -1};
-    int mesh = -1;
+    int mesh = -1, unstable = 0;
     memset(cell, 0, sizeof cell);
-    while (mesh + 1 < s->meshes && last.change > PREFERENCE_SETTLED) {
+    while (mesh + 1 < s->meshes && (last.change > PREFERENCE_SETTLED || unstable)) {
         cell_result *now = &cell[++mesh % 2];
         fault f;
         cell_result_free(now);
@@ -193,9 +204,10 @@ int preference_elements(const cell_request *request, char why[FAULT_TEXT])
         cell_run(&one, now, &f); /* one that fails is not settled */
         if (mesh > 0)
             last = step_between(s, &cell[(mesh + 1) % 2], now);
+        unstable |= met_unstable(&now->solve); /* which finer ones may not pass */
     }
     cell_result_free(&cell[0]);
     cell_result_free(&cell[1]);
-    tell_elements(s, mesh, &last, why);
+    tell_elements(s, mesh, &last, unstable, why);
     return s->mesh[mesh];
 }

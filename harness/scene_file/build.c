@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/unit.h"
 #include "cases/scene/warping.h"
 #include "harness/language/expression.h"
 #include "harness/language/range.h"
@@ -138,6 +139,22 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
+/* From the units of the file, in which quantities are reported. own: the rest are not of the file.
+ */
+static void to_si(const builder *b, int own)
+{
+    fault f = {""};
+    scene *s = b->scene;
+    for (int i = own; i < s->quantities; i++) {
+        char unit[SCENE_UNIT];
+        units_translate(&b->units, s->quantity[i].unit, sizeof unit, unit);
+        memcpy(s->quantity[i].unit, unit, sizeof unit);
+    }
+    scene_change_force(s, b->units.force);
+    if (scene_change_unit(s, b->units.length, &f) != STATUS_OK)
+        tell_refusal(b, f.text);
+}
+
 void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
                  mistakes *m, scene *out)
 {
@@ -147,6 +164,7 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
                  .scene = out,
                  .root = root};
     fault f = {""};
+    units_read(document_find(root, "units"), m, &b.units);
     b.names = unroll_let(document_find(root, "let"), names, a, m);
     build_sections(&b);
     list_entries(&b);
@@ -165,11 +183,14 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
     builder_loads(&b);
     builder_analyses(&b);
     builder_quantities(&b);
+    const int own = out->quantities;
     builder_defaults(&b);
     read_plane(&b);
     read_needs(&b);
     read_meshes(&b);
     m->out_of_memory |= a->failed || out->out_of_memory;
+    if (b.units.given && m->count == 0 && !m->out_of_memory)
+        to_si(&b, own);
     if (m->count == 0 && !m->out_of_memory && scene_validate(out, &f) != STATUS_OK)
         tell_refusal(&b, f.text);
 }

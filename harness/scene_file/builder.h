@@ -7,6 +7,7 @@
 
 #include "cases/scene/names.h"
 #include "harness/language/placement.h"
+#include "harness/language/units.h"
 #include "harness/language/unroll.h"
 
 typedef enum builder_list {
@@ -27,6 +28,7 @@ typedef struct builder {
     scene *scene;
     const document_node *root;
     const scope *names; /* parameters and derived values */
+    unit_system units;  /* of the numbers in the file */
     struct {
         unrolled *entry;
         int count;

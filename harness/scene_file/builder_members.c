@@ -137,7 +137,14 @@ void builder_members(builder *b)
 /* What a motion moves has its unit. */
 static void check_unit(const fields *f, int motion)
 {
-    const int angle = fields_word(f, "unit", "m|rad", -1);
+    const document_node *given = document_find(f->map, "unit");
+    const unit_system *units = &f->b->units;
+    const int own = units->given && strcmp(given->text, units->name_of_length) == 0;
+    const int angle = own ? 0 : fields_word(f, "unit", "m|rad", -1);
+    if (angle == 0 && units->given && !own)
+        document_mistake(f->b->mistakes, given, 0,
+                         "unit 'm': lengths of this scene are in %s; write that, or leave it out",
+                         units->name_of_length);
     const scene *s = f->b->scene;
     int angles = 0, lengths = 0;
     for (int i = 0; i < s->nodes; i++)

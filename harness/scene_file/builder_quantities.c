@@ -59,13 +59,22 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
 static void read_unit(const fields *f, scene_quantity *q)
 {
     const document_node *unit = document_find(f->map, "unit");
+    char own[SCENE_UNIT];
+    units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     /* a factor may make any unit of it */
-    if (unit != NULL && !fields_have(f, "factor"))
-        units_check(unit, f->b->mistakes);
+    if (unit != NULL && !fields_have(f, "factor")) {
+        if (!f->b->units.given)
+            units_check(unit, f->b->mistakes);
+        else if (strcmp(unit->text, own) != 0)
+            document_mistake(f->b->mistakes, unit, 0,
+                             "unit '%.40s': with the units of this scene the value is in %s; write "
+                             "that, leave it out, or give a factor",
+                             unit->text, own);
+    }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
         document_mistake(f->b->mistakes, unit, 0, "a unit of more than %zu characters; shorten it",
                          sizeof q->unit - 1);
-    snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : usual_unit(f->b->scene, q));
+    snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : own);
 }
 
 /* A quantity with a curve, too. */

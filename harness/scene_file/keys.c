@@ -15,6 +15,10 @@ const scene_key keys_root[] = {
     {"name", KEY_TEXT, .summary = "of the scene", .left_out = "that of the file"},
     {"summary", KEY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
     {"source", KEY_TEXT, .summary = "where it comes from", .left_out = "none"},
+    {"units", KEY_FORMS,
+     .summary = "of its numbers and values: length, force, stress, as mm, N, MPa; masses are then "
+                "in force s^2/length (t), seconds and radians stay",
+     .left_out = "SI"},
     {"parameters", KEY_ENTRIES, .below = keys_parameter, .summary = "what --set may change",
      .left_out = "none"},
     {"let", KEY_NAMES, .below = number, .summary = "derived values, in order", .left_out = "none"},

@@ -52,11 +52,12 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-static void read_number(parameter_type *p, const document_node *entry, mistakes *m)
+/* any_unit: the scene has units of its own, and its parameters theirs. */
+static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
     p->unit = text_of(entry, "unit", "1");
-    if (unit != NULL)
+    if (unit != NULL && !any_unit)
         units_check(unit, m);
     p->min = number_of(entry, "min", -DBL_MAX, m);
     p->max = number_of(entry, "max", DBL_MAX, m);
@@ -95,7 +96,7 @@ void parameter_table_read(scene_file *file, mistakes *m)
             if (p->choices != NULL)
                 read_choice(p, document_find(entry, "value"), m);
             else if (choices == NULL)
-                read_number(p, entry, m);
+                read_number(p, entry, document_find(file->root, "units") != NULL, m);
         }
     file->type.parameters[0] = file->parameter;
 }

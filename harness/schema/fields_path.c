@@ -109,15 +109,24 @@ const record_type record_curve = {
     "a quantity along a path; its points stand in arrays",
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
 
+static void get_analysis(const subject *s, int analysis, field_value *out)
+{
+    schema_set_text(out, scene_own_name(&s->point->scene, SCENE_ANALYSES, analysis));
+}
+
+static void get_analysis_of_step(const subject *s, field_value *out)
+{
+    get_analysis(s, ((const step_record *)s->record)->analysis, out);
+}
+
 #define STEP(member) AT(step_record, member)
-/* By inertia; an unsymmetric tangent has none that would tell. */
 static void get_stability(const subject *s, field_value *out)
 {
-    const int negative = ((const step_record *)s->record)->negative_pivots;
-    if (negative > 0)
-        snprintf(out->room, sizeof out->room, "unstable (%d)", negative);
+    const step_record *step = s->record;
+    if (step->stability == STEP_UNSTABLE)
+        snprintf(out->room, sizeof out->room, "unstable (%d)", step->negative_pivots);
     else
-        snprintf(out->room, sizeof out->room, "%s", negative == 0 ? "stable" : "undecided");
+        snprintf(out->room, sizeof out->room, "%s", result_stability_name(step->stability));
     out->text = out->room;
 }
 
@@ -127,8 +136,11 @@ static const schema_field fields_of_step[] = {
     {"increment", "1", FIELD_DOUBLE, "of the path parameter", STEP(increment)},
     {"iterations", "1", FIELD_INT, "until the criterion was met", STEP(iterations)},
     {"rejected", "1", FIELD_INT, "tries of longer steps before it", STEP(rejected)},
+    {"analysis", "1", FIELD_INT, "of the scene", STEP(analysis)},
+    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_step},
     {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
-    {"stability", "", FIELD_TEXT, "stable, unstable (negative pivots), undecided (not symmetric)",
+    {"stability", "", FIELD_TEXT, "of the state where it ended: stable, unstable (negative pivots), undecided (not symmetric, "
+     "or in axes that turn)",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
     {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
@@ -163,11 +175,6 @@ static const char *word_of_event(int kind)
 }
 
 #define EVENT(member) AT(path_event, member)
-static void get_analysis(const subject *s, int analysis, field_value *out)
-{
-    schema_set_text(out, scene_own_name(&s->point->scene, SCENE_ANALYSES, analysis));
-}
-
 static void get_analysis_of_event(const subject *s, field_value *out)
 {
     get_analysis(s, ((const path_event *)s->record)->analysis, out);

@@ -35,6 +35,30 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
+void history_judge_steps(solve_result *r, const scene *s, int analysis, int first)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    for (int i = first; i < r->steps; i++) {
+        step_record *one = &r->step[i];
+        one->analysis = analysis;
+        one->stability = STEP_OPEN;
+        if (a->kind == SCENE_MOTION || one->negative_pivots < 0)
+            continue;
+        if (one->negative_pivots == 0)
+            one->stability = STEP_STABLE;
+        else if (a->kind != SCENE_ROTATION && !scene_rotates(a))
+            one->stability = STEP_UNSTABLE; /* in turning axes gyroscopic forces may hold it */
+    }
+}
+
+step_stability history_stability_at(const solve_result *r, int analysis, double path)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (r->step[i].analysis == analysis && r->step[i].path == path)
+            return r->step[i].stability;
+    return STEP_OPEN;
+}
+
 status history_add_event(solve_result *r, const path_event *event, fault *f)
 {
     return memory_append(&r->event, &r->events, event, sizeof *event, "events", f);

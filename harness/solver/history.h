@@ -11,6 +11,10 @@ status history_add_iteration(solve_result *r, step_record *step, const iteration
 /* The step was tried in vain: its iterations are forgotten. */
 void history_drop_step(solve_result *r, const step_record *step);
 
+/* What the steps from `first` on are of, and whether the states where they ended are stable. */
+void history_judge_steps(solve_result *, const scene *, int analysis, int first);
+/* Where a step of the analysis ended at that path parameter; STEP_OPEN: nowhere. */
+step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
 /* All steps of a motion. */
 status history_add_motion(solve_result *, int analysis, const outcome_motion *, fault *);

@@ -15,6 +15,12 @@ int result_event_multiplicity(const path_event *e)
     return e->kind == EVENT_BIFURCATION && changed > 1 ? changed : 1;
 }
 
+const char *result_stability_name(step_stability which)
+{
+    static const char *const name[STEP_STABILITIES] = {"undecided", "stable", "unstable"};
+    return name[which];
+}
+
 void result_free(solve_result *r)
 {
     if (r->quantity != NULL)

@@ -62,7 +62,18 @@ typedef struct iteration_record {
     double incompatibility; /* max |D(x) - e|/l before it */
 } iteration_record;
 
+/* Of a state under small disturbances that keep what is held and driven. */
+typedef enum step_stability {
+    STEP_OPEN, /* not decided by the signs of pivots: no symmetric tangent, or axes that turn */
+    STEP_STABLE,
+    STEP_UNSTABLE,
+    STEP_STABILITIES
+} step_stability;
+const char *result_stability_name(step_stability);
+
 typedef struct step_record {
+    int analysis;             /* of the scene */
+    step_stability stability; /* where it ended */
     double path, increment;
     int iterations, rejected,
         negative_pivots; /* rejected: tries of longer steps that failed before this one */

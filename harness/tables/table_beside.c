@@ -9,6 +9,7 @@
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_curves.h"
+#include "harness/tables/table_stability.h"
 
 enum {
     HEAD = 8,
@@ -271,6 +272,7 @@ void table_beside(FILE *to, const sweep *s, const truths *t)
         if (s->point[0].scene.quantity[q].reduction != SCENE_CURVE)
             write_quantity(to, s, t, q);
     table_curves_errors(to, s);
+    table_stability_meshes(to, s);
     fputc('\n', to);
     write_omissions(to, s);
     write_missing(to, s);

@@ -7,6 +7,7 @@
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_curves.h"
+#include "harness/tables/table_stability.h"
 
 enum { DIGITS = 10, VALUE = 20 };
 
@@ -91,4 +92,5 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
     }
     if (s->points > 0)
         table_curves_errors(to, s);
+    table_stability_meshes(to, s);
 }

@@ -5,10 +5,12 @@
 
 #include "harness/judge/curve_error.h"
 #include "harness/judge/rounding.h"
+#include "harness/solver/history.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
+#include "harness/tables/table_stability.h"
 
-enum { COLUMN = 18, COLUMNS = (PARAGRAPH_WIDTH - COLUMN) / COLUMN, ROWS = 20, NAME = 24 };
+enum { COLUMN = 18, COLUMNS = (PARAGRAPH_WIDTH - COLUMN - 8) / COLUMN, ROWS = 20, NAME = 24 };
 enum { MESH = 12, MESHES = 5, DIGITS = 8, X_DIGITS = 7 };
 
 static const curve *curve_of(const scene *s, const solve_result *r, int quantity)
@@ -19,11 +21,23 @@ static const curve *curve_of(const scene *s, const solve_result *r, int quantity
     return c->points > 0 ? c : NULL;
 }
 
+/* The analysis whose stations the curve is of, where steps end; SCENE_NONE: they are no equilibria
+ * of a path with given stations. */
+static int path_of(const scene *s, int quantity)
+{
+    const int analysis = s->quantity[quantity].analysis;
+    const scene_analysis *a = &s->analysis[analysis];
+    const int path =
+        a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE ? a->follows : analysis;
+    const scene_analysis_kind kind = s->analysis[path].kind;
+    return kind == SCENE_STATIC || kind == SCENE_ROTATION ? path : SCENE_NONE;
+}
+
 /* Do both have the same abscissa? */
 static int beside(const scene *s, const solve_result *r, int a, int b)
 {
     const curve *p = curve_of(s, r, a), *q = curve_of(s, r, b);
-    return p != NULL && q != NULL && p->points == q->points &&
+    return p != NULL && q != NULL && p->points == q->points && path_of(s, a) == path_of(s, b) &&
            strcmp(s->quantity[a].x.name, s->quantity[b].x.name) == 0 &&
            memcmp(p->x, q->x, (size_t)p->points * sizeof *p->x) == 0;
 }
@@ -57,13 +71,18 @@ static void write_block(FILE *to, const scene *s, const solve_result *r, int cou
     write_name(to, x->name, x->unit);
     for (int k = 0; k < count; k++)
         write_name(to, s->quantity[list[k]].name, s->quantity[list[k]].unit);
-    fputc('\n', to);
+    const int path = path_of(s, list[0]);
+    fprintf(to, "%s\n", path != SCENE_NONE ? "  stable" : "");
     for (int i = 0; i < rows; i++) {
         const int at = rows > 1 ? (int)((long)i * (first->points - 1) / (rows - 1)) : 0;
         table_value(to, COLUMN, X_DIGITS, 'g', without_noise(first->points, first->x, at));
         for (int k = 0; k < count; k++)
             table_digits(to, COLUMN,
                          without_noise(first->points, curve_of(s, r, list[k])->value, at), DIGITS);
+        if (path != SCENE_NONE)
+            fprintf(to, "%8s",
+                    table_stability_word(history_stability_at(
+                        r, path, scene_path_of(&s->analysis[path])->value[at])));
         fputc('\n', to);
     }
     if (rows < first->points)

@@ -4,6 +4,7 @@
 
 #include "cases/scene/names.h"
 #include "harness/tables/paragraph.h"
+#include "harness/tables/table_stability.h"
 
 enum { MOST_STEPS = 40 };
 
@@ -31,12 +32,13 @@ void table_path_steps(FILE *to, const solve_result *r)
     const int steps = steps_told(r);
     if (steps <= 0)
         return;
-    fprintf(to, "%4s %12s %12s %8s %10s  %s\n", "step", "path", "increment", "rejected",
-            "iterations", "their corrections");
+    fprintf(to, "%4s %12s %12s %8s %6s %10s  %s\n", "step", "path", "increment", "rejected",
+            "stable", "iterations", "their corrections");
     for (int i = 0; i < steps && i < MOST_STEPS; i++) {
         const step_record *k = &r->step[i];
-        const int column = fprintf(to, "%4d %12.6g %12.4g %8d %10d  ", i + 1, k->path, k->increment,
-                                   k->rejected, k->iterations);
+        const int column =
+            fprintf(to, "%4d %12.6g %12.4g %8d %6s %10d  ", i + 1, k->path, k->increment,
+                    k->rejected, table_stability_word(k->stability), k->iterations);
         corrections(to, column, r, k);
     }
     if (steps > MOST_STEPS)

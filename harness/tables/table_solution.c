@@ -9,6 +9,7 @@
 #include "harness/tables/table_curves.h"
 #include "harness/tables/table_motion.h"
 #include "harness/tables/table_path.h"
+#include "harness/tables/table_stability.h"
 #include "harness/truth/truth.h"
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
@@ -107,11 +108,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
                   c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements,
                   c->size.free, c->counters.iterations, steps, c->counters.factorisations,
                   c->solve.seconds_setup, c->solve.seconds_solve);
-    if (c->counters.negative_pivots > 0)
-        paragraph_say(
-            to, 0, INDENT,
-            "unstable: up to %ld negative pivots of the tangent at a state that was reached",
-            c->counters.negative_pivots);
+    table_stability_paths(to, &p->scene, &c->solve);
     for (int i = 0; i < c->left_out_lines; i++)
         paragraph_write(to, fprintf(to, "left out: "), INDENT, c->left_out[i]);
     warping_ends(&p->scene, ends, sizeof ends);

@@ -75,8 +75,8 @@ class CurvesTest(SceneCase):
         """Beside each other where the abscissa is the same; of many points some, and how to get all."""
         text = self.answered("solve", "--scene", self.scene(FEW), *WHERE).stdout
         lines = [line.split() for line in text.splitlines()]
-        at = lines.index(["place", "[mm]", "force", "[N]", "k_z", "[N/m]"])
-        table = [[float(x) for x in line] for line in lines[at + 1:at + 22]]
+        at = lines.index(["place", "[mm]", "force", "[N]", "k_z", "[N/m]", "stable"])
+        table = [[float(x) for x in line[:3]] for line in lines[at + 1:at + 22]]
         self.assertEqual([row[0] for row in table], sorted(row[0] for row in table))
         self.assertAlmostEqual(table[10][0], 0)
         self.assertAlmostEqual(table[10][1], 0)

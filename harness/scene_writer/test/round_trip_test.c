@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "cases/scene/unit.h"
 #include "harness/catalogue/registry.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/scene_file/test/same_scene.h"
@@ -29,6 +30,9 @@ static void check_point(const point *p)
     scene_file *file = NULL;
     mistakes m;
     fault f = {""};
+    char words[FAULT_TEXT] = "";
+    gsl_test(scene_looks_foreign(&p->scene, words), "%s/%s: in SI (%s)", p->type->name, p->name,
+             words);
     const status read = scene_file_read_bytes(text, size, p->type->name, &file, &m, &f);
     gsl_test(read != STATUS_OK, "%s/%s: read (%s)", p->type->name, p->name, f.text);
     if (read == STATUS_OK) {
