@@ -74,9 +74,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, head, SCENE_UY, SCENE_RX);
     add_loads(s, load, foot, head);
     add_quantities(s, load);
-    scene_need(s, FEATURE_TRAPEZE);
-    if (load == SHEAR_CENTRE) /* symmetry: no others */
-        scene_need(s, FEATURE_WAGNER_MOMENTS);
+    if (load != SHEAR_CENTRE) /* whose moments are about the axis of symmetry */
+        scene_omit(s, FEATURE_WAGNER_MOMENTS);
     scene_meshes_doubled(s, 2, 64);
     return STATUS_OK;
 }

@@ -34,7 +34,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_member_at(s, scene_add_member(s, root, tip, profile, y_axis))->curvature[2] = 1 / radius;
     scene_hold_all(s, root);
     scene_add_load(s, SCENE_FORCE, tip, 0, 0, value[FORCE]);
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 
     const double end = 1;
     const int path = scene_add_static(s, 1, &end, 1);

@@ -84,13 +84,9 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold_all(s, root);
     const int node = load_node(value, s, &c, tip);
     scene_add_load(s, SCENE_FORCE, node, 0, 0, -1);
-    scene_need(s, FEATURE_TRAPEZE);
-    if (value[SHEAR] != 0)
-        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
-    if (value[WAGNER] != 0)
-        scene_need(s, FEATURE_WAGNER_MOMENTS);
-    if (value[ROTARY] != 0 && value[OMEGA] != 0)
-        scene_need(s, FEATURE_ROTARY_INERTIA);
+    scene_omit(s, (value[SHEAR] == 0 ? FEATURE_SHEAR : 0) |
+                      (value[WAGNER] == 0 ? FEATURE_WAGNER_MOMENTS : 0) |
+                      (value[ROTARY] == 0 ? FEATURE_ROTARY_INERTIA : 0));
     add_path(value, s, node);
     scene_meshes_doubled(s, 5, 80);
     return STATUS_OK;

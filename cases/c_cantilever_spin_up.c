@@ -53,7 +53,6 @@ static status build(const double value[], scene *s, fault *f)
     scene_member_at(s, member)->warp_p = SCENE_WARP_FIXED;
     spin(s, root, value[SPEED], value[DURATION]);
     scene_add_load(s, SCENE_GRAVITY, member, 0, 0, -9.81);
-    scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS);
     const int motion = timed_add(s, value, SCENE_NONE);
     for (int i = 0; i < 4; i++)
         scene_add_quantity(s, seen[i].name, seen[i].unit, motion,

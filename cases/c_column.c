@@ -16,8 +16,8 @@ static status build(const double value[], scene *s, fault *f)
 {
     int ends[2];
     TRY(column_build(value, s, ends, f));
-    if (value[ROTARY_INERTIA] != 0)
-        scene_need(s, FEATURE_ROTARY_INERTIA);
+    scene_omit(s,
+               FEATURE_WAGNER_MOMENTS | (value[ROTARY_INERTIA] == 0 ? FEATURE_ROTARY_INERTIA : 0));
     scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);
 
     const int buckling = scene_add_buckling(s, SCENE_NONE);

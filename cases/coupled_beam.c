@@ -126,7 +126,7 @@ static status build(const double value[], scene *s, fault *f)
             ->least_order = 1.8;
     else
         add_quantities(s, scene_add_linear(s), tip, coupling != 0);
-    scene_need(s, FEATURE_HARINGX);
+    scene_omit(s, FEATURE_ROTARY_INERTIA);
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);
     return STATUS_OK;

@@ -118,7 +118,7 @@ static status build(const double value[], scene *s, fault *f)
     double station[STATIONS];
     add_leaves(value, s, arm);
     turn_arm(value, s, arm);
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE);
+    scene_omit(s, FEATURE_WAGNER_TORQUE);
     for (int i = 0; i < STATIONS; i++)
         station[i] = (i + 1.0) / STATIONS;
     const int path = scene_add_static(s, STATIONS, station, 1);

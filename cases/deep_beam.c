@@ -38,10 +38,8 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_member(s, a, b, profile, y_axis);
     scene_hold(s, a, SCENE_UX, SCENE_RX);
     scene_hold(s, b, SCENE_UY, SCENE_UZ);
-    if (value[SHEAR] != 0)
-        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
-    if (value[ROTARY_INERTIA] != 0)
-        scene_need(s, FEATURE_ROTARY_INERTIA);
+    scene_omit(s, (value[SHEAR] == 0 ? FEATURE_SHEAR : 0) |
+                      (value[ROTARY_INERTIA] == 0 ? FEATURE_ROTARY_INERTIA : 0));
     const int modal = scene_add_modal(s, SCENE_NONE);
     frequencies_add(s, "frequency", modal, SCENE_ANY, FREQUENCIES);
     /* without shear and rotary inertia the ninth has most waves */

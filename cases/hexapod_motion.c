@@ -34,6 +34,7 @@ static status build(const double value[], scene *s, fault *f)
               angle = timed_driver(s, how[CRANK_ANGLE], how[DURATION]);
     TRY(hexapod_add(value, s, angle, platform, &profile, legs, f));
     s->section[profile].density = 7800;
+    scene_omit(s, FEATURE_ROTARY_INERTIA);
     scene_set_body(s, platform, body(5, 0.1));
     for (int i = 0; i < HEXAPOD_LEGS; i++) {
         scene_set_body(s, legs[i].rod, body(0.5, 0.1));

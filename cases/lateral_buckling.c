@@ -32,6 +32,7 @@ static status build(const double value[], scene *s, fault *f)
     spec.constants.Ip = value[RATIO] + 1;
     spec.constants.Iw = value[K] > 0 ? 1 / value[K] : 0;
     const int profile = scene_add_section(s, &spec);
+    scene_omit(s, FEATURE_TRAPEZE);
     const double y_axis[3] = {0, 1, 0};
     const int start = scene_add_node(s, 0, 0, 0), middle = scene_add_node(s, 0.5, 0, 0),
               end = scene_add_node(s, 1, 0, 0);

@@ -33,6 +33,7 @@ static void add_sheets(scene *s, int P)
     section_spec spec;
     sheet_section(0.1, 0.5e-3, 200e9, 0.3, 0, &spec);
     spec.density = 7800;
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int profile = scene_add_section(s, &spec);
     for (int i = 0; i < 2; i++) {
         const double x = 0.1 * i;

@@ -27,6 +27,7 @@ static int profile_of(int plane, scene *s)
     c->Iz = plane ? 2e6 : 2;
     c->Ip = c->Iy + c->Iz;
     c->It = plane ? 2e6 : 2.6;
+    scene_omit(s, FEATURE_TRAPEZE);
     return scene_add_section(s, &spec);
 }
 

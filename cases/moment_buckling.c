@@ -24,8 +24,8 @@ static status build(const double value[], scene *s, fault *f)
 {
     int ends[2];
     TRY(column_build(value, s, ends, f));
-    if (value[WAGNER_MOMENTS] != 0)
-        scene_need(s, FEATURE_WAGNER_MOMENTS);
+    if (value[WAGNER_MOMENTS] == 0)
+        scene_omit(s, FEATURE_WAGNER_MOMENTS);
     scene_add_load(s, SCENE_MOMENT, ends[0], 0, 0, -1);
     scene_add_load(s, SCENE_MOMENT, ends[1], 0, 0, 1);
     const int buckling = scene_add_buckling(s, SCENE_NONE);

@@ -37,8 +37,6 @@ static double add_beam(const double value[], scene *s, int *tip)
                                *k = value[MODEL] == BERNOULLI ? &thin : &thick;
     int root;
     cantilever_build(1, k, s, &root, tip);
-    if (k == &thick)
-        scene_need(s, FEATURE_ROTARY_INERTIA);
     if (value[BODY] > 0)
         scene_set_body(s, *tip, (scene_body){.mass = value[BODY] * k->density * k->EA});
     return 1 / (1 / (3 * k->EI) + (k->GA > 0 ? 1 / k->GA : 0));

@@ -42,6 +42,7 @@ static status build(const double value[], scene *s, fault *f)
         value[YOUNG], value[YOUNG] / (2 * (1 + value[POISSON])), value[DEPTH], value[THICKNESS]);
     spec.given.Iw = 0;
     spec.given.It = value[DEPTH] * pow(value[THICKNESS], 3) / 3;
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE);
     const int profile = scene_add_section(s, &spec);
     const double half = value[LEG] * sin(value[ANGLE] / 2),
                  rise = value[LEG] * cos(value[ANGLE] / 2), y_axis[3] = {0, 0, 1};

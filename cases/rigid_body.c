@@ -25,6 +25,7 @@ static status build(const double value[], scene *s, fault *f)
     spec.constants.A = spec.constants.Iy = spec.constants.Iz = spec.constants.It = 1e4;
     spec.constants.Ip = 2e4;
     const int profile = scene_add_section(s, &spec), body = scene_add_node(s, 0, 0, 0);
+    scene_omit(s, FEATURE_TRAPEZE);
     scene_set_body(s, body, (scene_body){.mass = 1, .inertia = {1, 2, 3}});
     scene_add_member(s, body, scene_add_attached(s, body, 0.5, 0, 0), profile, y_axis);
     const scene_start start = {

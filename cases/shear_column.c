@@ -27,8 +27,8 @@ static status build(const double value[], scene *s, fault *f)
     int ends[2];
     forks_column(s, &spec, value[LENGTH], ends);
     scene_add_load(s, SCENE_FORCE, ends[1], -1, 0, 0);
-    scene_need(s,
-               FEATURE_SHEAR | (value[SHEAR_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
+    scene_omit(s, FEATURE_TRAPEZE);
+    s->shear_theory = value[SHEAR_STABILITY] == 0 ? SCENE_SHEAR_ENGESSER : SCENE_SHEAR_HARINGX;
     const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *load =
         scene_add_quantity(s, "buckling_load", "N", buckling, scene_critical_factor(1, 0));

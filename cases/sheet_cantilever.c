@@ -99,8 +99,8 @@ static status build(const double value[], scene *s, fault *f)
          * rotation vector from there. */
         frequencies_add(s, "frequency", scene_add_modal(s, path_analysis), SCENE_ANY,
                         (int)value[MODES]);
-        if (value[ROTARY] != 0)
-            scene_need(s, FEATURE_ROTARY_INERTIA);
+        if (value[ROTARY] == 0)
+            scene_omit(s, FEATURE_ROTARY_INERTIA);
     }
     return STATUS_OK;
 }

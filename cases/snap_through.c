@@ -27,6 +27,7 @@ static int stiff_bar(scene *s)
     section *c = &spec.constants;
     c->A = c->Iy = c->Iz = c->It = 1;
     c->Ip = 2;
+    scene_omit(s, FEATURE_TRAPEZE);
     return scene_add_section(s, &spec);
 }
 

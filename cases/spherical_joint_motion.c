@@ -31,6 +31,7 @@ static int add_joint(const double value[], scene *s, int effector, fault *f, sta
     if (*outcome != STATUS_OK)
         return SCENE_NONE;
     s->section[profile].density = 7800;
+    scene_omit(s, FEATURE_ROTARY_INERTIA);
     const int base = scene_add_node(s, 0, 0, 0);
     scene_hold_all(s, base);
     return joint_add(value, s, profile, centre, axes, base, effector);

@@ -120,8 +120,8 @@ static status build(const double value[], scene *s, fault *f)
         scene_add_load(s, SCENE_MOMENT, tip, 10, 0, 0);
         add_statics(s, tip, value[SHEAR] != 0);
     }
-    if (value[SHEAR] != 0)
-        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_ROTARY_INERTIA |
+                      (value[SHEAR] == 0 ? FEATURE_SHEAR : 0));
     const int meshes[] = {2, 4, 8, 16, 32, 64};
     scene_meshes(s, 6, meshes);
     return STATUS_OK;

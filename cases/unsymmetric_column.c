@@ -44,12 +44,9 @@ static status build(const double value[], scene *s, fault *f)
     int ends[2];
     forks_column(s, &spec, value[LENGTH], ends);
     scene_add_load(s, SCENE_FORCE, ends[1], -load, 0, 0);
-    scene_need(s, FEATURE_TRAPEZE);
-    if (value[SHEAR] != 0)
-        scene_need(s, FEATURE_SHEAR |
-                          (value[SHEAR_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
-    if (value[ROTARY_INERTIA] != 0)
-        scene_need(s, FEATURE_ROTARY_INERTIA);
+    s->shear_theory = value[SHEAR_STABILITY] == 0 ? SCENE_SHEAR_ENGESSER : SCENE_SHEAR_HARINGX;
+    scene_omit(s, FEATURE_WAGNER_MOMENTS | (value[SHEAR] == 0 ? FEATURE_SHEAR : 0) |
+                      (value[ROTARY_INERTIA] == 0 ? FEATURE_ROTARY_INERTIA : 0));
 
     const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_quantity *critical = scene_add_quantity(s, "buckling_load", "N", buckling,

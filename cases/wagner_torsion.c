@@ -28,7 +28,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold(s, tip, SCENE_RY, SCENE_RZ);
     const double path[2] = {0, 1}, angle[2] = {0, value[ANGLE]};
     scene_drive(s, tip, SCENE_RX, scene_add_driver(s, "angle", 2, path, angle));
-    scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
+    scene_omit(s, FEATURE_SHEAR); /* which uniform torsion has none of */
 
     const double end = 1;
     const int twisting = scene_add_static(s, 1, &end, 1);

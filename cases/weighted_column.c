@@ -26,6 +26,7 @@ static status build(const double value[], scene *s, fault *f)
     spec.constants.Iz = spec.constants.It = 1;
     spec.constants.Ip = 4;
     const int profile = scene_add_section(s, &spec);
+    scene_omit(s, FEATURE_TRAPEZE);
     const int foot = scene_add_node(s, 0, 0, 0), head = scene_add_node(s, 0, 0, 1);
     const int column = scene_add_member(s, foot, head, profile, y_axis);
     scene_hold_all(s, foot);

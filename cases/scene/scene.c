@@ -285,9 +285,14 @@ const char *scene_plane_name(const scene *s)
     return name[s->plane];
 }
 
-void scene_need(scene *s, unsigned features)
+void scene_omit(scene *s, unsigned features)
 {
-    s->needs |= features;
+    s->omits |= features & SCENE_OMITTABLE;
+}
+
+void scene_demand(scene *s, unsigned features)
+{
+    s->demands |= features;
 }
 
 void scene_meshes(scene *s, int count, const int mesh[])

@@ -161,6 +161,19 @@ typedef struct scene_computed {
     char name[SCENE_NAME];
 } scene_computed;
 
+/* Physics that a scene may leave out: FEATURE_* bits. */
+enum {
+    SCENE_OMITTABLE = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
+                      FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA | FEATURE_WARPING
+};
+
+/* Theory of shear in stability that a scene asks for. */
+typedef enum scene_shear {
+    SCENE_SHEAR_HARINGX,
+    SCENE_SHEAR_ENGESSER,
+    SCENE_SHEAR_OWN /* of each formulation the one that it has */
+} scene_shear;
+
 struct scene {
     char name[SCENE_NAME];
     int sections, nodes, members, springs, drivers, loads, analyses, quantities;
@@ -175,8 +188,10 @@ struct scene {
     scene_analysis *analysis;
     scene_quantity *quantity;
     scene_plane plane; /* that all is held in; SCENE_SPACE: none */
-    unsigned needs; /* FEATURE_* bits that cannot be derived from the data: scene_need sets them */
-    int meshes;     /* default -n values of verify and converge */
+    unsigned omits;   /* of SCENE_OMITTABLE what the scene leaves out: scene_omit sets them */
+    unsigned demands; /* FEATURE_* bits beyond what its data call for: scene_demand sets them */
+    scene_shear shear_theory;
+    int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
     int out_of_memory;
     /* What is pointed to when memory ran out, so that a case can write without asking. */
@@ -248,8 +263,11 @@ const char *scene_convention(const scene *s, const scene_quantity *q);
 int scene_normal(const scene *s);
 /* "xy"; "" in space. */
 const char *scene_plane_name(const scene *s);
-/* Physics (FEATURE_* bits) that the scene is to have; the data say the rest: analyses, sections. */
-void scene_need(scene *s, unsigned features);
+/* Leaves physics (bits of SCENE_OMITTABLE) out. A scene has all that its sections, loads and
+ * analyses call for, but for this. */
+void scene_omit(scene *s, unsigned features);
+/* FEATURE_* bits that a formulation must offer beyond what the data call for. */
+void scene_demand(scene *s, unsigned features);
 void scene_meshes(scene *s, int count, const int mesh[]);
 /* first, twice that, and so on up to last. */
 void scene_meshes_doubled(scene *s, int first, int last);

@@ -11,21 +11,6 @@
 #include "elements/math/dense.h"
 #include "elements/section/taper.h"
 
-/* A section by its matrices has linear stiffness and nothing else. */
-static status check_matrices(const scene *s, int i, fault *f)
-{
-    const unsigned other =
-        FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
-    char words[200];
-    if (s->section[i].kind != SECTION_MATRICES || !(s->needs & other))
-        return STATUS_OK;
-    feature_words(s->needs & other, words, sizeof words);
-    return fault_set(f, STATUS_REFUSED,
-                     "%s: its matrices do not say what %s comes to; take that from the needs, or "
-                     "give another section",
-                     scene_called(s, SCENE_SECTIONS, i).text, words);
-}
-
 static status check_taper(const scene *s, int i, fault *f)
 {
     const int at[2] = {s->member[i].section, s->member[i].section_q};
@@ -225,11 +210,11 @@ static status check_load(const scene *s, int i, fault *f)
 status scene_validate(const scene *s, fault *f)
 {
     static status (*const check[])(const scene *, int, fault *) = {
-        scene_validate_node, check_matrices,          check_member,
-        check_spring,        scene_validate_turns,    check_driver,
-        check_load,          scene_validate_analysis, scene_validate_quantity};
-    const int count[] = {s->nodes,   s->sections, s->members,  s->springs,   s->nodes,
-                         s->drivers, s->loads,    s->analyses, s->quantities};
+        scene_validate_node,     check_member,           check_spring,
+        scene_validate_turns,    check_driver,           check_load,
+        scene_validate_analysis, scene_validate_quantity};
+    const int count[] = {s->nodes,   s->members, s->springs,  s->nodes,
+                         s->drivers, s->loads,   s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
     TRY(scene_validate_functions(s, f));

@@ -18,8 +18,8 @@ void cantilever_build(double length, const cantilever_stiffness *k, scene *s, in
     *tip = scene_add_node(s, length, 0, 0);
     scene_add_member(s, *root, *tip, profile, y_axis);
     scene_hold_all(s, *root);
-    if (k->GA > 0)
-        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
+    /* rods of no fibres; Bernoulli's have no rotary inertia either */
+    scene_omit(s, FEATURE_TRAPEZE | (k->GA > 0 ? 0 : FEATURE_ROTARY_INERTIA));
     scene_meshes_doubled(s, 1, 32);
 }
 

@@ -52,10 +52,8 @@ status column_build(const double value[], scene *s, int ends[2], fault *f)
     channel_section(&c, &spec);
     channel_print_constants(data, &spec);
     forks_column(s, &spec, value[COLUMN_LENGTH], ends);
-    if (value[COLUMN_SHEAR] != 0)
-        scene_need(s, FEATURE_SHEAR |
-                          (value[COLUMN_STABILITY] == 0 ? FEATURE_ENGESSER : FEATURE_HARINGX));
-    scene_need(s, FEATURE_TRAPEZE);
+    scene_omit(s, value[COLUMN_SHEAR] == 0 ? FEATURE_SHEAR : 0);
+    s->shear_theory = value[COLUMN_STABILITY] == 0 ? SCENE_SHEAR_ENGESSER : SCENE_SHEAR_HARINGX;
     scene_meshes_doubled(s, 2, 128);
     return STATUS_OK;
 }

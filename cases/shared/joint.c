@@ -41,9 +41,8 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
     sheet_section(value[JOINT_WIDTH], value[JOINT_THICKNESS], value[JOINT_YOUNG],
                   value[JOINT_POISSON], 0, &spec);
     *profile = scene_add_section(s, &spec);
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE);
-    if (value[JOINT_WAGNER] != 0)
-        scene_need(s, FEATURE_WAGNER_TORQUE);
+    if (value[JOINT_WAGNER] == 0)
+        scene_omit(s, FEATURE_WAGNER_TORQUE);
     return STATUS_OK;
 }
 

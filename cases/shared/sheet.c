@@ -61,12 +61,9 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     sheet->warp_p = SCENE_WARP_FIXED;
     sheet->warp_q = value[SHEET_TIP_WARPING] == 0 ? SCENE_WARP_FIXED : SCENE_WARP_FREE;
     scene_hold_all(s, *root);
-    if (value[SHEET_SHEAR] != 0)
-        scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
-    if (value[SHEET_TRAPEZE] != 0)
-        scene_need(s, FEATURE_TRAPEZE);
-    if (value[SHEET_WAGNER] != 0)
-        scene_need(s, FEATURE_WAGNER_TORQUE);
+    scene_omit(s, (value[SHEET_SHEAR] == 0 ? FEATURE_SHEAR : 0) |
+                      (value[SHEET_TRAPEZE] == 0 ? FEATURE_TRAPEZE : 0) |
+                      (value[SHEET_WAGNER] == 0 ? FEATURE_WAGNER_TORQUE : 0));
     /* a far bent sheet of many widths settles late */
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128, 256},
               is_narrow = length >= 10 * value[SHEET_WIDTH];

@@ -18,7 +18,6 @@ section_spec timed_profile(const timed_section *of)
 
 int timed_add(scene *s, const double value[], int follows)
 {
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
     return timed_add_started(s, value, follows, (scene_start){.velocity = {0}});
 }
 

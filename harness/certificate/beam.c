@@ -123,7 +123,7 @@ int beam_point(const beam_request *r, double at, double exact, measure *one)
     scene_init(&s, "beam");
     add_pieces(r, &s);
     add_question(r, &s);
-    scene_need(&s, r->needs);
+    scene_omit(&s, SCENE_OMITTABLE & ~(r->needs | FEATURE_WARPING));
     if (scene_validate(&s, &f) != STATUS_OK)
         snprintf(words, sizeof words, "%.180s", f.text);
     else if (missing_words(&s, r->chosen->type, missing, sizeof missing))

@@ -4,10 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/omission.h"
 #include "cases/scene/unit.h"
 #include "harness/catalogue/case_find.h"
+#include "harness/catalogue/parameters.h"
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
+#include "harness/model/features.h"
 #include "harness/truth/data_place.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
@@ -23,11 +26,35 @@ static void tell_mistakes(const command_request *r, const mistakes *m, status ou
         message_fail(STATUS_FAULT, unwritten.text);
 }
 
+/* What stands for the `needs` of earlier versions. */
+static void tell_needs(const char *path, const case_type *type)
+{
+    double value[CASE_MAX_PARAMETERS];
+    char words[SCENE_OMISSION_WORDS], omit[SCENE_OMISSION_WORDS + 20] = "", theory[40] = "";
+    scene s;
+    fault f;
+    parameters_default(type, value);
+    scene_init(&s, type->name);
+    if (case_build(type, value, &s, &f) == STATUS_OK) {
+        scene_omission_words(s.omits, words);
+        if (s.omits != 0)
+            snprintf(omit, sizeof omit, "omit: [%s]", words);
+        if (s.shear_theory != SCENE_SHEAR_HARINGX && features_sheared(&s))
+            snprintf(theory, sizeof theory, "shear_theory: %s", scene_shear_word(s.shear_theory));
+        fprintf(stderr, "beamwork: %s: needs is read as earlier versions did; %s %s%s%s\n", path,
+                omit[0] != '\0' || theory[0] != '\0' ? "in its place write" : "leave it out", omit,
+                omit[0] != '\0' && theory[0] != '\0' ? " and " : "", theory);
+    }
+    scene_free(&s);
+}
+
 int case_input_read(const command_request *r, const char *path, scene_file **out)
 {
     mistakes m;
     fault f = {""};
     const status outcome = scene_file_read(path, out, &m, &f);
+    if (outcome == STATUS_OK && scene_file_states(*out, "needs"))
+        tell_needs(path, scene_file_case(*out));
     if (outcome == STATUS_OK)
         return EXIT_AS_EXPECTED;
     tell_mistakes(r, &m, outcome, &f);

@@ -82,8 +82,8 @@ static status refuse(const model *m, int vertex, const char *what, fault *f)
         whose = scene_called(m->scene, SCENE_NODES, vertex);
     return fault_set(f, STATUS_REFUSED,
                      "integrator explicit: the %s of %s has no inertia, so that its acceleration "
-                     "is not determined; give what has none a mass or an inertia (members: needs: "
-                     "[rotary_inertia]), or take alpha, conserving or radau",
+                     "is not determined; give what has none a mass or an inertia (members: "
+                     "do not omit rotary_inertia), or take alpha, conserving or radau",
                      what, whose.text);
 }
 

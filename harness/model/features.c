@@ -60,29 +60,87 @@ static int elements_have_mass(const scene *s)
     return 0;
 }
 
-static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs)
+/* Sections that members have. */
+static int is_used(const scene *s, int index)
 {
-    if (!c->matrices)
+    for (int i = 0; i < s->members; i++)
+        if (s->member[i].section == index || s->member[i].section_q == index)
+            return 1;
+    return 0;
+}
+
+/* Physics that is there for what stresses and turns a section by its constants: what it has of it
+ * at all, where the analyses have stresses. */
+static unsigned needs_of_stresses(const section *c, unsigned needs)
+{
+    const double arm = sqrt(c->Ip / c->A), zero = 1e-10;
+    unsigned out = FEATURE_TRAPEZE;
+    if (!(needs & (FEATURE_GEOMETRIC | FEATURE_LARGE)))
         return 0;
-    const int coupled =
-        section_matrices_couple(c, elements_have_mass(s), (needs & FEATURE_ROTARY_INERTIA) != 0);
-    return FEATURE_SHEAR | (coupled ? FEATURE_COUPLED : 0);
+    if (hypot(c->wagner_y, c->wagner_z) > zero * c->Ip * arm)
+        out |= FEATURE_WAGNER_MOMENTS;
+    /* cubic in the twist rate: nothing about the undeformed state */
+    if ((needs & FEATURE_LARGE) && fabs(c->wagner_torque) > zero * c->Ip * arm * arm)
+        out |= FEATURE_WAGNER_TORQUE;
+    return out;
+}
+
+static unsigned needs_of_constants(const section *c, unsigned needs)
+{
+    unsigned out = needs_of_stresses(c, needs);
+    for (int i = 0; i < 3; i++)
+        out |= c->F[4 * i] > 0 && (i < 2 || c->Iw > 0) ? FEATURE_SHEAR : 0;
+    out |= c->Iw > 0 ? FEATURE_WARPING : 0;
+    out |= features_eccentric(c) ? FEATURE_ECCENTRIC : 0;
+    return out | (needs & FEATURE_MASS && c->density > 0 ? FEATURE_ROTARY_INERTIA : 0);
+}
+
+/* Its matrices have shear, and say nothing of warping, trapeze and Wagner's effects. */
+static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs, unsigned omits)
+{
+    const unsigned rotary = needs & FEATURE_MASS ? FEATURE_ROTARY_INERTIA & ~omits : 0;
+    const int coupled = section_matrices_couple(c, elements_have_mass(s), rotary != 0);
+    return FEATURE_SHEAR | rotary | (coupled ? FEATURE_COUPLED : 0);
+}
+
+static int is_sheared(unsigned needs)
+{
+    return (needs & FEATURE_SHEAR) && (needs & (FEATURE_GEOMETRIC | FEATURE_LARGE));
+}
+
+/* What the scene calls for when it leaves this out. */
+static unsigned needed_without(const scene *s, unsigned omits)
+{
+    unsigned needs = s->demands | needs_of_analyses(s) | features_of_quantities(s), all = needs;
+    for (int i = 0; i < s->members; i++)
+        all |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (!is_used(s, i) || scene_constants(s, i, &c, NULL) != STATUS_OK)
+            continue; /* model_alloc says why */
+        all |= c.matrices ? needs_of_matrices(s, &c, needs, omits)
+                          : needs_of_constants(&c, needs) & ~omits;
+    }
+    if (is_sheared(all))
+        all |= s->shear_theory == SCENE_SHEAR_HARINGX    ? FEATURE_HARINGX
+               : s->shear_theory == SCENE_SHEAR_ENGESSER ? FEATURE_ENGESSER
+                                                         : 0;
+    return all;
 }
 
 unsigned features_needed(const scene *s)
 {
-    unsigned needs = s->needs | needs_of_analyses(s) | features_of_quantities(s);
-    for (int i = 0; i < s->members; i++)
-        needs |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
-    for (int i = 0; i < s->sections; i++) {
-        section c;
-        if (scene_constants(s, i, &c, NULL) != STATUS_OK)
-            continue; /* model_alloc says why */
-        needs |= c.Iw > 0 ? FEATURE_WARPING : 0;
-        needs |= needs_of_matrices(s, &c, needs);
-        needs |= features_eccentric(&c) ? FEATURE_ECCENTRIC : 0;
-    }
-    return needs;
+    return needed_without(s, s->omits);
+}
+
+unsigned features_omitted(const scene *s)
+{
+    return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
+}
+
+int features_sheared(const scene *s)
+{
+    return is_sheared(features_needed(s));
 }
 
 static unsigned theory_features(unsigned theories)
@@ -102,13 +160,22 @@ unsigned features_needed_of(const scene *s, const element_type *type)
 unsigned features_theory(const scene *s, const element_type *type)
 {
     const unsigned needs = features_needed_of(s, type);
-    if (!(needs & FEATURE_SHEAR))
+    if (!is_sheared(needs))
         return 0;
     if (type->shear_theories & SHEAR_OWN)
         return SHEAR_OWN;
-    if (needs & FEATURE_ENGESSER)
-        return SHEAR_ENGESSER;
-    return needs & FEATURE_HARINGX ? SHEAR_HARINGX : 0;
+    if (needs & FEATURE_HARINGX)
+        return SHEAR_HARINGX;
+    /* of two, Engesser's where none is asked for */
+    return needs & FEATURE_ENGESSER || type->shear_theories & SHEAR_ENGESSER ? SHEAR_ENGESSER
+                                                                             : type->shear_theories;
+}
+
+const char *features_theory_words(const element_type *type, unsigned theory)
+{
+    if (theory == SHEAR_OWN)
+        return type->own_theory;
+    return theory == SHEAR_ENGESSER ? "Engesser" : theory == SHEAR_HARINGX ? "Haringx" : "";
 }
 
 unsigned features_needed_by_quantity(const scene *s, int quantity)
@@ -126,8 +193,11 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
 {
     (void)f;
     const section *c = &m->section[index];
+    const unsigned beyond_matrices =
+        FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
     *features = m->features & m->type->offers;
-    if ((c->Iw <= 0 && !m->keep_all) || c->matrices)
+    *features &= ~(c->matrices ? beyond_matrices : m->scene->omits & FEATURE_SHEAR);
+    if (c->Iw <= 0 && !m->keep_all)
         *features &= ~(unsigned)FEATURE_WARPING;
     if (!features_eccentric(c))
         *features &= ~(unsigned)FEATURE_ECCENTRIC;

@@ -9,12 +9,18 @@
 unsigned features_needed(const scene *);
 /* Those without which an asked quantity means nothing. */
 unsigned features_of_quantities(const scene *);
+/* Of the physics that it would call for, what the scene leaves out. */
+unsigned features_omitted(const scene *);
 /* The same with the theory of shear in stability that the type has instead of the one the scene
  * asks for: FEATURE_* bits. */
 unsigned features_needed_of(const scene *, const element_type *);
-/* The theory of shear that values of the type on this scene follow: a bit of shear_theory; 0:
- * nothing is flexible in shear. */
+/* The theory of shear in stability that values of the type on this scene follow: a bit of
+ * shear_theory; 0: nothing is flexible in shear, or nothing is stressed. */
 unsigned features_theory(const scene *, const element_type *);
+/* Is there shear, and stability that its theory matters to? */
+int features_sheared(const scene *);
+/* Its name: "Haringx"; of SHEAR_OWN what the type says of it; "" of 0. */
+const char *features_theory_words(const element_type *, unsigned theory);
 /* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating
  * structure. */
 unsigned features_needed_by_quantity(const scene *, int quantity);

@@ -81,7 +81,7 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(profile_scene(m, f));
     m->features = (features_needed_of(s, type) & ~m->omits) | (type->offers & FEATURE_CURVATURE);
     if (m->keep_all)
-        m->features |= (FEATURE_WARPING | FEATURE_ECCENTRIC) & ~m->omits;
+        m->features |= (FEATURE_WARPING | FEATURE_ECCENTRIC) & ~(m->omits | s->omits);
     TRY(choose_options(m, request->options, f));
     m->driver_coordinate = malloc(((size_t)s->drivers + 1) * sizeof *m->driver_coordinate);
     if (m->driver_coordinate == NULL)

@@ -64,6 +64,6 @@ status checks_massless(const analysis_context *c, const carried *masses, const s
     return fault_set(f, STATUS_REFUSED,
                      "%d coordinates have no inertia: their accelerations would grow by the "
                      "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
-                     "sections rotary inertia (needs: [rotary_inertia])",
+                     "sections rotary inertia (do not omit rotary_inertia)",
                      massless);
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/omission.h"
+#include "harness/model/features.h"
 #include "harness/record/json_record.h"
 #include "harness/schema/gather.h"
 #include "harness/study/noise.h"
@@ -98,6 +100,19 @@ status json_finish(json_t *root, FILE *to, fault *f)
     return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
 }
 
+/* What the scene leaves out, and the theory of shear in stability that values follow. */
+static void add_physics(json_t *root, const scene *s, const element_type *type)
+{
+    json_t *omitted = json_array();
+    const unsigned features = features_omitted(s);
+    for (const scene_omission *o = scene_omissions; o->word != NULL; o++)
+        if (features & o->feature)
+            json_array_append_new(omitted, json_string(o->word));
+    json_object_set_new(root, "omitted", omitted);
+    json_object_set_new(root, "shear_theory",
+                        json_string(features_theory_words(type, features_theory(s, type))));
+}
+
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
 {
     static const record_type *const lists[] = {&record_event, &record_motion, &record_step,
@@ -112,6 +127,7 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
                           parameters = parameters_list(cell.point->type);
     json_object_set_new(root, "options", values_of(&options, chosen->option));
     json_object_set_new(root, "parameters", values_of(&parameters, cell.point->parameter));
+    add_physics(root, &cell.point->scene, chosen->type);
     json_object_set_new(root, record_cell.name, json_record(&record_cell, &cell, 0));
     add_quantities(root, &g);
     add_curves(root, &g);

@@ -21,7 +21,7 @@ static status choose(solution_request *r, const rule *rules, int count, int elem
     TRY(cell_scene(r->type, r->parameter, NULL, s, f));
     TRY(narrow_scene(s, r->type, r->parameter, &r->formulation, r->select, f));
     if (r->systems)
-        scene_need(s, FEATURE_MASS);
+        scene_demand(s, FEATURE_MASS);
     if (r->formulation.type == NULL) {
         const rule_subject where = {
             .type = r->type, .parameter = r->parameter, .features = features_needed(s)};
@@ -51,7 +51,7 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     TRY(plan_one(r->type, r->parameter, &r->formulation, 1, &r->elements, 1, s, f));
     TRY(narrow_to(s, r->select, f));
     if (r->systems)
-        scene_need(&s->point[0].scene, FEATURE_MASS);
+        scene_demand(&s->point[0].scene, FEATURE_MASS);
     return STATUS_OK;
 }
 

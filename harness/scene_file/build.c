@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/omission.h"
 #include "cases/scene/unit.h"
 #include "cases/scene/warping.h"
 #include "harness/language/expression.h"
@@ -70,22 +71,48 @@ static void list_entries(builder *b)
             check_name(b, (builder_list)i, k);
 }
 
-static void read_needs(builder *b)
+/* What earlier versions had in its place: what it does not list is left out, but for warping, which
+ * every section had that has any. */
+static void read_needs(const fields *f)
 {
     static const char choices[] =
         "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|engesser|haringx";
-    static const unsigned feature[] = {
-        FEATURE_SHEAR,          FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS, FEATURE_WAGNER_TORQUE,
-        FEATURE_ROTARY_INERTIA, FEATURE_WARPING, FEATURE_ENGESSER,       FEATURE_HARINGX};
+    enum { ENGESSER = 1 << 6, HARINGX = 1 << 7 };
+    const unsigned needs = fields_words(f, "needs", choices);
+    scene *s = f->b->scene;
+    for (int i = 0; scene_omissions[i].word != NULL; i++)
+        if (!(needs >> i & 1u) && scene_omissions[i].feature != FEATURE_WARPING)
+            scene_omit(s, scene_omissions[i].feature);
+    int sheared = (needs & 1u) != 0;
+    for (int i = 0; i < s->sections; i++)
+        sheared |= s->section[i].kind == SECTION_MATRICES;
+    s->shear_theory = needs & HARINGX || !sheared ? SCENE_SHEAR_HARINGX
+                      : needs & ENGESSER          ? SCENE_SHEAR_ENGESSER
+                                                  : SCENE_SHEAR_OWN;
+}
+
+static void read_physics(builder *b)
+{
+    static const char choices[] =
+        "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|all|none";
+    enum { ALL = 1 << 6 };
     const fields f = {b, b->names, b->root, b->root, NULL};
     if (!fields_have(&f, "needs")) {
-        scene_need(b->scene, FEATURE_SHEAR);
+        const unsigned omits = fields_words(&f, "omit", choices);
+        for (int i = 0; scene_omissions[i].word != NULL; i++)
+            if (omits >> i & 1u || omits & ALL)
+                scene_omit(b->scene, scene_omissions[i].feature);
+        b->scene->shear_theory =
+            (scene_shear)fields_word(&f, "shear_theory", "haringx|engesser|own", 0);
         return;
     }
-    const unsigned needs = fields_words(&f, "needs", choices);
-    for (size_t i = 0; i < sizeof feature / sizeof feature[0]; i++)
-        if (needs >> i & 1u)
-            scene_need(b->scene, feature[i]);
+    for (int i = 0; i < b->root->count; i++)
+        if (strcmp(b->root->key[i]->text, "omit") == 0 ||
+            strcmp(b->root->key[i]->text, "shear_theory") == 0)
+            document_mistake(b->mistakes, b->root->key[i], 0,
+                             "%s: 'needs' of earlier versions stands beside it; take 'needs' out",
+                             b->root->key[i]->text);
+    read_needs(&f);
 }
 
 static void read_plane(builder *b)
@@ -186,7 +213,7 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
     const int own = out->quantities;
     builder_defaults(&b);
     read_plane(&b);
-    read_needs(&b);
+    read_physics(&b);
     read_meshes(&b);
     m->out_of_memory |= a->failed || out->out_of_memory;
     if (b.units.given && m->count == 0 && !m->out_of_memory)

@@ -8,7 +8,7 @@
 
 static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
 
-#define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|engesser|haringx"
+#define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping"
 
 const scene_key keys_root[] = {
     {"beamwork", KEY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
@@ -40,7 +40,14 @@ const scene_key keys_root[] = {
     {"truths", KEY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
     {"plane", KEY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
-    {"needs", KEY_WORDS, .words = PHYSICS, .summary = "physics", .usual = "shear"},
+    {"omit", KEY_WORDS, .words = PHYSICS "|all|none", .summary = "physics that is left out",
+     .left_out = "none: all that sections, loads and analyses call for is there"},
+    {"shear_theory", KEY_WORD, .words = "haringx|engesser|own",
+     .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
+    {"needs", KEY_WORDS, .words = PHYSICS "|engesser|haringx",
+     .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "
+                "omit stands for it now",
+     .left_out = "omit says it"},
     {"meshes", KEY_NUMBERS, .summary = "elements per member", .usual = "[1, 2, 4, 8]"},
     {"parts", KEY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
      .left_out = "none"},

@@ -2,32 +2,19 @@
 
 #include <stdlib.h>
 
+#include "cases/scene/omission.h"
 #include "harness/scene_writer/write_impl.h"
 
-static void write_needs(writer *w)
+static void write_physics(writer *w)
 {
-    static const struct {
-        unsigned feature;
-        const char *word;
-    } all[] = {{FEATURE_SHEAR, "shear"},
-               {FEATURE_TRAPEZE, "trapeze"},
-               {FEATURE_WAGNER_MOMENTS, "wagner_moments"},
-               {FEATURE_WAGNER_TORQUE, "wagner_torque"},
-               {FEATURE_ROTARY_INERTIA, "rotary_inertia"},
-               {FEATURE_WARPING, "warping"},
-               {FEATURE_ENGESSER, "engesser"},
-               {FEATURE_HARINGX, "haringx"}};
-    unsigned rest = w->scene->needs;
-    const char *comma = "";
-    fputs("needs: [", w->to);
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (rest & all[i].feature) {
-            fprintf(w->to, "%s%s", comma, all[i].word);
-            comma = ", ";
-            rest &= ~all[i].feature;
-        }
-    fputs("]\n", w->to);
-    w->unwritable |= rest != 0;
+    char words[SCENE_OMISSION_WORDS];
+    scene_omission_words(w->scene->omits, words);
+    if (w->scene->omits == SCENE_OMITTABLE)
+        fputs("omit: all\n", w->to);
+    else if (w->scene->omits != 0)
+        fprintf(w->to, "omit: [%s]\n", words);
+    if (w->scene->shear_theory != SCENE_SHEAR_HARINGX)
+        fprintf(w->to, "shear_theory: %s\n", scene_shear_word(w->scene->shear_theory));
 }
 
 static void write_meshes(writer *w)
@@ -63,10 +50,10 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_quantities(&w);
     if (s->plane != SCENE_SPACE)
         fprintf(to, "plane: %s\n", scene_plane_name(s));
-    write_needs(&w);
+    write_physics(&w);
     write_meshes(&w);
     return w.unwritable ? fault_set(f, STATUS_REFUSED,
-                                    "%s: a number is infinite, or a physics has no word; no scene "
+                                    "%s: a number is infinite; no scene "
                                     "file can say it",
                                     head->name)
                         : STATUS_OK;

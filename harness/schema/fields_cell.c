@@ -2,8 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/omission.h"
 #include "elements/feature.h"
 #include "harness/scene_writer/warping_ends.h"
+#include "harness/model/features.h"
 #include "harness/schema/fields_keys.h"
 #include "harness/timing/price.h"
 
@@ -61,6 +63,23 @@ const record_type record_point = {"point",
                                   "a case with the values of its parameters",
                                   {keys_of_point, fields_of_point}};
 
+static void get_omitted(const subject *s, field_value *out)
+{
+    char words[SCENE_OMISSION_WORDS] = "";
+    if (s->point->status == STATUS_OK)
+        scene_omission_words(features_omitted(&s->point->scene), words);
+    snprintf(out->room, sizeof out->room, "%s", words);
+    out->text = out->room;
+}
+
+static void get_theory(const subject *s, field_value *out)
+{
+    const element_type *type = s->series->formulation.type;
+    schema_set_text(out, s->series->imported == NULL && s->point->status == STATUS_OK
+                             ? features_theory_words(type, features_theory(&s->point->scene, type))
+                             : "");
+}
+
 static void get_imported(const subject *s, field_value *out)
 {
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->file : "");
@@ -99,6 +118,10 @@ static const schema_field fields_of_series[] = {
     {"imported", "", FIELD_TEXT, "file of another program that it was read from; empty: run here",
      .get = get_imported},
     {"model", "", FIELD_TEXT, "beam, or another one that the other program has", .get = get_model},
+    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
+     .get = get_omitted},
+    {"shear_theory", "", FIELD_TEXT, "in stability, which it follows here; empty: nothing shears",
+     .get = get_theory},
     {0}};
 const record_type record_series = {"series",
                                    "series",

@@ -2,8 +2,12 @@
 
 #include <math.h>
 
+#include "cases/scene/omission.h"
 #include "harness/judge/rounding.h"
+#include "harness/model/features.h"
 #include "harness/tables/paragraph.h"
+
+enum { INDENT = 2 };
 
 void table_percent(FILE *to, double error)
 {
@@ -41,6 +45,21 @@ void table_value(FILE *to, int width, int digits, char conversion, double value)
 void table_point(FILE *to, const point *p)
 {
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
+}
+
+void table_omitted(FILE *to, const scene *s)
+{
+    char words[SCENE_OMISSION_WORDS];
+    scene_omission_words(features_omitted(s), words);
+    if (words[0] != '\0')
+        paragraph_write(to, fprintf(to, "omitted: "), INDENT, words);
+}
+
+void table_theory(FILE *to, const scene *s, const element_type *type)
+{
+    const char *words = features_theory_words(type, features_theory(s, type));
+    if (words[0] != '\0')
+        paragraph_write(to, fprintf(to, "shear in stability: "), INDENT, words);
 }
 
 void table_series(FILE *to, const sweep *s, int index)

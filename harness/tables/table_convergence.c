@@ -78,6 +78,8 @@ static void quantity_block(FILE *to, const sweep *s, const truths *t, int index,
 
 void table_convergence(FILE *to, const sweep *s, const truths *t)
 {
+    for (int i = 0; i < s->points; i++)
+        table_omitted(to, &s->point[i].scene);
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         const scene *wanted = &s->point[one->point].scene;
@@ -86,6 +88,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
             paragraph_say(to, 0, 2, "skip: does not offer %s", one->missing);
             continue;
         }
+        table_theory(to, wanted, one->formulation.type);
         for (int q = 0; q < wanted->quantities; q++)
             if (wanted->quantity[q].reduction != SCENE_CURVE)
                 quantity_block(to, s, t, i, q);

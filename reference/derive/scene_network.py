@@ -11,10 +11,10 @@ from reference.derive.scene_section import beam, constants_of
 from reference.derive.scene_support import FREE, HELD, WORDS, Applied, Support, rotation_vector
 from reference.derive.scene_text import Refused, named, number, numbers, only, table
 
-NEEDS = ("shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia", "warping",
-         "haringx")
+PHYSICS = frozenset(
+    ("shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia", "warping"))
 SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions",
-         "loads", "analyses", "quantities", "needs", "meshes")
+         "loads", "analyses", "quantities", "omit", "shear_theory", "meshes")
 NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia"
         )  # inertia: scene_vibration.py
 MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions", "release")
@@ -57,16 +57,26 @@ class Frame:
         return self.described @ np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
 
 
+def physics_of(scene):
+    """All but what the scene leaves out; shear in stability after Haringx."""
+    if scene.get("shear_theory", "haringx") == "engesser":
+        raise Refused("shear_theory: 'engesser' is not within the deriving program")
+    omitted = scene.get("omit", [])
+    if omitted == "all":
+        return frozenset()
+    for word in omitted:
+        if word not in PHYSICS:
+            raise Refused(f"omit: '{word}' is not within the deriving program")
+    return PHYSICS.difference(omitted)
+
+
 class SceneNetwork:
     """net; places {name: Place}; motion {name: function(level, numbers)} in SI; unknown {motion: its number}."""
 
     def __init__(self, scene, intervals, nodes, form=lambda beam: beam):
         """form: turns a beam into another one, as predicted.py does."""
         only(scene, "the scene", SCENE)
-        self.scene, self.needs, self.form = scene, scene.get("needs", []), form
-        for word in self.needs:
-            if word not in NEEDS:
-                raise Refused(f"needs: '{word}' is not within the deriving program")
+        self.scene, self.physics, self.form = scene, physics_of(scene), form
         self.places, self.numbers, self.extra, self.unknown, self.conditions_of = {}, 0, [], {}, []
         self._measure()
         self.net = Network(self.length, self.force, intervals=intervals, nodes=nodes)
@@ -262,7 +272,7 @@ class SceneNetwork:
                 raise Refused(
                     f"{name}: a curved member with inclined principal axes is not within the deriving program"
                 )
-            plain, s = beam(section, self.needs, frame.length, frame.curvature, where)
+            plain, s = beam(section, self.physics, frame.length, frame.curvature, where)
             ends = [named(self.places, entry[end], "node", name) for end in ("from", "to")]
             principal = frame.principal(s.turned)
             loads = list(

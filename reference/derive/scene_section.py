@@ -1,4 +1,4 @@
-"""The beam (beam.py) of a section of a scene, with the physics that the scene asks for.
+"""The beam (beam.py) of a section of a scene, with the physics that the scene does not leave out.
 
 A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever the shear centre is
 off the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2 + z^2) dA only with `wagner_moments`.
@@ -126,28 +126,26 @@ def constants_of(entry, where):
     return out
 
 
-def beam(entry, needs, length, curvature, where):
+def beam(entry, physics, length, curvature, where):
     """(Beam, constants) of a member of this length [m] and curvature [1/m] about the section's z axis."""
     s = constants_of(entry, where)
     E, G = number(entry["young"], where), number(entry["shear_modulus"], where)
     if s.It == 0 and s.Iw == 0:
         raise Refused(f"{where}: nothing resists its torsion")
-    if s.Iw == 0 and "shear" in needs and np.any(s.F[2, :2]):
+    if s.Iw == 0 and "shear" in physics and np.any(s.F[2, :2]):
         raise Refused(f"{where}: shear that is coupled with a warping that is not there")
-    if "walls" in entry and "wagner_torque" in needs:
-        raise Refused(f"{where}: the Wagner torque of walls is not within the deriving program")
-    moments = "wagner_moments" in needs
+    moments = "wagner_moments" in physics
     out = Beam(
         length,
         EA=E * s.A,
         EIy=E * s.Iy,
         EIz=E * s.Iz,
         GJ=G * s.It,
-        EIw=E * s.Iw,
+        EIw=("warping" in physics) * E * s.Iw,
         curvature=curvature,
         centre=(s.ys, s.zs),
-        t=("trapeze" in needs) * s.Ip / s.A + s.ys ** 2 + s.zs ** 2,
-        c=("wagner_torque" in needs) * E * s.wagner_torque,
+        t=("trapeze" in physics) * s.Ip / s.A + s.ys ** 2 + s.zs ** 2,
+        c=("wagner_torque" in physics) * E * s.wagner_torque,
         wagner=(moments * s.wagner_z / s.Iy - 2 * s.zs, moments * s.wagner_y / s.Iz - 2 * s.ys),
-        shear=("shear" in needs) * s.F / G)
+        shear=("shear" in physics) * s.F / G)
     return out, s

@@ -20,9 +20,9 @@ def inertia_of(scene, name):
     """(rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the network's units."""
     section, where = scene.section_of(scene.scene["members"][name])
     s, rho = constants_of(section, where), number(section.get("density", "0"), where) / scene.force
-    rotary = float("rotary_inertia" in scene.needs)
+    rotary = float("rotary_inertia" in scene.physics)
     return rho * s.A * scene.length ** 2, rho * np.array(
-        [s.Ip, rotary * s.Iy, rotary * s.Iz]), rotary * rho * s.Iw / scene.length ** 2
+        [s.Ip, rotary * s.Iy, rotary * s.Iz]), rotary * ("warping" in scene.physics) * rho * s.Iw / scene.length ** 2
 
 
 def body_masses(scene, size):

@@ -23,7 +23,8 @@ loads:
 %(motions)sanalyses:
   path: {%(path)s}
 quantities:
-%(quantities)sneeds: [%(needs)s]
+%(quantities)somit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
+%(more)s
 """
 HINGE = """beamwork: 1
 sections:
@@ -41,12 +42,12 @@ quantities:
   shift_x: {displacement: {analysis: path, node: arm, component: ux}, unit: m}
   k_tilt_x: {stiffness: {analysis: there, component: rx}, unit: N m/rad}
   k_z: {stiffness: {analysis: there, component: uz}, unit: N/m}
-needs: [shear, trapeze, haringx]
+omit: [wagner_moments, wagner_torque, rotary_inertia]
 """
 
 
 def bar(load, quantities, path="static: {stations: [1], steps: 4}", **changes):
-    words = {"tip": "", "beam": "", "motions": "", "needs": "", **changes}
+    words = {"tip": "", "beam": "", "motions": "", "more": "", **changes}
     return BAR % {
         "load": load, "path": path, "quantities": "".join(
             f"  {name}: {{{what}}}\n" for name, what in quantities.items()), **words
@@ -262,7 +263,7 @@ class Refusals(unittest.TestCase):
         push, asked = "force: [0, 1, 0], on: tip", {"w": tip("uy")}
         self.refused("'springs'", bar(push, asked) + "springs: {}\n")
         self.refused("'strain'", bar(push, asked, beam=", strain: [1e-3, 0, 0]"))
-        self.refused("needs: 'engesser'", bar(push, asked, needs="engesser"))
+        self.refused("shear_theory: 'engesser'", bar(push, asked, more="shear_theory: engesser"))
         self.refused("changes along",
                      bar(push, asked).replace("section: bar", "section: [bar, bar]"))
         self.refused(

@@ -15,7 +15,7 @@ loads: {p: {force: [%(force)r, 0, 0], on: b}%(more)s}
 analyses: {path: {static: {stations: [1]}}, about: {buckling: {about: path, wanted: 4}}}
 quantities:
   P_$i: {for: {i: 0..%(last)d}, critical_factor: {analysis: about, which: $i}, unit: 1}
-needs: []
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 I = 4 / math.pi ** 2
 ZERO = ", z: {moment: [0, 0, 0], on: b}"

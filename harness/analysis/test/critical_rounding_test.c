@@ -59,7 +59,7 @@ static void angle(scene *s, int *foot, int *head)
     scene_add_member(s, *foot, *head, scene_add_section(s, &spec), (const double[3]){0, 1, 0});
     scene_hold(s, *foot, SCENE_UX, SCENE_RX);
     scene_hold(s, *head, SCENE_UY, SCENE_RX);
-    scene_need(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
 }
 
 static void angle_bent(scene *s, const double direction[3])

@@ -24,7 +24,7 @@ static void strip(const element_type *e, ask_tally *tally)
     scene_hold(&s, tip, SCENE_RY, SCENE_RZ);
     scene_drive(&s, tip, SCENE_RX, scene_add_driver(&s, "turn", 2, path, turn));
     scene_add_member(&s, root, tip, scene_add_section(&s, &spec), y);
-    scene_need(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
+    scene_omit(&s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA);
     const int twisted = scene_add_static(&s, 1, &path[1], 4);
     scene_add_quantity(&s, "torque", "N m", twisted, scene_internal_at(0, 0.3, SCENE_MX));
     scene_add_quantity(&s, "shear", "N m", twisted,

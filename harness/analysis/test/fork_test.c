@@ -42,7 +42,7 @@ static void bent_beam(const double Q[9], const double force[3], scene *s)
     scene_fork(s, first, axis, web);
     scene_fork(s, last, axis, web);
     scene_add_load(s, SCENE_FORCE, middle, load[0], load[1], load[2]);
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
     const int path = scene_add_static(s, 1, &end, 1);
     for (int i = 0; i < VALUES; i++) {
         const int node = i < MOMENT ? middle : first,

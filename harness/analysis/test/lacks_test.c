@@ -34,7 +34,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     scene_hold(s, tip, SCENE_RX, SCENE_RZ);
     force[direction] = 1;
     scene_add_load(s, SCENE_FORCE, tip, force[0], force[1], force[2]);
-    scene_need(s, FEATURE_SHEAR);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
     scene_add_quantity(s, "u", "m", scene_add_linear(s), scene_coordinate(tip, direction));
 }
 

@@ -28,7 +28,7 @@ static int make(const double R[9], scene *s, model **m)
                   q = scene_add_node(s, 5 * i + length * R[0], length * R[3], length * R[6]);
         scene_add_member(s, p, q, profile, y);
     }
-    scene_need(s, FEATURE_WARPING);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
     scene_add_modal(s, SCENE_NONE);
     const model_request request = {s, formulation_find("geometrically_exact"), NULL, ELEMENTS, 1};
     const status made = model_alloc(&request, m, &f);

@@ -16,7 +16,7 @@ analyses: {path: {continuation: {control: {node: b, component: ux}, by: coordina
                                  step: %(step)r, step_max: %(step)r}}}
 quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
-needs: []
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 # Pushed through: stability is lost and regained, with as many negative pivots behind as before.
 ARCH = """beamwork: 1
@@ -31,7 +31,7 @@ analyses: {path: {continuation: {control: {node: t, component: uy}, by: coordina
 quantities:
   b_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
   l_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: limit, which: $i}, unit: N}
-needs: []
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 PINNED = {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz, rx]", "more": ""}
 CLAMPED = {"a": "all", "b": "", "more": ""}

@@ -94,7 +94,7 @@ static status build_with_body(const double value[], scene *s, fault *f)
                         : scene_add_node(s, 6, 1, 0.5);
     scene_add_member(s, root, tip, profile, y_axis);
     scene_hold_all(s, root);
-    scene_need(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_WAGNER_TORQUE);
     const double end = 1;
     const int rotation = scene_add_rotation(
         s, 1, &end, 8, 0, (scene_rotating_frame){.omega = {3, -7, 21}, .centre = {-0.3, 0.2, 0}});

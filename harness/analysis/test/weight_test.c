@@ -55,7 +55,7 @@ static void all_analyses(scene *s, int by_hand)
     scene_add_member(s, root, tip, profile, y_axis);
     scene_set_body(s, body, heavy);
     add_weight(s, body, down, by_hand);
-    scene_need(s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int bent = scene_add_static(s, 1, &end, 2);
     scenes_ask_motion(s, "linear", scene_add_linear(s), body);
     scenes_ask_motion(s, "bent", bent, body);
@@ -239,6 +239,7 @@ static void column(double above)
     scene_add_member(&s, foot, head, profile, (const double[3]){0, 1, 0});
     scene_set_body(&s, head, (scene_body){.mass = mass, .centre = {above, 0, 0}});
     add_weight(&s, head, (const double[3]){-9.81, 0, 0}, 0);
+    scene_omit(&s, FEATURE_SHEAR);
     scene_add_quantity(&s, "factor", "", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
     ask_scene(&s, &element_collocation, NULL, 16, &a);

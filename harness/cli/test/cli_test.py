@@ -137,7 +137,7 @@ class Answers(ProgramTest):
                                      float(plus) + found[name][1], (case, name))
         text = (EXAMPLES / "box_girder.yaml").read_text(encoding="utf-8")
         beyond, start = self.folder / "beyond.yaml", text.index("truths:\n")
-        beyond.write_text(text[:start] + text[text.index("needs:", start):], encoding="utf-8")
+        beyond.write_text(text[:start] + text[text.index("meshes:", start):], encoding="utf-8")
         self.refused(1, "cells", "truth", "--scene", beyond, silent=False)
         done = self.answered("truth", "--scene", EXAMPLES / "box_girder.yaml")
         self.assertIn("cells", done.stderr)
@@ -148,7 +148,7 @@ class Answers(ProgramTest):
         text = (EXAMPLES / "plane_portal.yaml").read_text(encoding="utf-8")
         head, _, tail = text.partition("truths:\n")
         found, lines = self.derived(EXAMPLES / "plane_portal.yaml", "--set", "push=900")
-        scene.write_text(head + "truths:\n" + lines + tail[tail.index("needs:"):], encoding="utf-8")
+        scene.write_text(head + "truths:\n" + lines + tail[tail.index("omit:"):], encoding="utf-8")
         there = self.answered("truth", "--scene", scene, "--set", "push=900").stdout
         for name, (value, _) in found.items():
             self.assertRegex(there, rf"{name} +{re.escape(str(value)[:12])}\S* .*exact")

@@ -22,7 +22,7 @@ analyses:
 quantities:
   behind: {relative: {analysis: swing, node: tip, from: hub, component: uy}}
   energy: {energy: {analysis: swing, of: energy}}
-needs: [rotary_inertia]
+omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
 
 

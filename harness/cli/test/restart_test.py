@@ -38,7 +38,7 @@ quantities:
   work: {energy: {analysis: swing, of: work}}
   drift: {energy: {analysis: swing, of: drift}, offset: 1}
   torque: {reaction: {analysis: swing, node: hub, component: rz}}
-needs: [shear, rotary_inertia]
+omit: [trapeze, wagner_moments, wagner_torque]
 """
 MESH = ("-f", "geometrically_exact", "-n", 2)
 

@@ -30,7 +30,7 @@ static void add_motion(scene *s, const double spin[3])
     scene_motion motion = {
         .scheme = SCENE_CONSERVING, .alpha = scene_alpha_of_radius(0.9), .step = 0.1};
     memcpy(motion.start.spin, spin, 3 * sizeof *spin);
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_motion(s, SCENE_NONE, 1, &end, motion);
 }
 

@@ -39,7 +39,7 @@ static status build(const double value[], scene *s, fault *f)
         scene_load_piece(s, loads[i], thrown, "400 - 80*t");
         scene_load_piece(s, loads[i], 0, "0");
     }
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_motion(
         s, SCENE_NONE, 1, &end,
         (scene_motion){.scheme = SCENE_CONSERVING, .alpha = scene_alpha_of_radius(0.9), .step = h});

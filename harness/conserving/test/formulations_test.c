@@ -63,7 +63,7 @@ static status build(const double value[], scene *s, fault *f)
     if (present->tapers)
         scene_member_at(s, rod)->section_q = scene_add_section(s, &thick);
     memcpy(scene_member_at(s, rod)->curvature, present->curvature, sizeof present->curvature);
-    scene_need(s, FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_motion(s, SCENE_NONE, 1, &end, motion);
     return STATUS_OK;
 }

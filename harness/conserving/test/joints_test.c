@@ -85,7 +85,7 @@ static status build(const double value[], scene *s, fault *f)
                   : present->spring ? scene_add_node(s, 3.5, 0.1, 0)
                                     : B;
     (void)value, (void)f;
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_member(s, A, B, profile, y_axis);
     const int second = scene_add_member(s, D, C, profile, y_axis);
     for (int k = 0; k < present->released; k++)

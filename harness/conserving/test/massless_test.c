@@ -36,7 +36,7 @@ static status build(const double value[], scene *s, fault *f)
         n->axis[0][0] = n->axis[1][1] = 1;
         n->angle[0] = n->angle[1] = SCENE_FREE;
     }
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_motion(s, SCENE_NONE, 1, &end,
                      (scene_motion){.scheme = SCENE_CONSERVING,
                                     .alpha = scene_alpha_of_radius(0.9),

@@ -63,7 +63,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_add_member(s, A, B, profile, y_axis);
     drive(s, A, vector, first, none);
     drive(s, B, vector, last, moved);
-    scene_need(s, FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_motion(s, SCENE_NONE, 1, &end,
                      (scene_motion){.scheme = SCENE_CONSERVING,
                                     .alpha = scene_alpha_of_radius(0.9),

@@ -41,7 +41,7 @@ static status body(const double value[], scene *s, fault *f)
               A = scene_add_attached(s, hub, -0.5, 0, 0), B = scene_add_attached(s, hub, 0.5, 0, 0);
     scene_add_member(s, A, B, profile, y_axis);
     scene_set_body(s, hub, (scene_body){.mass = 1, .inertia = {J[0], J[1] - 0.1, J[2] - 0.1}});
-    scene_need(s, FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int motion = add_motion(s);
     for (int i = 0; i < 3; i++) {
         const char rate[] = {'w', (char)('x' + i), 0}, entry[] = {'R', (char)('x' + i), 0};
@@ -119,7 +119,8 @@ static status rod(const double value[], scene *s, fault *f)
         scene_hold(s, A, SCENE_RX, SCENE_RZ);
     }
     scene_set_body(s, A, (scene_body){.mass = 0.5, .centre = {0, 0.1, 0}});
-    scene_need(s, FEATURE_SHEAR | (how.light ? 0 : FEATURE_ROTARY_INERTIA));
+    scene_omit(s,
+               FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | (how.light ? FEATURE_ROTARY_INERTIA : 0));
     const int push = scene_add_load(s, SCENE_FORCE, B, 0, 3, 1);
     scene_load_piece(s, push, 0.04, "t/0.04");
     scene_load_piece(s, push, 0, "1 - t");

@@ -86,7 +86,8 @@ static inline void build(scene *s, int warps, int released)
         scene_release_end(s, third, 0, SCENE_RZ);
         scene_release_end(s, third, 0, SCENE_UZ);
     }
-    scene_need(s, FEATURE_ROTARY_INERTIA | (warps ? 0 : FEATURE_SHEAR | FEATURE_HARINGX));
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE |
+                      (warps ? FEATURE_SHEAR : 0));
 }
 
 /* A structure on its way. */

@@ -42,7 +42,8 @@ static void theories(void)
     haringx.offers = FEATURE_SHEAR | FEATURE_HARINGX;
     haringx.shear_theories = SHEAR_HARINGX;
     b.one.formulation.type = &haringx;
-    b.p.scene.needs = FEATURE_SHEAR | FEATURE_ENGESSER;
+    scene_demand(&b.p.scene, FEATURE_SHEAR | FEATURE_GEOMETRIC);
+    b.p.scene.shear_theory = SCENE_SHEAR_ENGESSER;
     bench_fill(&b, 3.003, 0.7, 2);
     b.row[0].theory = words[ENGESSER];
     bench_expect(&b, VERDICT_NO_TRUTH, 3, "a truth of another theory does not judge");

@@ -115,7 +115,7 @@ static void nothing_offers_all(void)
     const case_type *type = registry_cases[0];
     parameters_default(type, value);
     cell_scene(type, value, NULL, &s, &f);
-    s.needs |= FEATURE_END; /* which nobody has, and nobody can leave out */
+    scene_demand(&s, FEATURE_END); /* which nobody has, and nobody can leave out */
     gsl_test(choose(&s, type, value, NULL, 0).outcome != STATUS_REFUSED, "refused");
     scene_free(&s);
 }

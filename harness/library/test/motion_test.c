@@ -25,7 +25,7 @@ static const char falling[] =
     "  lowest: {displacement: {analysis: fall, node: tip, component: uy, take: min}}\n"
     "  way: {displacement: {analysis: fall, node: tip, component: uy, take: curve}}\n"
     "  kinetic: {energy: {analysis: fall, of: kinetic}}\n"
-    "needs: [shear, rotary_inertia]\n";
+    "omit: [trapeze, wagner_moments, wagner_torque]\n";
 
 static double largest(size_t count, const double value[])
 {

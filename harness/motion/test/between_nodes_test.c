@@ -24,7 +24,7 @@ static void build(scene *s, scene_scheme scheme)
     const section_spec spec = timed_profile(&(timed_section){
         .EA = EA, .GA = 100, .GJ = 3, .EI = 5, .mass = mass, .polar = 4e-3, .rotary = 2e-3});
     scene_init(s, "spun rod");
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int hub = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);
     scene_add_member(s, hub, tip, scene_add_section(s, &spec), y_axis);
     scene_hold(s, hub, SCENE_UX, SCENE_RY);

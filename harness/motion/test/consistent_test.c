@@ -22,7 +22,7 @@ static int add_profile(scene *s, double stiffening)
                                                              .mass = mass,
                                                              .polar = 8e-3,
                                                              .rotary = mass / EA * EI});
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     return scene_add_section(s, &spec);
 }
 

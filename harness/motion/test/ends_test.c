@@ -30,7 +30,7 @@ static void solve(const joint *of, scene_scheme by, double step, double found[AS
     scene s;
     answer a;
     scene_init(&s, of->name);
-    scene_need(&s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int profile = scene_add_section(&s, &spec), A = scene_add_node(&s, 0, 0, 0),
               B = scene_add_node(&s, 1, 0.2, 0.1), C = scene_add_node(&s, 1.6, 0.9, 0.4);
     scene_add_member(&s, A, B, profile, y_axis);

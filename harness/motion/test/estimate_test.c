@@ -43,7 +43,7 @@ static void add_oscillator(scene *s, scene_scheme by, const scene_alpha *alpha, 
     scene_set_body(s, tip, (scene_body){.mass = mass, .inertia = {1, 1, 1}});
     if (forced)
         scene_load_piece(s, scene_add_load(s, SCENE_FORCE, tip, 1, 0, 0), 0, "2 + 3*t");
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     add_motion(s, by, alpha, velocity);
 }
 
@@ -168,7 +168,7 @@ static double of_lifted(double eta, double h)
     scene_drive_piece(&s, lift, 0, "t^2");
     scene_drive(&s, A, SCENE_UZ, lift);
     scene_load_piece(&s, scene_add_load(&s, SCENE_FORCE, B, 0, 1, 0), 0, "1 + t");
-    scene_need(&s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     add_motion(&s, SCENE_RADAU, NULL, 0);
     s.analysis[0].of.motion.start.spin[1] = -1;
     begin(&s, &f);

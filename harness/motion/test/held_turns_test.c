@@ -22,7 +22,7 @@ static int add_rod(scene *s)
 {
     const section_spec spec = timed_profile(&(timed_section){
         .EA = 6e3, .GA = 2e3, .GJ = 0.4, .EI = 0.6, .mass = 1.4, .polar = 4e-4, .rotary = 2e-4});
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     return scene_add_section(s, &spec);
 }
 

@@ -28,7 +28,7 @@ static double solve(const joint *of, double damping, scene_scheme scheme, double
     scene s;
     answer a;
     scene_init(&s, of->name);
-    scene_need(&s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int profile = scene_add_section(&s, &spec), pin = scene_add_node(&s, 0, 0, 0),
               middle = scene_add_node(&s, 0.5, 0, 0.1), tip = scene_add_node(&s, 1, 0.2, 0),
               first = scene_add_member(&s, pin, middle, profile, y_axis),

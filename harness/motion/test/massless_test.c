@@ -32,7 +32,7 @@ static void build(scene *s, scene_scheme by, double step)
                        .step = step,
                        .start = {.spin = {how.spin, 0.6 * how.spin, 0.4 * how.spin}}};
     scene_init(s, "oblique rod");
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int profile = scene_add_section(s, &spec), A = scene_add_node(s, -3, 1, 4),
               B = scene_add_node(s, 3, -1, -4);
     scene_add_member(s, A, B, profile, y_axis);

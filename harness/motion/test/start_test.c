@@ -21,7 +21,7 @@ static int add_beam(scene *s, int *tip)
     const section_spec spec = timed_profile(&(timed_section){
         .EA = 2e3, .GA = 1e3, .GJ = 3, .EI = 5, .mass = 1.5, .polar = 4e-3, .rotary = 2e-3});
     scene_init(s, "turning beam");
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0.5, 0, 0);
     *tip = scene_add_node(s, 0.5 + length, 0, 0.3);
     scene_add_member(s, root, *tip, profile, y_axis);

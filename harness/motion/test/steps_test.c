@@ -64,7 +64,7 @@ static double turn_body(scene_scheme by, double h)
     answer a;
     double largest = 0;
     scene_init(&s, "body");
-    scene_need(&s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(&s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     const section_spec spec = timed_profile(&(timed_section){.EA = 1e-3,
                                                              .GA = 1e-3,
                                                              .GJ = 1e-3,

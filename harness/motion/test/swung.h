@@ -26,7 +26,7 @@ static inline swung swung_build(scene *s)
     out.member = scene_add_member(s, out.base, out.tip, scene_add_section(s, &spec), y);
     const int pull = scene_add_load(s, SCENE_FORCE, out.tip, 1, 2, -1.5);
     scene_load_piece(s, pull, 0, "2*sin(3*t)");
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     return out;
 }
 

@@ -8,8 +8,9 @@ from .errors import Refused
 # What a scene file begins with, in its order; then what is a list of entries, each on a line.
 HEAD = ("name", "summary", "source", "plane")
 ENTRIES = ("parameters", "let", "sections", "nodes", "members", "springs", "motions", "loads",
-           "analyses", "quantities", "truths", "needs", "meshes", "parts", "instances")
-LISTS = ("truths", "needs", "meshes")
+           "analyses", "quantities", "truths", "omit", "shear_theory", "needs", "meshes", "parts", "instances")
+LISTS = ("truths", "omit", "shear_theory", "needs", "meshes")
+WORDS = ("omit", "shear_theory")  # one word is enough
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _DEEPEST = 40
 
@@ -81,12 +82,13 @@ def scene_text(head, entries):
         if value is None:
             continue
         value = value.tolist() if hasattr(value, "tolist") else value
-        if not isinstance(value, (list, tuple, range) if key in LISTS else Mapping):
+        is_word = key in WORDS and isinstance(value, str)
+        if not is_word and not isinstance(value, (list, tuple, range) if key in LISTS else Mapping):
             raise Refused(f"{key} is {type(value).__name__}: "
                           f"{'a list' if key in LISTS else 'a dict of names'} is expected")
         if not value:
             continue
-        if key in ("needs", "meshes"):
+        if key in WORDS or key in ("needs", "meshes"):
             add(f"{key}: {written(value, key)}", key)
             continue
         add(f"{key}:", key)

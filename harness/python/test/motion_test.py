@@ -23,7 +23,7 @@ def swing():
     scene.quantities["ahead"] = {"relative": {**seen, "take": "max"}}
     scene.quantities["bend"] = {"relative": {**seen, "take": "curve"}}
     scene.quantities["kinetic"] = {"energy": {"analysis": "swing", "of": "kinetic"}}
-    scene.needs = ["shear", "rotary_inertia"]
+    scene.omit = ["trapeze", "wagner_torque"]
     return scene
 
 

@@ -40,13 +40,13 @@ quantities:
   rest_$n: {for: {n: 0..5}, frequency: {analysis: rest, which: n}, unit: Hz}
   bent_$n: {for: {n: 0..5}, frequency: {analysis: bent, which: n}, unit: Hz}
   stressed_$n: {for: {n: 0..5}, frequency: {analysis: stressed, which: n}, unit: Hz}
-needs: [rotary_inertia]
+omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
 TURNING = BAR + """analyses:
   turning: {rotation: {omega: [3, 4, 12], centre: [0.1, 0, 0], stations: [0.5, 1], wanted: 6}}
 quantities:
   turning_$n: {for: {n: 0..5}, frequency: {analysis: turning, which: n}, unit: Hz}
-needs: [rotary_inertia]
+omit: [shear, trapeze, wagner_moments, wagner_torque]
 """
 FOLLOWER = BAR.replace("on: tip}", "on: tip, follower: true}") + """analyses:
   path: {static: {stations: [1]}}

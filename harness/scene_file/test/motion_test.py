@@ -28,7 +28,7 @@ analyses:
   ANALYSES
 quantities:
   u: {displacement: {analysis: swing, node: block, component: ux, at: 0.5}}
-needs: [shear]
+omit: [trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 SWING = "swing: {motion: {stations: [0.25, 0.5], integrator: radau, step: step}}"
 PUSH = 1e-4
@@ -96,7 +96,7 @@ class MotionTest(SceneCase):
 
     def test_usual_choices(self):
         """Neither step nor tolerance: they adapt; no quantities: places and energy."""
-        path = self.scene(re.sub(r"(?s)quantities:.*?needs", "needs", BLOCK.replace(
+        path = self.scene(re.sub(r"(?s)quantities:.*?omit", "omit", BLOCK.replace(
             ", TIME", "").replace("ANALYSES", "swing: {motion: {stations: [0.5]}}")))
         written = self.answered("scene", "--scene", path).stdout
         self.assertIn("integrator: alpha, step: 0.0005, tolerance: 0.0001", written)
@@ -118,7 +118,8 @@ class MotionTest(SceneCase):
     def test_mass(self):
         """Consistent mass is written again, is nearer to what fine meshes have, and is not offered by all."""
         section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
-        text = re.findall(r"```yaml\n(.*?)```", section, re.S)[0]
+        text = re.findall(r"```yaml\n(.*?)```", section, re.S)[0].replace(
+            "needs: [shear, rotary_inertia]", "omit: [trapeze, wagner_moments, wagner_torque]")
         lumped = self.scene(text, "lumped.yaml")
         path = self.scene(text.replace("radau,", "radau, mass: consistent,"), "consistent.yaml")
         self.assertIn(", mass: consistent", self.answered("scene", "--scene", path).stdout)
@@ -191,7 +192,7 @@ class MotionTest(SceneCase):
                           (", x: {name: a, unit: s}", ("a", "s"))):
             path.write_text(path.read_text("utf-8").partition("  u:")[0] +
                             "  u: {displacement: {analysis: swing, node: block, component: ux, "
-                            f"take: curve}}{x}}}\nneeds: [shear]\n", "utf-8")
+                            f"take: curve}}{x}}}\nomit: [trapeze, wagner_moments, wagner_torque, rotary_inertia]\n", "utf-8")
             curve, = self.record("solve", "--scene", path, "-f", "beamw", "-n", 1)["curves"]
             self.assertEqual((curve["x_name"], curve["x_unit"]), wanted)
 
@@ -200,7 +201,7 @@ class MotionTest(SceneCase):
         path = self.block("time: 1")
         late = "{rate: {analysis: swing, node: block, component: ux, at: 0.9}}"
         path.write_text(path.read_text("utf-8").replace(
-            "needs:", f"  v: {late}\n  w: {late}\nneeds:"), "utf-8")
+            "omit:", f"  v: {late}\n  w: {late}\nomit:"), "utf-8")
         text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1).stdout
         self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
 

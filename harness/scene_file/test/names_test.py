@@ -98,7 +98,7 @@ class NamesTest(SceneCase):
 
     def test_written_weight(self):
         """A node that has the name of a member, and a load that came to several."""
-        both = GUIDE.replace("peak", "brace_1").replace("0.2, 0]}", "0.2, 0], mass: 0.1}") + "needs: []\n"
+        both = GUIDE.replace("peak", "brace_1").replace("0.2, 0]}", "0.2, 0], mass: 0.1}") + "omit: all\n"
         weight = both.replace("push: {force: [0, 1e-3, 0], on: stage}", "load_1: {gravity: [0, 1e-3, 0], on: all}").replace(
             "shear_modulus: 77e9}", "shear_modulus: 77e9, density: 7800}")
         self.same_again(self.scene(weight), "-f", "collocation", "-n", 2)

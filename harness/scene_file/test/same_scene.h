@@ -232,9 +232,9 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
 #undef EACH
     if (!same_sharing(a, b))
         return "sharing";
-    if (a->plane != b->plane || a->needs != b->needs || a->meshes != b->meshes ||
-        memcmp(a->mesh, b->mesh, (size_t)a->meshes * sizeof *a->mesh) != 0)
-        return "plane, needs or meshes";
+    if (a->plane != b->plane || a->omits != b->omits || a->shear_theory != b->shear_theory ||
+        a->meshes != b->meshes || memcmp(a->mesh, b->mesh, (size_t)a->meshes * sizeof *a->mesh) != 0)
+        return "plane, omits, theory of shear or meshes";
     return NULL;
 }
 

@@ -91,6 +91,25 @@ class SceneTest(SceneCase):
             again = self.answered("scene", "--scene", self.scene(written)).stdout
             self.assertEqual(again, written)
 
+    def test_needs_of_earlier_versions(self):
+        """What it does not list is left out, but for warping; one line says what stands for it."""
+        rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
+        buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
+                          "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
+        for words, theory in ((["shear"], "own"), (["trapeze", "shear", "engesser"], "engesser"),
+                              (["shear", "haringx", "warping"], ""), ([], ""), (rest, "own")):
+            path = self.scene(buckles + f"needs: [{', '.join(words)}]\n")
+            done = self.answered("scene", "--scene", path)
+            omit = [word for word in rest if word not in words]
+            lines = ([f"omit: [{', '.join(omit)}]"] if omit else []) + ([f"shear_theory: {theory}"]
+                                                                       if theory else [])
+            self.assertEqual([line for line in done.stdout.splitlines()
+                              if line.startswith(("omit", "shear_theory", "needs"))], lines)
+            self.assertEqual(done.stderr, f"beamwork: {path}: needs is read as earlier versions did; "
+                             f"in its place write {' and '.join(lines)}\n")
+            again = self.scene(done.stdout)
+            self.assertEqual(self.answered("scene", "--scene", again).stdout, done.stdout)
+
     def test_parameters(self):
         """--set changes a scene's parameters, within their ranges; truths follow."""
         where = ("solve", "--scene", EXAMPLES / "leaf_spring_guide.yaml", "-f", "collocation", "-n",

@@ -24,7 +24,7 @@ static void build_driven(scene *s)
     const int lift = scene_add_moving_driver(s, "lift");
     scene_drive_piece(s, lift, 0, "t^3 + t");
     scene_drive(s, A, SCENE_UZ, lift);
-    scene_need(s, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
 }
 
 /* From a state to a time. */

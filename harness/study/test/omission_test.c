@@ -29,7 +29,7 @@ static void leaf(scene *s, double thickness, loading how, int held)
     scene_add_member(s, root, tip, scene_add_section(s, &spec), y_axis);
     if (held)
         scene_hold_all(s, root);
-    scene_need(s, FEATURE_SHEAR);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
     if (how == BENDS)
         scene_add_load(s, SCENE_FORCE, tip, 0, 1, 0);
     if (how == TWISTS)
