@@ -53,7 +53,7 @@ static void expect(const case_type *type, int rows, truth row[], int points, int
                    const char *what)
 {
     const truths t = {.rows = rows, .row = row};
-    const sweep_request all = {.select = NULL};
+    const sweep_request all = {.whole_only = 1};
     sweep s;
     fault f = {""};
     int found;
@@ -93,7 +93,7 @@ static void points(const case_type *type, const int number[2])
 static void doublings(void)
 {
     const truths none = {.rows = 0};
-    const sweep_request plain = {.select = NULL}, finer = {.select = NULL, .doublings = 2};
+    const sweep_request plain = {.whole_only = 1}, finer = {.whole_only = 1, .doublings = 2};
     sweep one, two;
     fault f = {""};
     gsl_test(plan_sweep(&plain, &none, &one, &f) != STATUS_OK ||
@@ -132,7 +132,7 @@ static void refuses(double elements, int doublings, const char *refusal)
     const case_type type = {.name = "many", .parameters = {table}, .build = with_meshes};
     const case_type *const cases[] = {&type, NULL};
     const truths none = {.rows = 0};
-    const sweep_request finer = {.cases = cases, .doublings = doublings};
+    const sweep_request finer = {.whole_only = 1, .cases = cases, .doublings = doublings};
     sweep s;
     fault f = {""};
     const status outcome = plan_sweep(&finer, &none, &s, &f);
