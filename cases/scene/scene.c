@@ -142,6 +142,7 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
         s->spring[i].p = p;
         s->spring[i].q = q;
         memcpy(s->spring[i].stiffness, stiffness, sizeof s->spring[i].stiffness);
+        s->spring[i].asymmetry = dense_symmetrise(6, s->spring[i].stiffness);
     }
     return i;
 }

@@ -112,6 +112,7 @@ typedef struct scene_member {
 typedef struct scene_spring {
     int p, q;             /* p: SCENE_NONE: the ground */
     double stiffness[36]; /* K, symmetric, row-major [N/m, N, N m] */
+    double asymmetry;     /* of K as it was given, in parts of its diagonal: the mean is taken */
     char name[SCENE_NAME];
 } scene_spring;
 
@@ -257,6 +258,10 @@ void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 void scene_set_body(scene *s, int node, scene_body body);
 /* Has the node a mass or an inertia? */
 int scene_has_body(const scene_node *n);
+/* Turns of a node that all its members release and nothing else meets, so that it has no angle of
+ * its own there and is held: 0: none; SCENE_IDLE_AXIS: about `axis`, which turns with it. */
+enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
+int scene_idle_turn(const scene *s, int node, double axis[3]);
 /* Convention of moments that a quantity depends on, or NULL. */
 const char *scene_convention(const scene *s, const scene_quantity *q);
 /* The axis across the plane that the scene is held in, 0 to 2, or SCENE_NONE. */

@@ -9,6 +9,7 @@
 #include "cases/scene/validate_release.h"
 #include "cases/scene/validate_wanted.h"
 #include "elements/math/dense.h"
+#include "elements/section/matrices.h"
 #include "elements/section/taper.h"
 
 static status check_taper(const scene *s, int i, fault *f)
@@ -102,7 +103,7 @@ static status check_spring(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED, "%s: both its ends are %s; join two, or one and the ground",
             scene_called(s, SCENE_SPRINGS, i).text, scene_called(s, SCENE_NODES, p->q).text);
-    if (!is_stiffness(p->stiffness))
+    if (!(p->asymmetry <= SECTION_MATRICES_SYMMETRIC) || !is_stiffness(p->stiffness))
         return fault_set(f, STATUS_REFUSED,
                          "%s: its stiffness is not symmetric, or gives energy away; give six "
                          "numbers that are not negative, or such a matrix",

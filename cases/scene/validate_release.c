@@ -165,11 +165,14 @@ static int releases_at(const scene *s, int node)
     return count;
 }
 
-status scene_validate_turns(const scene *s, int node, fault *f)
+/* What is loose at a node; axis: of one. */
+typedef enum loose { LOOSE_NOTHING, LOOSE_AXIS, LOOSE_PLANE, LOOSE_ALL } loose;
+
+static loose loose_at(const scene *s, int node, double axis[3])
 {
-    double P[9] = {0}, axis[3];
+    double P[9] = {0}, largest = 0;
     if (releases_at(s, node) == 0 || is_wide(s, node))
-        return STATUS_OK;
+        return LOOSE_NOTHING;
     for (int i = 0; i < s->members; i++)
         for (int end = 0; end < 2; end++)
             if (ends_at(&s->member[i], end, node))
@@ -177,6 +180,63 @@ status scene_validate_turns(const scene *s, int node, fault *f)
     add_supports(&s->node[node], P);
     add_springs(s, node, P);
     if (!loose_axis(P, axis))
+        return LOOSE_NOTHING;
+    for (int i = 0; i < 9; i++)
+        largest = fmax(largest, fabs(P[i]));
+    return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
+}
+
+/* Does something act on the turns of a node, or go by how it is turned? */
+static int turn_matters(const scene *s, int node)
+{
+    const scene_body *b = &s->node[node].body;
+    int matters = vec3_norm(b->centre) > 0;
+    for (int k = 0; k < 6; k++)
+        matters |= b->inertia[k] != 0;
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *load = &s->load[i];
+        if (!scene_load_along(load) && load->where == node)
+            matters |= load->kind == SCENE_MOMENT || load->follower || vec3_norm(load->at) > 0;
+    }
+    for (int i = 0; i < s->springs; i++) {
+        const scene_spring *spring = &s->spring[i];
+        matters |= spring->p == node; /* with which its axes turn */
+        for (int k = 0; k < 36 && spring->q == node; k++)
+            matters |= (k / 6 >= SCENE_RX || k % 6 >= SCENE_RX) && spring->stiffness[k] != 0;
+    }
+    return matters;
+}
+
+/* Which angles of the node are free, in bits. */
+static int free_angles(const scene_node *n)
+{
+    int bits = 0;
+    for (int k = 0; k < 3; k++)
+        bits |= (n->angle[k] == SCENE_FREE) << k;
+    return bits;
+}
+
+int scene_idle_turn(const scene *s, int node, double axis[3])
+{
+    const scene_node *n = &s->node[node];
+    const loose what = n->rotation == SCENE_ROTATION_SPATIAL && free_angles(n) != 0
+                           ? loose_at(s, node, axis)
+                           : LOOSE_NOTHING;
+    if (what == LOOSE_NOTHING || what == LOOSE_PLANE || turn_matters(s, node))
+        return 0;
+    if (what == LOOSE_ALL)
+        return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
+    for (int k = 0; k < 3; k++) /* a node of a plane frame: the others are held */
+        if (free_angles(n) == 1 << k)
+            return SCENE_IDLE_AXIS;
+    return free_angles(n) == 7 ? SCENE_IDLE_AXIS : 0;
+}
+
+status scene_validate_turns(const scene *s, int node, fault *f)
+{
+    double axis[3];
+    const loose what = loose_at(s, node, axis);
+    if (what == LOOSE_NOTHING || scene_idle_turn(s, node, axis) != 0)
         return STATUS_OK;
     return vec3_norm(axis) > 0
                ? fault_set(f, STATUS_REFUSED,

@@ -19,10 +19,6 @@ static status check_continuation(const scene *s, int i, fault *f)
             f, STATUS_REFUSED,
             "%s: steps of %g to %g; the first must be positive, the largest not smaller",
             scene_called(s, SCENE_ANALYSES, i).text, c->step, c->step_max);
-    if (s->drivers > 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: continuation changes loads only; take the drivers away",
-                         scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 
@@ -65,24 +61,6 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
-/* Without a state whose tangent could be measured, eigenvalues are those of a symmetric one. */
-static status check_potential(const scene *s, int i, fault *f)
-{
-    static const char *const what[] = {
-        [SCENE_BUCKLING] = "critical loads", [SCENE_MODAL] = "frequencies about a loaded state"};
-    for (int k = 0; k < s->loads; k++)
-        if (scene_load_unsymmetric(&s->load[k]) &&
-            (s->load[k].follower || s->load[k].kind != SCENE_MOMENT))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: %s, and %s %s has no potential: its tangent is not symmetric and stability "
-                "may be lost by flutter; ask for a static path or a continuation",
-                scene_called(s, SCENE_ANALYSES, i).text, what[s->analysis[i].kind],
-                scene_called(s, SCENE_LOADS, k).text,
-                s->load[k].follower ? "that follows" : "of distributed moments");
-    return STATUS_OK;
-}
-
 status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
@@ -100,11 +78,6 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         TRY(check_path(s, a, i, f));
     if (scene_rotating_frame_of(a) != NULL)
         TRY(check_frame(s, scene_rotating_frame_of(a), i, f));
-    const int about_path =
-        a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) != NULL;
-    if ((a->kind == SCENE_BUCKLING && !about_path) ||
-        (a->kind == SCENE_MODAL && a->follows != SCENE_NONE && !about_path))
-        TRY(check_potential(s, i, f));
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, i, f);
     if (a->kind == SCENE_MOTION)

@@ -25,18 +25,6 @@ static void continued(scene *s)
     s->drivers = 0;
 }
 
-static void buckles_by_follower(scene *s)
-{
-    s->load[0].follower = 1;
-    scene_add_buckling(s, SCENE_NONE);
-}
-
-static void turns_with_moments(scene *s)
-{
-    s->load[0] = (scene_load){SCENE_DISTRIBUTED_MOMENT, .vector = {1, 0, 0}};
-    scene_add_modal(s, scene_add_linear(s));
-}
-
 static void follows_itself(scene *s)
 {
     s->analysis[0].follows = 0;
@@ -118,8 +106,6 @@ static void compliance_of_compliance(scene *s)
 }
 
 static const refusal refusals[] = {
-    {buckles_by_follower, "analysis 1: ", "load 0 that follows has no potential"},
-    {turns_with_moments, "analysis 2: ", "distributed moments has no potential"},
     {follows_itself, "analysis 0: ", "does not come before it"},
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "needs a station"},
@@ -127,7 +113,6 @@ static const refusal refusals[] = {
     {uncontrolled, "analysis 0: ", "control coordinate"},
     {step, "analysis 0: ", "steps of 0 to 0.1"},
     {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},
-    {driven, "analysis 0: ", "changes loads only"},
     {compliance_nowhere, "analysis 1: ", "a compliance needs a node"},
     {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
     {two_names, "quantity u: ", "two of that name"},

@@ -2,6 +2,7 @@
 #include "elements/math/dense.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "elements/math/congruence.h"
@@ -126,6 +127,22 @@ void dense_add_congruence(int m, int n, const double *restrict J, const double *
     }
     dense_mul(m, m, n, S, J, work);
     dense_add_transpose_mul(n, m, n, J, work, K);
+}
+
+double dense_symmetrise(int n, double *A)
+{
+    double largest = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            double *const one = &A[i * n + j], *const other = &A[j * n + i];
+            const double apart = fabs(*one - *other),
+                         scale = sqrt(fabs(A[i * n + i]) * fabs(A[j * n + j]));
+            if (apart == 0)
+                continue;
+            largest = fmax(largest, apart <= DBL_MAX && scale > 0 ? apart / scale : INFINITY);
+            *one = *other = (*one + *other) / 2;
+        }
+    return largest;
 }
 
 int dense_cholesky(int n, double *A)

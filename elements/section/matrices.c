@@ -9,28 +9,35 @@ enum { N = 6 };
 
 static const char *const stress[N] = {"N", "Qy", "Qz", "Mx", "My", "Mz"};
 
-static status check_symmetric(const double A[36], const char *name, fault *f)
+/* A becomes symmetric; *asymmetry: the greater of it and what A was off, in parts of its
+ * diagonal. */
+static status make_symmetric(double A[36], const char *name, double *asymmetry, fault *f)
 {
+    double mean[36];
+    for (int i = 0; i < 36; i++)
+        if (!isfinite(A[i]))
+            return fault_set(f, STATUS_REFUSED,
+                             "section: the %s matrix has an entry that is not a number; give "
+                             "36 finite ones, or the six of its diagonal",
+                             name);
     for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++) {
-            if (!isfinite(A[N * i + j]))
+        for (int j = 0; j < i; j++)
+            if (fabs(A[N * i + j] - A[N * j + i]) >
+                SECTION_MATRICES_SYMMETRIC * sqrt(fabs(A[7 * i] * A[7 * j])))
                 return fault_set(f, STATUS_REFUSED,
-                                 "section: the %s matrix has an entry that is not a number; give "
-                                 "36 finite ones, or the six of its diagonal",
-                                 name);
-            if (A[N * i + j] != A[N * j + i])
-                return fault_set(f, STATUS_REFUSED,
-                                 "section: the %s matrix is not symmetric, (%d, %d) is %g and "
-                                 "(%d, %d) is %g; give both the same",
-                                 name, i + 1, j + 1, A[N * i + j], j + 1, i + 1, A[N * j + i]);
-        }
+                                 "section: the %s matrix is not symmetric to %g of its diagonal, "
+                                 "(%d, %d) is %.17g and (%d, %d) is %.17g; give both the same",
+                                 name, SECTION_MATRICES_SYMMETRIC, j + 1, i + 1, A[N * j + i],
+                                 i + 1, j + 1, A[N * i + j]);
+    memcpy(mean, A, sizeof mean);
+    *asymmetry = fmax(*asymmetry, dense_symmetrise(N, mean));
+    memcpy(A, mean, sizeof mean);
     return STATUS_OK;
 }
 
 static status check_stiffness(const double C[36], fault *f)
 {
     double scaled[36];
-    TRY(check_symmetric(C, "stiffness", f));
     for (int i = 0; i < N; i++)
         if (!(C[7 * i] > 0))
             return fault_set(f, STATUS_REFUSED,
@@ -73,15 +80,32 @@ static int is_semidefinite(const double J[9])
     return minors > 0 && determinant >= -small * pow(J[0] + J[4] + J[8], 2);
 }
 
-static status check_mass(const section *c, fault *f)
+/* The nearest matrix of a slice; 0: it is further away than what was measured or printed is. */
+static int make_slice(double M[36])
 {
-    const double *M = c->mass, m = M[0];
-    double centre[3], J[9];
-    TRY(check_symmetric(M, "mass", f));
-    int slice = m >= 0 && M[7] == m && M[14] == m && M[1] == 0 && M[2] == 0 && M[8] == 0;
-    slice &= M[N + 3] == -M[4] && M[2 * N + 3] == -M[5] && M[3] == 0;
-    slice &= M[N + 4] == 0 && M[N + 5] == 0 && M[2 * N + 4] == 0 && M[2 * N + 5] == 0;
-    slice &= m > 0 || (M[4] == 0 && M[5] == 0);
+    const double m = M[0] == M[7] && M[7] == M[14] ? M[0] : (M[0] + M[7] + M[14]) / 3,
+                 z = M[4] == -M[N + 3] ? M[4] : (M[4] - M[N + 3]) / 2,
+                 y = -M[5] == M[2 * N + 3] ? -M[5] : (M[2 * N + 3] - M[5]) / 2;
+    double S[36] = {[0] = m, [7] = m, [14] = m, [4] = z, [N + 3] = -z, [5] = -y, [2 * N + 3] = y};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            S[N * (3 + i) + j] = S[N * j + 3 + i];
+            S[N * (3 + i) + 3 + j] = M[N * (3 + i) + 3 + j];
+        }
+    for (int i = 0; i < 36; i++)
+        if (!(fabs(S[i] - M[i]) <=
+              SECTION_MATRICES_SYMMETRIC * sqrt(fabs(M[7 * (i / N)] * M[7 * (i % N)]))))
+            return 0;
+    memcpy(M, S, sizeof S);
+    return m >= 0 && (m > 0 || (z == 0 && y == 0));
+}
+
+static status check_mass(section *c, fault *f)
+{
+    double *M = c->mass, centre[3], J[9];
+    TRY(make_symmetric(M, "mass", &c->asymmetry, f));
+    const int slice = make_slice(M);
+    const double m = M[0];
     if (!slice)
         return fault_set(f, STATUS_REFUSED,
                          "section: the mass matrix is not that of a slice: m on the first three of "
@@ -109,8 +133,11 @@ status section_matrices(const section_spec *spec, section *out, fault *f)
         out->mass[i] = M[i] + 0.0;
     }
     out->matrices = 1;
-    TRY(check_stiffness(C, f));
+    TRY(make_symmetric(out->stiffness, "stiffness", &out->asymmetry, f));
+    TRY(check_stiffness(out->stiffness, f));
     TRY(check_mass(out, f));
+    C = out->stiffness;
+    M = out->mass;
     out->young = out->shear_modulus = 1;
     out->A = C[0];
     out->It = C[21];

@@ -12,9 +12,13 @@
 
 #include "elements/section/section.h"
 
+/* Of matrices that were measured or printed, in parts of the diagonal. */
+#define SECTION_MATRICES_SYMMETRIC 1e-6
+
 /* Fills a zeroed section.  REFUSED: C not symmetric or not positive definite; M not that of a
  * slice: mass m, centre (0, cy, cz), a moment of inertia about the centre that is not negative, M =
- * [m 1, -m c~; m c~, J]. */
+ * [m 1, -m c~; m c~, J]. What is symmetric, or a slice, within SECTION_MATRICES_SYMMETRIC becomes
+ * so. */
 status section_matrices(const section_spec *spec, section *out, fault *f);
 
 /* Is there more in the matrices than constants have?  Anything off the diagonal of C; where inertia

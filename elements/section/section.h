@@ -32,7 +32,8 @@ typedef struct section {
     double centroid[2];             /* in wall coordinates [m] */
     int matrices;                   /* 1: a section by its matrices (matrices.h) */
     double stiffness[36], mass[36]; /* of that; else zero */
-    int rectangle;                  /* 1: a solid rectangle with the sizes below */
+    double asymmetry; /* of them as they were given, in parts of the diagonal: the mean is taken */
+    int rectangle;    /* 1: a solid rectangle with the sizes below */
     double width, height; /* of the rectangle: `width` along z (the sheet's w), `height` along y
                              (its t) [m] */
 } section;

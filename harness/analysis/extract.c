@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/extract_section.h"
@@ -24,6 +25,47 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
     r->value = quantity_scaled(q, sum);
 }
 
+/* Has a node an angle of its own about this component? */
+static int is_turned(const scene *s, int node, int component, fault *f)
+{
+    double axis[3];
+    const int idle = component >= SCENE_RX ? scene_idle_turn(s, node, axis) : 0;
+    if (idle == 0 || (idle == SCENE_IDLE_AXIS && fabs(axis[component - SCENE_RX]) <= 1e-9))
+        return 1;
+    fault_set(f, STATUS_REFUSED,
+              "%s turns by itself, all members there release that: it has no angle; ask for that "
+              "of a member's other end, or join one of them",
+              scene_called(s, SCENE_NODES, node).text);
+    return 0;
+}
+
+/* Is it defined where nodes turn by themselves? */
+static int is_defined(const scene *s, const scene_quantity *q, fault *f)
+{
+    switch (q->what.kind) {
+    case SCENE_COORDINATE:
+    case SCENE_RATE:
+        return is_turned(s, scene_component_of(q)->node, scene_component_of(q)->component, f);
+    case SCENE_RELATIVE:
+        return is_turned(s, scene_relative_of(q)->node, scene_relative_of(q)->component, f) &&
+               is_turned(s, scene_relative_of(q)->from, SCENE_RX, f) &&
+               is_turned(s, scene_relative_of(q)->from, SCENE_RY, f) &&
+               is_turned(s, scene_relative_of(q)->from, SCENE_RZ, f);
+    case SCENE_ORIENTATION:
+        return is_turned(s, scene_orientation_of(q)->node, SCENE_RX, f) &&
+               is_turned(s, scene_orientation_of(q)->node, SCENE_RY, f) &&
+               is_turned(s, scene_orientation_of(q)->node, SCENE_RZ, f);
+    case SCENE_COMPLIANCE_ENTRY:
+    case SCENE_STIFFNESS_ENTRY: {
+        const int node = scene_compliance_of(&s->analysis[q->analysis])->node;
+        return is_turned(s, node, scene_entry_of(q)->row, f) &&
+               is_turned(s, node, scene_entry_of(q)->column, f);
+    }
+    default:
+        return 1;
+    }
+}
+
 /* Did it leave something, though it failed? */
 static int has_anything(const analysis_outcome *o)
 {
@@ -42,7 +84,12 @@ static int has_anything(const analysis_outcome *o)
 void extract_quantity(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     const analysis_outcome *o = &c->outcomes[q->analysis];
+    fault f = {""};
     memset(r, 0, sizeof *r);
+    if (!is_defined(c->scene, q, &f)) {
+        quantity_no_value(r, STATUS_REFUSED, f.text);
+        return;
+    }
     if (o->status != STATUS_OK && !has_anything(o)) {
         quantity_no_value(r, o->status, o->reason);
         return;

@@ -1,10 +1,10 @@
 #include "harness/analysis/solve.h"
-#include "cases/scene/names.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/inputs.h"
 #include "harness/algebra/clock.h"
 #include "harness/analysis/buckling.h"
 #include "harness/analysis/collect.h"
@@ -25,7 +25,6 @@
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
 
-/* NULL: there is none. */
 static analysis_function *function_of(const scene *s, const scene_analysis *a)
 {
     const int is_loaded = a->follows != SCENE_NONE && s->analysis[a->follows].kind == SCENE_STATIC;
@@ -45,9 +44,9 @@ static analysis_function *function_of(const scene *s, const scene_analysis *a)
     case SCENE_ROTATION:
         return rotation_analysis;
     case SCENE_MOTION:
-        return motion_analysis;
+        break;
     }
-    return NULL;
+    return motion_analysis;
 }
 
 /* Did it fail before it left the undeformed state? In time a structure may be free to move. */
@@ -97,9 +96,9 @@ static void run_analyses(analysis_context *c)
             continue;
         c->singular = 0;
         const int first_step = c->result->steps;
-        o->status = run != NULL ? run(c, i, o, &f)
-                                : fault_set(&f, STATUS_REFUSED, "%s: not available",
-                                            scene_called(c->scene, SCENE_ANALYSES, i).text);
+        o->status = scene_inputs_check(c->scene, i, &f);
+        if (o->status == STATUS_OK)
+            o->status = run(c, i, o, &f);
         history_judge_steps(c->result, c->scene, i, first_step);
         if (o->status == STATUS_SINGULAR && c->singular)
             singular_explain(c, &f);

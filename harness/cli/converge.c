@@ -108,7 +108,7 @@ static int has_solution(const sweep *s)
     int found = 0;
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; s->series[i].missing[0] == '\0' && k < s->series[i].meshes; k++)
-            found |= s->series[i].cell[k].solve.status == STATUS_OK;
+            found |= cell_values(&s->series[i].cell[k]) > 0;
     return found;
 }
 

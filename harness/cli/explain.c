@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/inputs.h"
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
@@ -70,6 +71,29 @@ static int explain_case(const char *word)
         return 1;
     }
     return 0;
+}
+
+/* What of a scene has part in which analysis. */
+static int explain_inputs(const char *word)
+{
+    if (!glossary_same("inputs", word))
+        return 0;
+    printf("inputs (scenes): what has part in which analysis\n");
+    for (int k = 0; k < SCENE_COLUMNS; k++)
+        printf("  %c  %s\n", 'a' + k, scene_column_name[k]);
+    printf("  %-34s", "");
+    for (int k = 0; k < SCENE_COLUMNS; k++)
+        printf(" %c", 'a' + k);
+    putchar('\n');
+    for (const scene_input *i = scene_inputs; i->name != NULL; i++) {
+        printf("  %-34s", i->name);
+        for (int k = 0; k < SCENE_COLUMNS; k++)
+            printf(" %c", i->part[k]);
+        putchar('\n');
+    }
+    printf("  u used   s used, refused in a state whose tangent is not symmetric\n"
+           "  - no part: the answer is the same without   x refused by name\n");
+    return 1;
 }
 
 /* The rule whose cause this one is "the same" as: the last one before it that says a cause. */
@@ -211,7 +235,7 @@ static void list_words(const glossary *g)
 static int explain_word(const dictionary *d, const char *word)
 {
     const int found = explain_entry(d, word) + explain_formulation(word) + explain_case(word) +
-                      explain_rule(d, word) + explain_quantity(word);
+                      explain_rule(d, word) + explain_inputs(word) + explain_quantity(word);
     return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
 }
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
 #include "harness/command/defaults.h"
@@ -151,6 +152,18 @@ static status prepare_ends(const command_request *r, const restart *from, soluti
     return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
 }
 
+/* Damping has no matrix among those that are written. */
+static status check_matrices(const command_request *r, const scene *s, fault *f)
+{
+    for (int i = 0; i < s->members && r->matrices != NULL; i++)
+        if (s->member[i].damping > 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "--matrices writes no damping, and %s has %g s times its stiffness; "
+                             "set that to 0, or leave --matrices out",
+                             scene_called(s, SCENE_MEMBERS, i).text, s->member[i].damping);
+    return STATUS_OK;
+}
+
 /* What is needed before the solution; solve_request frees it. */
 static status prepare(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
                       restart *from, solution_request *what, sweep *s, truths *t, fault *f)
@@ -166,6 +179,7 @@ static status prepare(command_request *r, const case_type *type, char note[DEFAU
     TRY(defaults_fill(r, type, note, f));
     *what = defaults_request(r, type);
     TRY(solution_plan(what, s, f));
+    TRY(check_matrices(r, &s->point[0].scene, f));
     return prepare_ends(r, from, what, &s->point[0].scene, f);
 }
 
@@ -189,6 +203,20 @@ static status write_all(const command_request *r, const char *note, const soluti
     return write_matrices(r, s, f);
 }
 
+/* What has no value does not take the others with it, and is told all the same. That a mesh has no
+ * such mode, or a path no such point, is an answer. */
+static int tell_missing(status solved, const cell_result *cell, const fault *f)
+{
+    const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;
+    for (int i = 0; solved == STATUS_OK && i < cell->solve.quantities; i++) {
+        const quantity_result *q = &cell->solve.quantity[i];
+        if (q->status != STATUS_OK && q->status != STATUS_NO_VALUE)
+            return message_fail(q->status == STATUS_FAULT ? STATUS_FAULT : STATUS_NO_VALUE,
+                                q->reason);
+    }
+    return refused ? message_fail(STATUS_NO_VALUE, f->text) : message_exit(solved, f);
+}
+
 /* Solved in this process. */
 static int solve_and_write(const command_request *r, const char *note, const solution_request *what,
                            sweep *s, const truths *t)
@@ -198,10 +226,12 @@ static int solve_and_write(const command_request *r, const char *note, const sol
     guard_formulation(&what->formulation, r->time_limit);
     supports_told(r->scene, r->parameter, &what->formulation, &s->point[0].scene);
     const status solved = solution_run(what, s, &f);
-    if (solved == STATUS_REFUSED || solved == STATUS_FAULT)
+    const cell_result *cell = &s->series[0].cell[0];
+    if (solved == STATUS_FAULT || (solved == STATUS_REFUSED && cell_values(cell) == 0))
         return message_fail(solved, f.text);
     const status written = write_all(r, note, what, s, t, &unwritten);
-    return written != STATUS_OK ? message_fail(written, unwritten.text) : message_exit(solved, &f);
+    return written != STATUS_OK ? message_fail(written, unwritten.text)
+                                : tell_missing(solved, cell, &f);
 }
 
 static int solve_request(command_request *r)

@@ -48,6 +48,14 @@ static void tell_needs(const char *path, const case_type *type)
     scene_free(&s);
 }
 
+static int tell_reading(const command_request *r, const mistakes *m, status outcome, const fault *f)
+{
+    if (outcome == STATUS_OK)
+        return EXIT_AS_EXPECTED;
+    tell_mistakes(r, m, outcome, f);
+    return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
+}
+
 int case_input_read(const command_request *r, const char *path, scene_file **out)
 {
     mistakes m;
@@ -55,10 +63,26 @@ int case_input_read(const command_request *r, const char *path, scene_file **out
     const status outcome = scene_file_read(path, out, &m, &f);
     if (outcome == STATUS_OK && scene_file_states(*out, "needs"))
         tell_needs(path, scene_file_case(*out));
-    if (outcome == STATUS_OK)
-        return EXIT_AS_EXPECTED;
-    tell_mistakes(r, &m, outcome, &f);
-    return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
+    return tell_reading(r, &m, outcome, &f);
+}
+
+/* Values that are asked for count, not the defaults beside them. */
+static int read_form(const command_request *r, scene_file **out)
+{
+    mistakes m;
+    fault f = {""};
+    const status outcome = scene_file_read_form(r->scene_path[0], out, &m, &f);
+    if (outcome == STATUS_OK && scene_file_states(*out, "needs"))
+        tell_needs(r->scene_path[0], scene_file_case(*out));
+    return tell_reading(r, &m, outcome, &f);
+}
+
+static int check_values(const command_request *r)
+{
+    mistakes m;
+    fault f = {""};
+    const status outcome = scene_file_check(r->scene, r->parameter, &m, &f);
+    return tell_reading(r, &m, outcome, &f);
 }
 
 const case_type *case_input_scene(command_request *r)
@@ -67,7 +91,8 @@ const case_type *case_input_scene(command_request *r)
         message_fail(STATUS_REFUSED, "a case and --scene: give one of them");
         return NULL;
     }
-    const int code = case_input_read(r, r->scene_path[0], &r->scene);
+    const int code = r->assignments > 0 ? read_form(r, &r->scene)
+                                        : case_input_read(r, r->scene_path[0], &r->scene);
     if (code == EXIT_AS_EXPECTED)
         return scene_file_case(r->scene);
     r->refusal = code;
@@ -99,7 +124,11 @@ const case_type *case_input_find(command_request *r)
             message_fail(STATUS_REFUSED, f.text);
             return NULL;
         }
-    return type;
+    const int code = r->scene != NULL && r->assignments > 0 ? check_values(r) : EXIT_AS_EXPECTED;
+    if (code == EXIT_AS_EXPECTED)
+        return type;
+    r->refusal = code;
+    return NULL;
 }
 
 void case_input_close(command_request *r)

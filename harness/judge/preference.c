@@ -159,7 +159,7 @@ typedef struct step {
 static step step_between(const scene *s, const cell_result *before, const cell_result *now)
 {
     step out = {INFINITY, -1};
-    if (before->solve.status == STATUS_OK && now->solve.status == STATUS_OK)
+    if (cell_values(before) > 0 && cell_values(now) > 0)
         out.change = change_of(s, &before->solve, &now->solve, &out.which);
     return out;
 }

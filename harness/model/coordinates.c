@@ -50,11 +50,12 @@ static int motion_of(const model *m, int vertex, int component)
     const scene_node *n = &m->scene->node[vertex];
     const int motion =
         component < SCENE_RX ? n->translation[component] : n->angle[component - SCENE_RX];
-    const int sequence =
-                  n->rotation == SCENE_ROTATION_SEQUENCE || n->rotation == SCENE_ROTATION_FORK,
-              absent = component >= SCENE_RX && sequence &&
-                       component - SCENE_RX >= m->vertex[vertex].angles;
-    return absent ? SCENE_HELD : motion;
+    if (component < SCENE_RX)
+        return motion;
+    const mesh_vertex *v = &m->vertex[vertex];
+    const int angle = component - SCENE_RX,
+              sequence = n->rotation == SCENE_ROTATION_SEQUENCE || v->angles > 0;
+    return (sequence && angle >= v->angles) || (v->idle >> angle & 1) ? SCENE_HELD : motion;
 }
 
 /* The unknown driver whose value is found from the condition that known driver `known` puts on a

@@ -28,6 +28,28 @@ static void add_axis(const double axis[3], mesh_vertex *v)
     v->angles++;
 }
 
+/* A node that turns about an axis by itself is held against that: as a plane one against its free
+ * angle, else it turns about two axes across, of which the last carries the axis with it. */
+static void hold_idle(const scene *s, int node, mesh_vertex *v)
+{
+    double axis[3], across[2][3];
+    const int what = scene_idle_turn(s, node, axis);
+    if (what == 0)
+        return;
+    for (int k = 0; k < 3; k++)
+        v->idle |= (s->node[node].angle[k] == SCENE_FREE) << k;
+    if (what == SCENE_IDLE_ALL || v->idle != 7)
+        return;
+    v->idle = 0;
+    const int least = fabs(axis[0]) < fabs(axis[1]) ? 0 : 1,
+              k = fabs(axis[2]) < fabs(axis[least]) ? 2 : least;
+    const double other[3] = {k == 0, k == 1, k == 2};
+    vec3_cross(axis, other, across[0]);
+    vec3_cross(axis, across[0], across[1]);
+    add_axis(across[0], v);
+    add_axis(across[1], v);
+}
+
 static void scene_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -49,6 +71,7 @@ static void scene_vertices(model *m)
         if (n->rotation == SCENE_ROTATION_SEQUENCE)
             while (v->angles < 3 && vec3_norm(n->axis[v->angles]) > 0)
                 add_axis(n->axis[v->angles], v);
+        hold_idle(s, i, v);
     }
 }
 

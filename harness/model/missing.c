@@ -93,7 +93,7 @@ int missing_refused(const scene *s, const element_type *type, char *words, int s
     if (size > 0)
         words[0] = '\0';
     if (missing != 0) {
-        feature_words(missing, words, size);
+        words_of(missing, words, size);
         return 1;
     }
     return mass_lacks(s, type, words, size);

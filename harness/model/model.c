@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "harness/adapters/adapters.h"
 #include "harness/algebra/memory.h"
 #include "harness/model/discrete.h"
@@ -68,6 +69,34 @@ static status allocate(model *m, fault *f)
     return kinematics_state_alloc(m, &m->rest, f);
 }
 
+/* Matrices whose mean with their transpose is taken, and turns that nothing meets. */
+static status note_means(model *m, fault *f)
+{
+    const scene *s = m->scene;
+    double axis[3];
+    for (int i = 0; i < s->nodes; i++)
+        if (scene_idle_turn(s, i, axis) != 0)
+            TRY(coordinates_note_left_out(m, f,
+                                          "what %s turns by itself, as all its members release: "
+                                          "nothing depends on it",
+                                          scene_called(s, SCENE_NODES, i).text));
+    for (int i = 0; i < s->sections; i++)
+        if (m->section[i].asymmetry > 0)
+            TRY(coordinates_note_left_out(m, f,
+                                          "what the matrices of %s are unsymmetric by, %.1e of "
+                                          "their diagonal: the mean is taken",
+                                          scene_called(s, SCENE_SECTIONS, i).text,
+                                          m->section[i].asymmetry));
+    for (int i = 0; i < s->springs; i++)
+        if (s->spring[i].asymmetry > 0)
+            TRY(coordinates_note_left_out(m, f,
+                                          "what the stiffness of %s is unsymmetric by, %.1e of "
+                                          "its diagonal: the mean is taken",
+                                          scene_called(s, SCENE_SPRINGS, i).text,
+                                          s->spring[i].asymmetry));
+    return STATUS_OK;
+}
+
 static status build(model *m, const model_request *request, fault *f)
 {
     const scene *s = request->scene;
@@ -90,6 +119,7 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(mesh_build(m, request->elements, f));
     TRY(discrete_build(m, f));
     TRY(coordinates_number(m, f));
+    TRY(note_means(m, f));
     if (lacks_of(s, type, words, sizeof words))
         TRY(coordinates_note_left_out(m, f, "%s", words));
     if (m->omits != 0) {

@@ -20,6 +20,7 @@ typedef struct mesh_vertex {
     int coordinate[6]; /* of a body: global coordinate or NONE where held */
     int angles;        /* > 0: rotation is a sequence of so many angles about the axes */
     double axis[3][3];
+    int idle;             /* bits of angles that are held: nothing depends on them */
     int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
 } mesh_vertex;
 

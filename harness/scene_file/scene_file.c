@@ -70,8 +70,8 @@ status scene_file_build_before(const scene_file *file, const double value[], sce
     return mistakes_status(&m, f);
 }
 
-/* Tree, form, parameters, scene, truths: each where what is before it has no mistake. */
-static void read_all(scene_file *file, const char *bytes, size_t size, mistakes *m)
+/* Tree, form, parameters: each where what is before it has no mistake. */
+static void read_form(scene_file *file, const char *bytes, size_t size, mistakes *m)
 {
     file->root = document_read(bytes, size, &file->arena, m);
     if (file->root == NULL || !keys_check(file->root, m))
@@ -81,11 +81,12 @@ static void read_all(scene_file *file, const char *bytes, size_t size, mistakes 
     file->type.summary = line_of(file, "summary");
     file->type.source = line_of(file, "source");
     parameter_table_read(file, m);
-    if (m->count > 0 || file->arena.failed)
-        return;
-    double value[CASE_MAX_PARAMETERS] = {0};
+}
+
+/* Scene and truths at values of the parameters. */
+static void check_at(const scene_file *file, const double value[], mistakes *m)
+{
     scene s;
-    parameter_defaults(file->type.parameters, value);
     scene_init(&s, file->type.name);
     build_at(file, value, BUILD_BY_SUPPORTS, &s, m);
     if (m->count == 0)
@@ -93,8 +94,17 @@ static void read_all(scene_file *file, const char *bytes, size_t size, mistakes 
     scene_free(&s);
 }
 
-status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
-                             mistakes *m, fault *f)
+status scene_file_check(const scene_file *file, const double value[], mistakes *m, fault *f)
+{
+    memset(m, 0, sizeof *m);
+    m->file = file->path;
+    check_at(file, value, m);
+    return mistakes_status(m, f);
+}
+
+/* built: at its defaults too. */
+static status read_from(const char *bytes, size_t size, const char *path, int built,
+                        scene_file **out, mistakes *m, fault *f)
 {
     memset(m, 0, sizeof *m);
     m->file = path;
@@ -106,7 +116,12 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     file->type.build_from = build_from;
     file->type.context = file;
     file->type.file = path;
-    read_all(file, bytes, size, m);
+    read_form(file, bytes, size, m);
+    if (built && m->count == 0 && !file->arena.failed) {
+        double value[CASE_MAX_PARAMETERS] = {0};
+        parameter_defaults(file->type.parameters, value);
+        check_at(file, value, m);
+    }
     m->out_of_memory |= file->arena.failed;
     const status outcome = mistakes_status(m, f);
     if (outcome == STATUS_OK)
@@ -114,6 +129,12 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     else
         scene_file_free(file);
     return outcome;
+}
+
+status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
+                             mistakes *m, fault *f)
+{
+    return read_from(bytes, size, path, 1, out, m, f);
 }
 
 /* All bytes of a file, at most one more than a scene file may have: a longer one is refused as
@@ -130,15 +151,15 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
 }
 
 /* With bytes that scene_file_read frees. */
-static status read_file(const char *path, char *bytes, size_t room, scene_file **out, mistakes *m,
-                        fault *f)
+static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
+                        mistakes *m, fault *f)
 {
     size_t size = 0;
     TRY(read_bytes(path, bytes, room, &size, f));
-    return scene_file_read_bytes(bytes, size, path, out, m, f);
+    return read_from(bytes, size, path, built, out, m, f);
 }
 
-status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f)
+static status read_path(const char *path, int built, scene_file **out, mistakes *m, fault *f)
 {
     const size_t room = DOCUMENT_BYTES + 1;
     char *bytes = malloc(room);
@@ -147,9 +168,19 @@ status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f
     m->file = path;
     if (bytes == NULL)
         return fault_set(f, STATUS_FAULT, "%.200s: out of memory", path);
-    const status outcome = read_file(path, bytes, room, out, m, f);
+    const status outcome = read_file(path, bytes, room, built, out, m, f);
     free(bytes);
     return outcome;
+}
+
+status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f)
+{
+    return read_path(path, 1, out, m, f);
+}
+
+status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f)
+{
+    return read_path(path, 0, out, m, f);
 }
 
 void scene_file_free(scene_file *file)

@@ -14,7 +14,13 @@ typedef struct scene_file scene_file;
  * REFUSED with all mistakes in m (and the first in f), FAULT when it cannot be read. path must
  * outlive m and the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
-/* The same of bytes, which the fuzzer gives; path: as messages call it. */
+/* Its form and parameters alone, where values other than the defaults are asked for; what it is
+ * at these says scene_file_check. */
+status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f);
+/* Is it a scene at these values of its parameters? REFUSED with all mistakes in m, the first in f.
+ */
+status scene_file_check(const scene_file *, const double value[], mistakes *m, fault *f);
+/* The same as scene_file_read of bytes, which the fuzzer gives; path: as messages call it. */
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
                              mistakes *m, fault *f);
 void scene_file_free(scene_file *);

@@ -104,6 +104,14 @@ status cell_run(const cell_request *request, cell_result *out, fault *f)
     return outcome;
 }
 
+int cell_values(const cell_result *r)
+{
+    int count = 0;
+    for (int i = 0; i < r->solve.quantities; i++)
+        count += r->solve.quantity[i].status == STATUS_OK;
+    return count;
+}
+
 void cell_result_free(cell_result *r)
 {
     for (int i = 0; i < r->left_out_lines; i++)

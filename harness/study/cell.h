@@ -40,6 +40,9 @@ void cell_formulation(cell_request *, const formulation *chosen);
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
+/* Quantities that have a value, of an analysis that failed too: what cannot be had takes nothing
+ * with it. */
+int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
 #endif

@@ -1,0 +1,174 @@
+#include "cases/scene/inputs.h"
+
+#include <stdio.h>
+
+#include "cases/scene/along_path.h"
+#include "cases/scene/names.h"
+#include "elements/math/dense.h"
+
+const char *const scene_column_name[SCENE_COLUMNS] = {"linear",
+                                                      "static",
+                                                      "continuation",
+                                                      "buckling",
+                                                      "buckling about a path",
+                                                      "modal",
+                                                      "modal about a linear analysis",
+                                                      "modal about a path",
+                                                      "compliance",
+                                                      "compliance about a path",
+                                                      "rotation",
+                                                      "motion"};
+
+static int called(const scene *s, scene_list list, int i, char *who, int size)
+{
+    if (who != NULL)
+        snprintf(who, (size_t)size, "%s", scene_called(s, list, i).text);
+    return 1;
+}
+
+/* The first load for which `is` holds. */
+static int load_that(const scene *s, int (*is)(const scene_load *), char *who, int size)
+{
+    for (int i = 0; i < s->loads; i++)
+        if (is(&s->load[i]))
+            return called(s, SCENE_LOADS, i, who, size);
+    return 0;
+}
+
+#define LOAD(name, condition)                                                                      \
+    static int is_##name(const scene_load *l)                                                      \
+    {                                                                                              \
+        return condition;                                                                          \
+    }                                                                                              \
+    static int has_##name(const scene *s, char *who, int size)                                     \
+    {                                                                                              \
+        return load_that(s, is_##name, who, size);                                                 \
+    }
+LOAD(force, l->kind == SCENE_FORCE && !l->follower && vec3_norm(l->at) == 0)
+LOAD(following_force, l->kind == SCENE_FORCE && l->follower)
+LOAD(force_beside, l->kind == SCENE_FORCE && vec3_norm(l->at) > 0)
+LOAD(moment, l->kind == SCENE_MOMENT && !l->follower)
+LOAD(following_moment, l->kind == SCENE_MOMENT && l->follower)
+LOAD(line, l->kind == SCENE_DISTRIBUTED && !l->follower)
+LOAD(following_line, l->kind == SCENE_DISTRIBUTED && l->follower)
+LOAD(line_of_moments, l->kind == SCENE_DISTRIBUTED_MOMENT)
+LOAD(gravity, l->kind == SCENE_GRAVITY)
+LOAD(weight, l->kind == SCENE_WEIGHT)
+LOAD(staying, along_path_factor(l, 0) != 0)
+
+#define MEMBER(name, condition)                                                                    \
+    static int has_##name(const scene *s, char *who, int size)                                     \
+    {                                                                                              \
+        for (int i = 0; i < s->members; i++) {                                                     \
+            const scene_member *m = &s->member[i];                                                 \
+            if (condition)                                                                         \
+                return called(s, SCENE_MEMBERS, i, who, size);                                     \
+        }                                                                                          \
+        return 0;                                                                                  \
+    }
+MEMBER(strain, vec3_norm(m->strain) > 0)
+MEMBER(curvature, vec3_norm(m->curvature) > 0)
+MEMBER(taper, scene_member_tapers(m))
+MEMBER(release, m->release[0].count + m->release[1].count > 0)
+MEMBER(damping, m->damping > 0)
+MEMBER(matrices, s->section[m->section].kind == SECTION_MATRICES)
+MEMBER(held_warping, m->warp_p == SCENE_WARP_FIXED || m->warp_q == SCENE_WARP_FIXED)
+
+#define NODE(name, condition)                                                                      \
+    static int has_##name(const scene *s, char *who, int size)                                     \
+    {                                                                                              \
+        for (int i = 0; i < s->nodes; i++) {                                                       \
+            const scene_node *n = &s->node[i];                                                     \
+            if (condition)                                                                         \
+                return called(s, SCENE_NODES, i, who, size);                                       \
+        }                                                                                          \
+        return 0;                                                                                  \
+    }
+NODE(mass, n->body.mass > 0)
+NODE(inertia, n->body.inertia[0] + n->body.inertia[1] + n->body.inertia[2] > 0)
+NODE(tied, n->attached != SCENE_NONE)
+NODE(fork, n->rotation == SCENE_ROTATION_FORK)
+
+static int has_spring(const scene *s, char *who, int size)
+{
+    return s->springs > 0 && called(s, SCENE_SPRINGS, 0, who, size);
+}
+
+static int has_drive(const scene *s, char *who, int size)
+{
+    return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
+}
+
+static const char *const no_potential = "has no potential: the tangent is not symmetric and "
+                                        "stability may be lost by flutter; ask for "
+                                        "a static path, a continuation or a motion",
+                         *const no_drive =
+                             "is moved, and a continuation changes loads only; take it away, or "
+                             "ask for a static path";
+
+/* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
+ * analysis and a path, compliance and about a path, rotation, motion. */
+const scene_input scene_inputs[] = {
+    {"force", "uuuuu-uu-uuu", NULL, has_force},
+    {"force that follows", "uusxs-xs-usu", no_potential, has_following_force},
+    {"force beside its node", "uuuss-ss-uuu", NULL, has_force_beside},
+    {"moment", "uusss-ss-usu", NULL, has_moment},
+    {"moment that follows", "uusxs-xs-usu", no_potential, has_following_moment},
+    {"load along a member", "uuuuu-uu-uuu", NULL, has_line},
+    {"load along a member that follows", "uusxs-xs-usu", no_potential, has_following_line},
+    {"moments along a member", "uusxs-xs-usu", no_potential, has_line_of_moments},
+    {"gravity on members", "uuuuu-uu-uuu", NULL, has_gravity},
+    {"weight of a body", "uuuuu-uu-uuu", NULL, has_weight},
+    {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},
+    {"strain of a member", "uuuuuuuuuuuu", NULL, has_strain},
+    {"initial curvature", "uuuuuuuuuuuu", NULL, has_curvature},
+    {"taper", "uuuuuuuuuuuu", NULL, has_taper},
+    {"section by its matrices", "uuuuuuuuuuuu", NULL, has_matrices},
+    {"spring", "uuuuuuuuuuuu", NULL, has_spring},
+    {"release", "uuuuuuuuuuuu", NULL, has_release},
+    {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
+    {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
+    {"fork", "uuuuuuuuuuuu", NULL, has_fork},
+    {"mass of a node", "-----uuu--uu", NULL, has_mass},
+    {"inertia of a node", "-----uuu--uu", NULL, has_inertia},
+    {"motion of a node", "uuxuu-uu-uuu", no_drive, has_drive},
+    {"damping", "-----------u", NULL, has_damping},
+    {NULL, "", NULL, NULL}};
+
+scene_column scene_column_of(const scene *s, int analysis)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    switch (a->kind) {
+    case SCENE_LINEAR:
+        return SCENE_OF_LINEAR;
+    case SCENE_STATIC:
+        return SCENE_OF_STATIC;
+    case SCENE_CONTINUATION:
+        return SCENE_OF_CONTINUATION;
+    case SCENE_BUCKLING:
+        return a->follows == SCENE_NONE ? SCENE_OF_BUCKLING : SCENE_OF_BUCKLING_ABOUT;
+    case SCENE_MODAL:
+        return a->follows == SCENE_NONE                       ? SCENE_OF_MODAL
+               : s->analysis[a->follows].kind == SCENE_LINEAR ? SCENE_OF_MODAL_LINEAR
+                                                              : SCENE_OF_MODAL_ABOUT;
+    case SCENE_COMPLIANCE:
+        return a->follows == SCENE_NONE ? SCENE_OF_COMPLIANCE : SCENE_OF_COMPLIANCE_ABOUT;
+    case SCENE_ROTATION:
+        return SCENE_OF_ROTATION;
+    case SCENE_MOTION:
+        break;
+    }
+    return SCENE_OF_MOTION;
+}
+
+status scene_inputs_check(const scene *s, int analysis, fault *f)
+{
+    const scene_column column = scene_column_of(s, analysis);
+    char who[SCENE_NAME + 32];
+    for (const scene_input *i = scene_inputs; i->name != NULL; i++)
+        if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, who, sizeof who))
+            return fault_set(f, STATUS_REFUSED, "%s (%s) and %s (%s): it %s",
+                             scene_called(s, SCENE_ANALYSES, analysis).text,
+                             scene_column_name[column], who, i->name, i->why);
+    return STATUS_OK;
+}
