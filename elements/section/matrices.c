@@ -96,7 +96,8 @@ static int make_slice(double M[36])
         if (!(fabs(S[i] - M[i]) <=
               SECTION_MATRICES_SYMMETRIC * sqrt(fabs(M[7 * (i / N)] * M[7 * (i % N)]))))
             return 0;
-    memcpy(M, S, sizeof S);
+    for (int i = 0; i < 36; i++) /* 0 has no sign */
+        M[i] = S[i] + 0.0;
     return m >= 0 && (m > 0 || (z == 0 && y == 0));
 }
 

@@ -110,8 +110,8 @@ static void add(scene *s, const char *name)
         scene_set_body(s, TIP, (scene_body){.inertia = {0.2, 0.3, 0.25, 0, 0, 0}});
     else if (IS("motion of a node"))
         scene_drive(
-            s, ROOT, SCENE_UY,
-            scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, 0.01}));
+            s, TIP, SCENE_UX,
+            scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, -1e-6}));
     else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;

@@ -46,7 +46,7 @@ class Had(ProgramTest):
         self.assertIn("node m turns by itself", done.stderr)
         self.assertRegex(done.stdout, r"uy +7\.61904")
         told = json.loads(run(*words, "--format", "json").stdout)
-        values = {q["name"]: q["value"] for q in told["quantities"]}
+        values = {q["quantity"]: q["value"] for q in told["quantities"]}
         self.assertAlmostEqual(values["uy"], 960 / 6 / 210e3, delta=1e-6)
         self.assertIsNone(values["rz"])
         found = run("converge", "--scene", self.scene(HINGES), "-f", "collocation", "-n", "1,2")

@@ -202,7 +202,7 @@ class MotionTest(SceneCase):
         late = "{rate: {analysis: swing, node: block, component: ux, at: 0.9}}"
         path.write_text(path.read_text("utf-8").replace(
             "omit:", f"  v: {late}\n  w: {late}\nomit:"), "utf-8")
-        text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1).stdout
+        text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1, code=1).stdout
         self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
 
 
