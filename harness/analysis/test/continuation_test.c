@@ -62,6 +62,7 @@ static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
     const section_spec spec = sections_of(100, 40, 1, 40);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE);
     /* along x, or turned so that its load works on every coordinate */
     const double along[2][3] = {{1, 0, 0}, {0.48, 0.6, 0.64}},
                  across[2][3] = {{0, 1, 0}, {0.8, 0, -0.6}};

@@ -21,6 +21,7 @@ static status build(const double value[], scene *s, fault *f)
     (void)f;
     section_spec spec = section_spec_rectangle(young, young / 2.6, width, thickness);
     spec.density = density;
+    scene_omit(s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA);
     const int profile = scene_add_section(s, &spec);
     scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile,
                      y_axis);

@@ -29,6 +29,7 @@ static int leaf(scene *s, double damping, const blow *by, int *root)
     scene_init(s, "damped leaf");
     *root = scene_add_node(s, 0, 0, 0);
     const int tip = scene_add_node(s, 0.5, 0, 0);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA);
     const int profile = scene_add_section(s, &spec);
     const int member = scene_add_member(s, *root, tip, profile, y_axis);
     scene_member_at(s, member)->damping = damping;

@@ -90,6 +90,7 @@ static rod add_rod(scene *s, const char *name)
 {
     rod out;
     scene_init(s, name);
+    scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
     out.profile = add_section(s);
     out.root = scene_add_node(s, 0, 0, 0);
     out.tip = scene_add_node(s, length, 0, 0);
