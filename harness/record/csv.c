@@ -9,14 +9,14 @@ static void write_lines(FILE *to, int parts, csv_part row[], int value)
 {
     const subject s = row[value].s;
     const quantity_result *r = s.record;
-    quantity_result point = *r;
-    point.status = STATUS_OK;
-    point.reason[0] = '\0';
-    row[value].s.record = &point;
+    quantity_result one = *r;
+    one.status = STATUS_OK;
+    one.reason[0] = '\0';
+    row[value].s.record = &one;
     row[value].s.truth = row[value].s.model_truth = NULL;
     for (int i = 0; i < r->curve.points; i++) {
-        point.x = r->curve.x[i];
-        point.value = r->curve.value[i];
+        one.x = r->curve.x[i];
+        one.value = r->curve.value[i];
         csv_record_line(to, parts, row);
     }
     row[value].s = s;
