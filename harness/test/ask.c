@@ -62,7 +62,8 @@ static void settle(const scene *s, const element_type *type, const solve_result 
     out->status = outcome;
     out->members = s->members;
     out->outcome = outcome_of(s, type, outcome, all);
-    if (out->outcome == ASK_NOT_OFFERED)
+    char words[OMIT_WORDS];
+    if (out->outcome == ASK_NOT_OFFERED && missing_refused(s, type, words, sizeof words))
         gsl_test(outcome != STATUS_REFUSED, "%s, %s: what is not offered is refused (%s)", s->name,
                  type->name, status_name(outcome));
 }
