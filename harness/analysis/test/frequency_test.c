@@ -57,6 +57,7 @@ static int find(const element_type *e, const request *what, ask_tally *tally, an
 {
     scene s;
     scene_init(&s, "bar");
+    scene_omit(&s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA); /* Euler's beam */
     make(&s, what);
     ask_scene(&s, e, NULL, ELEMENTS, out);
     scene_free(&s);

@@ -17,6 +17,7 @@ analyses: {p: {static: {stations: [1]}}}
 quantities:
   uy: {displacement: {analysis: p, node: b, component: uy}}
   rx: {displacement: {analysis: p, node: b, component: rx}}
+omit: [trapeze, wagner_torque]
 meshes: [1, 2, 4, 8]
 """
 PAPERS = {"c_column": ("beamw_vlasov", "sheet_second", "sheet_third", "beamw"),

@@ -67,7 +67,7 @@ class Screen(ProgramTest):
 
     def test_matrix(self):
         """A mark for each case and formulation, and its words."""
-        for env, marks in ((UTF8, "≠1 ✓ · · ✓ ✓ ≠1 ≈2 · ·"), (ASCII, "#1 ok . . ok ok #1 ~2 . .")):
+        for env, marks in ((UTF8, "≠1 ✓ · ○ ✓ ✓ ≠1 ≈2 ○ ○"), (ASCII, "#1 ok . m ok ok #1 ~2 m m")):
             text = self.answered(*SMALL, env=env).stdout
             row, = re.findall(r"^shear_elastica +(\S.*)$", text, re.M)
             self.assertEqual(row.split(), marks.split())
