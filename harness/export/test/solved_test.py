@@ -86,7 +86,8 @@ class Solved(ExportTest):
         text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")
         scene = self.scene(text + "omit: [wagner_torque, rotary_inertia]\n")
         solid = self.solved(scene, "-n", "6")["deflection"]
-        plain = self.scene(text, "plain.yaml")
+        plain = self.scene(text + "omit: [trapeze, wagner_moments, wagner_torque, rotary_inertia]\n",
+                           "plain.yaml")
         for beams, least, most in ((scene, 0.985, 1.005), (plain, 1.1, 1.14)):
             told = self.record("solve", "--scene", beams, "-f", "collocation", "-n", "8")
             beam, = [q["value"] for q in told["quantities"] if q["quantity"] == "deflection"]
