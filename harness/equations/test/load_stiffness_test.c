@@ -17,7 +17,7 @@ static void stiffness(int body)
     const sparse *pattern;
     sparse K;
     turned_body_prepare(body, SCENE_FORCE, &s);
-    gsl_test(assemble_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
+    gsl_test(assemble_pattern_of_states(s.m, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
     rotating_frame_load_stiffness(s.m, s.turned, 1, &K);
@@ -51,7 +51,7 @@ static void stiffness_of_angles(int body, scene_load_kind kind, int follower, co
     turned_body_prepare(body, kind, &s);
     s.scene.load[0].follower = follower;
     memcpy(s.scene.load[0].at, at, sizeof s.scene.load[0].at);
-    gsl_test(assemble_pattern(s.m, 0, &pattern, &f) != STATUS_OK ||
+    gsl_test(assemble_pattern_of_states(s.m, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
     gsl_test((follower || kind == SCENE_MOMENT) && K.symmetric, "%s: an unsymmetric pattern",
