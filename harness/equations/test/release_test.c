@@ -99,7 +99,7 @@ static int prepare(subject *t, const char *formulation_name)
                      model_alloc(&what, &t->m, &f) == STATUS_OK &&
                      kinematics_state_alloc(t->m, &t->s, &f) == STATUS_OK &&
                      kinematics_state_alloc(t->m, &t->moved, &f) == STATUS_OK &&
-                     assemble_pattern(t->m, 0, &pattern, &f) == STATUS_OK &&
+                     assemble_pattern_of_states(t->m, 0, &pattern, &f) == STATUS_OK &&
                      sparse_alloc_like(pattern, &t->K, &f) == STATUS_OK;
     gsl_test(!good, "%s: %s", formulation_name, f.text);
     t->n = good ? model_sizes(t->m).free : 0;

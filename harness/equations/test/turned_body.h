@@ -69,7 +69,7 @@ static inline void turned_body_prepare(int body, scene_load_kind kind, turned_bo
     beam_and_body(body, kind, &s->scene);
     int i = 0;
     for (; strcmp(registry_formulations[i]->name, "geometrically_exact") != 0; i++) {}
-    const model_request what = {&s->scene, registry_formulations[i], NULL, 1, 0};
+    const model_request what = {&s->scene, registry_formulations[i], NULL, 1, 0, 0};
     gsl_test(scene_validate(&s->scene, &f) != STATUS_OK ||
                  model_alloc(&what, &s->m, &f) != STATUS_OK,
              "%s: %s", turned_body_name[body], f.text);
