@@ -59,6 +59,7 @@ static inline int bar_find_signs(const element_type *e, ask_tally *tally, build 
     scene s;
     memset(out, 0, sizeof *out);
     scene_init(&s, "bar");
+    scene_omit(&s, SCENE_OMITTABLE); /* Euler's beam */
     make(&s, direction);
     bar_ask(&s, signs);
     ask_scene(&s, e, NULL, n, &a);
