@@ -33,7 +33,8 @@ int scene_add_linear(scene *s)
 
 static int add_walk(scene *s, scene_analysis_kind kind, scene_walk walk)
 {
-    const int i = add(s, (scene_analysis){.kind = kind, .follows = SCENE_NONE, .of = {.walk = walk}});
+    const int i =
+        add(s, (scene_analysis){.kind = kind, .follows = SCENE_NONE, .of = {.walk = walk}});
     if (i < 0)
         free(walk.path.value);
     return i;
@@ -64,13 +65,16 @@ int scene_add_modal(scene *s, int follows)
 
 int scene_add_compliance(scene *s, int follows, scene_compliance what)
 {
-    return add(s, (scene_analysis){.kind = SCENE_COMPLIANCE, .follows = follows, .of = {.compliance = what}});
+    return add(s, (scene_analysis){
+                      .kind = SCENE_COMPLIANCE, .follows = follows, .of = {.compliance = what}});
 }
 
 int scene_add_continuation(scene *s, int stations, const double path[], scene_control control)
 {
     const scene_continuation what = {.path = path_of(s, stations, path), .control = control};
-    const int i = add(s, (scene_analysis){.kind = SCENE_CONTINUATION, .follows = SCENE_NONE, .of = {.continuation = what}});
+    const int i = add(s, (scene_analysis){.kind = SCENE_CONTINUATION,
+                                          .follows = SCENE_NONE,
+                                          .of = {.continuation = what}});
     if (i < 0)
         free(what.path.value);
     return i;
@@ -79,7 +83,8 @@ int scene_add_continuation(scene *s, int stations, const double path[], scene_co
 int scene_add_motion(scene *s, int follows, int stations, const double path[], scene_motion how)
 {
     how.path = path_of(s, stations, path);
-    const int i = add(s, (scene_analysis){.kind = SCENE_MOTION, .follows = follows, .of = {.motion = how}});
+    const int i =
+        add(s, (scene_analysis){.kind = SCENE_MOTION, .follows = follows, .of = {.motion = how}});
     if (i < 0)
         free(how.path.value);
     return i;

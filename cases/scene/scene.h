@@ -189,8 +189,8 @@ struct scene {
     scene_analysis *analysis;
     scene_quantity *quantity;
     scene_plane plane; /* that all is held in; SCENE_SPACE: none */
-    unsigned omits;   /* of SCENE_OMITTABLE what the scene leaves out: scene_omit sets them */
-    unsigned demands; /* FEATURE_* bits beyond what its data call for: scene_demand sets them */
+    unsigned omits;    /* of SCENE_OMITTABLE what the scene leaves out: scene_omit sets them */
+    unsigned demands;  /* FEATURE_* bits beyond what its data call for: scene_demand sets them */
     scene_shear shear_theory;
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];

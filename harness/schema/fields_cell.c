@@ -4,8 +4,8 @@
 
 #include "cases/scene/omission.h"
 #include "elements/feature.h"
-#include "harness/scene_writer/warping_ends.h"
 #include "harness/model/features.h"
+#include "harness/scene_writer/warping_ends.h"
 #include "harness/schema/fields_keys.h"
 #include "harness/timing/price.h"
 

@@ -139,7 +139,8 @@ static const schema_field fields_of_step[] = {
     {"analysis", "1", FIELD_INT, "of the scene", STEP(analysis)},
     {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_step},
     {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
-    {"stability", "", FIELD_TEXT, "of the state where it ended: stable, unstable (negative pivots), undecided (not symmetric, "
+    {"stability", "", FIELD_TEXT,
+     "of the state where it ended: stable, unstable (negative pivots), undecided (not symmetric, "
      "or in axes that turn)",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
