@@ -1,5 +1,6 @@
 #include "harness/algebra/gyroscopic.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,16 +14,28 @@ enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
 /* Of a residual, in parts of x^H K x: a frequency is off by its square. */
 static const double good_residual = 1e-8, bearable_residual = 1e-5;
+/* Where rounding moves the residual by this much, pairs need not converge: their mass is rounding
+ * beside the largest. */
+static const double no_digits = 1e-7;
+/* K is nearly singular where an eigenvalue of (K, M) is smaller than this part of the others, or of
+ * the square of what G does in a second; the shift is then the second part of them. */
+static const double near_zero = 1e-4, away_from_zero = 1e-2;
+/* Where all pairs are found, no others lie below this ratio to the last one. */
+static const double far = 1e3;
 
 typedef struct solver {
     const gyroscopic_problem *p;
     gyroscopic_result *out;
-    double shift;    /* [1/s^2] S = K + shift M */
-    const sparse *S; /* K, or ... */
-    sparse shifted;  /* ... this */
+    double shift;             /* [1/s^2] S = K + shift M */
+    double least;             /* the shift is no smaller */
+    double nearest, furthest; /* of the eigenvalues of (K, M) at the start, by size, ... */
+    double softest;           /* ... and of (S, M) */
+    const sparse *S;          /* K, or ... */
+    sparse shifted;           /* ... this */
     subspace basis;
     ritz pairs;
     double *re, *im, *work; /* [free] */
+    int found;              /* pairs wanted that have digits */
 } solver;
 
 void gyroscopic_free(gyroscopic_result *r)
@@ -79,25 +92,43 @@ static double improve(solver *s, int i, int *grown)
     return size;
 }
 
-/* Ritz pairs until `wanted` of them are good. */
+/* Is the mass of pair i rounding beside the largest? */
+static int is_beyond_digits(const solver *s, int i)
+{
+    const double size = cabs(s->pairs.lambda[i]);
+    double mass = 0;
+    for (int k = 0; k < s->basis.count; k++)
+        mass = fmax(mass, s->basis.Mp[k * s->basis.room + k]);
+    return size * size * mass * DBL_EPSILON > no_digits;
+}
+
+/* Ritz pairs until `wanted` of them are good. Those with too little mass to have digits end the
+ * search where the basis has no more to gain. */
 static status iterate(solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
         TRY(s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f)
                          : ritz_hermitian(&s->basis, &s->pairs, f));
         const int count = s->pairs.count < wanted ? s->pairs.count : wanted;
-        double worst = 0;
+        double worst = 0, beyond = 0;
         int grown = 0;
-        for (int i = 0; i < count; i++)
-            worst = fmax(worst, improve(s, i, &grown));
-        if (worst <= good_residual)
+        s->found = count;
+        for (int i = 0; i < count; i++) {
+            const double size = improve(s, i, &grown);
+            if (size > bearable_residual && s->found == count && is_beyond_digits(s, i))
+                s->found = i;
+            worst = fmax(worst, i < s->found ? size : 0);
+            beyond = fmax(beyond, size);
+        }
+        if (beyond <= good_residual)
             return STATUS_OK;
-        if (grown == 0 || pass == MAX_PASSES)
-            return worst <= bearable_residual
-                       ? STATUS_OK
-                       : fault_set(f, STATUS_NOT_CONVERGED,
-                                   "frequencies in a rotating frame: residual %.1e with %d vectors",
-                                   worst, s->basis.count);
+        if (grown > 0 && pass < MAX_PASSES)
+            continue;
+        return worst <= bearable_residual
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_NOT_CONVERGED,
+                               "frequencies in a rotating frame: residual %.1e with %d vectors",
+                               worst, s->basis.count);
     }
 }
 
@@ -108,9 +139,14 @@ static status start(solver *s, int count, fault *f)
     const eigen_problem problem = {
         .K = s->S, .A = s->p->M, .K_factor = s->p->K_factor, .sign = 1, .largest = count};
     const status outcome = eigen_solve(&problem, &e, f);
-    if (outcome == STATUS_OK)
-        for (int i = 0; i < e.positive.count; i++)
-            subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
+    s->nearest = s->furthest = s->softest = NAN;
+    for (int i = 0; outcome == STATUS_OK && i < e.positive.count; i++) {
+        const double size = fabs(1 / e.positive.mu[i] - s->shift);
+        s->nearest = fmin(s->nearest, size);
+        s->softest = fmin(s->softest, 1 / e.positive.mu[i]);
+        s->furthest = fmax(s->furthest, size);
+        subspace_add(&s->basis, e.positive.mode + (size_t)i * (size_t)s->basis.n);
+    }
     s->out->solutions += e.solutions;
     s->out->factorisations += e.factorisations;
     s->out->dense_operations += e.dense_operations;
@@ -118,11 +154,11 @@ static status start(solver *s, int count, fault *f)
     return outcome;
 }
 
-/* Negative eigenvalues of K that the first `wanted` pairs do not account for. */
-static int unaccounted(const solver *s, int wanted)
+/* Negative eigenvalues of K that the pairs found do not account for. */
+static int unaccounted(const solver *s)
 {
-    const int count = s->pairs.count < wanted ? s->pairs.count : wanted;
-    return s->out->negative - gyroscopic_index_of(&s->pairs, &s->basis, s->shift, count).negative;
+    return s->out->negative -
+           gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
 /* K is indefinite: what the count below a gap behind the first `last` pairs proves of them. One
@@ -138,44 +174,74 @@ static status prove(solver *s, int last, status counted, int below, int *number)
     return counted == STATUS_FAULT ? counted : STATUS_OK;
 }
 
-/* Frequencies below a gap between the wanted ones and the next, less those that are found; equal
- * ones have no gap between them. */
+/* Frequencies below a gap between those found and the next, less those that are found; equal ones
+ * have no gap between them. */
 static status missing(solver *s, int wanted, int *number, fault *f)
 {
     const double gap = 1e-6; /* relative */
-    int last = s->pairs.count - 1 < wanted ? s->pairs.count - 1 : wanted, below = 0;
+    int last = s->found, below = 0;
     *number = 0;
-    s->out->unproven = s->shift > 0 ? unaccounted(s, wanted) : 0;
-    while (last > 0 && !(cabs(s->pairs.lambda[last]) > (1 + gap) * cabs(s->pairs.lambda[last - 1])))
+    s->out->unproven = s->out->negative > 0 ? unaccounted(s) : 0;
+    if (last == s->pairs.count && last == wanted)
+        last--;
+    while (last > 0 && last < s->pairs.count &&
+           !(cabs(s->pairs.lambda[last]) > (1 + gap) * cabs(s->pairs.lambda[last - 1])))
         last--;
     if (last <= 0)
         return STATUS_OK;
-    const double omega = sqrt(cabs(s->pairs.lambda[last - 1]) * cabs(s->pairs.lambda[last]));
+    const double size = cabs(s->pairs.lambda[last - 1]),
+                 next = last < s->pairs.count ? cabs(s->pairs.lambda[last]) : far * far * size;
+    const double omega = sqrt(size * next);
     const status outcome = gyroscopic_count(s->p->K, s->p->M, s->p->G, omega, &below, f);
     s->out->factorisations++;
-    if (s->shift > 0)
+    if (s->out->negative > 0)
         return prove(s, last, outcome, below, number);
     TRY(outcome);
     *number = below > last ? below - last : 0;
     return STATUS_OK;
 }
 
-/* K is indefinite: the least shift, in powers of ten, that makes it definite. */
+static double diagonal(const sparse *a, int j)
+{
+    for (int k = a->column[j]; k < a->column[j + 1]; k++)
+        if (a->row[k] == j)
+            return a->value[k];
+    return 0;
+}
+
+/* [1/s] What G does: its largest entry beside the masses on either side. */
+static double rate_of_turning(const sparse *G, const sparse *M)
+{
+    double rate = 0;
+    for (int j = 0; j < G->n; j++)
+        for (int k = G->column[j]; k < G->column[j + 1]; k++) {
+            const double mass = sqrt(diagonal(M, j) * diagonal(M, G->row[k]));
+            if (mass > 0)
+                rate = fmax(rate, fabs(G->value[k]) / mass);
+        }
+    return rate;
+}
+
+/* The least shift, in powers of ten, that makes K definite. */
 static status find_shift(solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
     double k = 0, mass = 0;
-    TRY(sparse_alloc_like(K, &s->shifted, f));
+    if (s->shifted.value == NULL)
+        TRY(sparse_alloc_like(K, &s->shifted, f));
     s->S = &s->shifted;
     for (int j = 0; j < K->n; j++) {
-        k += fabs(K->value[K->column[j + 1] - 1]);
-        mass += M->value[M->column[j + 1] - 1];
+        k += fabs(diagonal(K, j));
+        mass += diagonal(M, j);
     }
-    for (s->shift = 1e-12 * k / mass;; s->shift *= 10) {
-        if (s->shift > 1e3 * k / mass)
+    for (s->shift = fmax(1e-12 * k / mass, s->least);; s->shift *= 10) {
+        if (!(s->shift < 1e3 * k / mass))
             return fault_set(
                 f, STATUS_REFUSED,
-                "the stiffness is indefinite where there is no mass: no motion follows from it");
+                "the stiffness is indefinite where there is no mass, so that no motion follows "
+                "from "
+                "it: elements may be too long for the axial force in them; take more, or another "
+                "formulation");
         for (int i = 0; i < K->column[K->n]; i++)
             s->shifted.value[i] = K->value[i] + s->shift * M->value[i];
         const status factored = factor_numeric(s->p->K_factor, &s->shifted, f);
@@ -186,6 +252,33 @@ static status find_shift(solver *s, fault *f)
         if (factor_count(s->p->K_factor).negative_pivots == 0)
             return STATUS_OK;
     }
+}
+
+/* The shift that a start shows to be needed: where K is nearly singular, as at a critical speed, or
+ * K + shift M is. No larger than the shift there is: none is. */
+static double shift_after(const solver *s, status started)
+{
+    const double rate = rate_of_turning(s->p->G, s->p->M);
+    const double scale = started == STATUS_OK ? fmin(rate * rate, s->furthest) : rate * rate;
+    const int nearly = started != STATUS_OK || s->nearest < near_zero * scale;
+    if (s->shift > 0 && (started != STATUS_OK || s->softest < near_zero * s->shift))
+        return fmax(2 * s->shift, away_from_zero * scale);
+    return nearly ? away_from_zero * scale : 0;
+}
+
+/* The first start, if need be with another shift. */
+static status begin(solver *s, int count, fault *f)
+{
+    const status outcome = start(s, count, f);
+    if (outcome != STATUS_OK && outcome != STATUS_NOT_CONVERGED)
+        return outcome;
+    s->least = shift_after(s, outcome);
+    if (!(s->least > s->shift))
+        return outcome;
+    TRY(find_shift(s, f));
+    s->basis.S = s->S;
+    s->basis.count = 0;
+    return start(s, count, f);
 }
 
 /* The frequency as a quotient of quadratic forms, k - omega^2 m + omega g = 0: its error is the
@@ -223,7 +316,7 @@ static status hand_over(solver *s, fault *f)
 {
     gyroscopic_result *r = s->out;
     const size_t n = (size_t)r->n;
-    r->count = s->pairs.count < s->p->wanted ? s->pairs.count : s->p->wanted;
+    r->count = s->found;
     r->frequency = calloc((size_t)r->count + 1, sizeof(double));
     r->growth = calloc((size_t)r->count + 1, sizeof(double));
     r->mode = calloc((size_t)r->count * n + 1, sizeof(double));
@@ -235,7 +328,7 @@ static status hand_over(solver *s, fault *f)
         accumulate(s, s->basis.V, s->pairs.c + (size_t)i * (size_t)s->basis.room, 1);
         turn_phase(s);
         r->frequency[i] = cimag(lambda);
-        if (fabs(creal(lambda)) > ritz_imaginary * cabs(lambda))
+        if (r->negative > 0 && gyroscopic_index_grows(&s->pairs, &s->basis, s->shift, i))
             r->growth[i] = creal(lambda);
         if (s->shift == 0 && s->p->K_energy != NULL)
             r->frequency[i] = quotient(s, r->frequency[i]);
@@ -252,7 +345,7 @@ static status find(solver *s, fault *f)
         if (attempt == MAX_STARTS)
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%d frequencies in a rotating frame are missing", lost);
-        TRY(start(s, first < n ? first : n, f));
+        TRY((attempt == 0 ? begin : start)(s, first < n ? first : n, f));
         TRY(iterate(s, s->p->wanted, f));
         TRY(missing(s, s->p->wanted, &lost, f));
         first += 2 * lost + SPARE;

@@ -5,8 +5,12 @@
  * projected on a real basis the problem is Hermitian, mu [x; y] = [-i G, R^T; R, 0] [x; y] with mu
  * = 1/omega, M = R^T R and K the identity.  The basis starts with the modes without G and takes in
  * K^-1 times the residuals; inertia counts the frequencies, so that none is missed. With K
- * indefinite the projected problem is solved as it is, and lambda has a real part where a motion
- * grows; what the count proves then: gyroscopic_index.h. */
+ * indefinite, or nearly singular as at a critical speed, K + shift M takes its place in the basis
+ * and the projected problem is solved as it is; lambda has a real part where a motion grows; what
+ * the count proves then: gyroscopic_index.h.
+ *
+ * What has no mass has no frequency, and what has too little beside the rest (frequencies above
+ * some 1e4 times those of the heavy parts) may end the search before all wanted modes are found. */
 #ifndef BEAMWORK_GYROSCOPIC_H
 #define BEAMWORK_GYROSCOPIC_H
 

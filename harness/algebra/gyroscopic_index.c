@@ -3,11 +3,12 @@
 #include <math.h>
 #include <stddef.h>
 
-/* x^H (K + omega^2 M) x = c^H c + (omega^2 - shift) c^H Mp c, beside c^H c = 1. */
+/* x^H (K + |lambda|^2 M) x, in parts of the sizes of its terms; c^H c = 1 is x^H (K + shift M) x.
+ */
 static double energy(const ritz *r, const subspace *b, double shift, int i)
 {
     const double complex *c = r->c + (size_t)i * (size_t)b->room;
-    const double omega = cimag(r->lambda[i]);
+    const double size = cabs(r->lambda[i]);
     double unit = 0, mass = 0;
     for (int j = 0; j < r->size; j++) {
         double complex sum = 0;
@@ -16,20 +17,29 @@ static double energy(const ritz *r, const subspace *b, double shift, int i)
         unit += creal(conj(c[j]) * c[j]);
         mass += creal(conj(c[j]) * sum);
     }
-    return unit + (omega * omega - shift) * mass;
+    const double potential = unit - shift * mass, kinetic = size * size * mass;
+    return (potential + kinetic) / (fabs(potential) + kinetic);
 }
 
-/* Energies below this part are neither: two frequencies that meet. */
-static const double no_energy = 1e-7;
+/* Energies below this part are none. */
+static const double no_energy = 1e-6;
+/* Real parts of this part of lambda are growth, whatever rounding does. */
+static const double clear_growth = 1e-3;
+
+int gyroscopic_index_grows(const ritz *r, const subspace *b, double shift, int i)
+{
+    const double part = fabs(creal(r->lambda[i])) / cabs(r->lambda[i]);
+    return part > clear_growth ||
+           (part > ritz_imaginary && fabs(energy(r, b, shift, i)) <= no_energy);
+}
 
 gyroscopic_index gyroscopic_index_of(const ritz *r, const subspace *b, double shift, int count)
 {
     gyroscopic_index out = {0, 0};
     for (int i = 0; i < count; i++) {
         const double complex lambda = r->lambda[i];
-        const double tiny = ritz_imaginary * cabs(lambda);
-        if (fabs(creal(lambda)) > tiny) {
-            out.negative += fabs(cimag(lambda)) > tiny ? 2 : 1;
+        if (gyroscopic_index_grows(r, b, shift, i)) {
+            out.negative += fabs(cimag(lambda)) > ritz_imaginary * cabs(lambda) ? 2 : 1;
             continue;
         }
         const double e = energy(r, b, shift, i);

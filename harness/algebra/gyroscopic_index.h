@@ -17,6 +17,10 @@ typedef struct gyroscopic_index {
     int crossed;  /* frequencies of positive energy less the opposed ones */
 } gyroscopic_index;
 
+/* Does motion i grow? Its energy is zero then; that of an oscillation is not, so that its real part
+ * is rounding, and none. Where two frequencies meet there is neither: they count as oscillations.
+ */
+int gyroscopic_index_grows(const ritz *, const subspace *, double shift, int i);
 /* Of the first `count` pairs, found with S = K + shift M. */
 gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shift, int count);
 

@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of the largest eigenvalue of a projected mass, times its size. */
+static const double no_mass = 8 * DBL_EPSILON;
+
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)
 {
     memset(r, 0, sizeof *r);
@@ -37,35 +40,35 @@ static void normalise(int k, double complex c[])
         c[j] /= sqrt(square);
 }
 
-/* Q [k x k] and d [k] of the projected M = Q d Q^T into the matrix below. */
-static void fill_hermitian(const subspace *b, const double *Q, const double d[], double complex H[])
+/* R [k x k], row-major, with R^T R the projected M; rows of zeros where that is rounding of its
+ * largest eigenvalue. */
+static int root_of_mass(const subspace *b, double R[])
+{
+    const int k = b->count;
+    double *d = calloc((size_t)k + 1, sizeof *d);
+    int info = -1;
+    if (d != NULL) {
+        for (int i = 0; i < k; i++)
+            for (int j = 0; j < k; j++)
+                R[i * k + j] = b->Mp[i * b->room + j];
+        info = (int)LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', k, R, k, d);
+    }
+    for (int j = 0; info == 0 && j < k; j++)
+        for (int i = 0; i < k; i++)
+            R[j * k + i] *= d[j] > no_mass * k * d[k - 1] ? sqrt(d[j]) : 0;
+    free(d);
+    return info;
+}
+
+/* Upper triangle of [-i G, R^T; R, 0], column-major. */
+static void hermitian_matrix(const subspace *b, const double R[], double complex H[])
 {
     const int k = b->count, n = 2 * k, room = b->room;
     for (int j = 0; j < k; j++)
         for (int i = 0; i < k; i++) {
             H[(size_t)j * (size_t)n + (size_t)i] = -I * b->Gp[i * room + j];
-            H[(size_t)(k + j) * (size_t)n + (size_t)i] = sqrt(fmax(0, d[j])) * Q[j * k + i];
+            H[(size_t)(k + j) * (size_t)n + (size_t)i] = R[j * k + i];
         }
-}
-
-/* Upper triangle of [-i G, R^T; R, 0], column-major, with R = sqrt(d) Q^T of the projected M = Q d
- * Q^T. */
-static int hermitian_matrix(const subspace *b, double complex H[])
-{
-    const int k = b->count, room = b->room;
-    double *Q = malloc((size_t)k * (size_t)k * sizeof *Q), *d = malloc((size_t)k * sizeof *d);
-    int info = -1;
-    if (Q != NULL && d != NULL) {
-        for (int i = 0; i < k; i++)
-            for (int j = 0; j < k; j++)
-                Q[i * k + j] = b->Mp[i * room + j];
-        info = (int)LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', k, Q, k, d);
-    }
-    if (info == 0)
-        fill_hermitian(b, Q, d, H);
-    free(Q);
-    free(d);
-    return info;
 }
 
 /* The pairs of mu[found], ascending, but for infinite frequencies: nothing moves there that has a
@@ -89,12 +92,15 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f)
     double complex *H = calloc((size_t)n * (size_t)n, sizeof *H),
                    *z = calloc((size_t)n * (size_t)most, sizeof *z);
     double *mu = calloc((size_t)n, sizeof *mu);
+    double *R = calloc((size_t)k * (size_t)k + 1, sizeof *R);
     lapack_int *support = calloc(2 * (size_t)n, sizeof *support), found = 0;
-    int info =
-        H != NULL && z != NULL && mu != NULL && support != NULL ? hermitian_matrix(b, H) : -1;
-    if (info == 0)
+    const int room = H != NULL && z != NULL && mu != NULL && R != NULL && support != NULL;
+    int info = room ? root_of_mass(b, R) : -1;
+    if (info == 0) {
+        hermitian_matrix(b, R, H);
         info = (int)LAPACKE_zheevr(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0, n - most + 1, n,
                                    0, &found, mu, z, n, support);
+    }
     r->count = 0;
     r->size = k;
     if (info == 0)
@@ -102,6 +108,7 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f)
     free(H);
     free(z);
     free(mu);
+    free(R);
     free(support);
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
@@ -133,19 +140,22 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
     normalise(b->count, coefficients(b, r, at));
 }
 
-/* nu [Kp, 0; 0, 1] z = [-Gp, -Mp; 1, 0] z with nu = 1/lambda, z = (nu x, x) and Kp = 1 - shift Mp;
- * column-major. */
-static void general_matrices(const subspace *b, double shift, double A[], double B[])
+/* nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z with nu = 1/lambda, z = (x, lambda R x), Mp = R^T R and
+ * Kp = 1 - shift Mp; column-major. What has no mass is a simple nu = 0: with lambda x in place of
+ * lambda R x it would be a double one, which rounding makes as large as its root. */
+static void general_matrices(const subspace *b, double shift, const double R[], double A[],
+                             double B[])
 {
     const int k = b->count, n = 2 * k, room = b->room;
     for (int i = 0; i < k; i++)
         for (int j = 0; j < k; j++) {
             A[j * n + i] = -b->Gp[i * room + j];
-            A[(k + j) * n + i] = -b->Mp[i * room + j];
+            A[(k + j) * n + i] = -R[j * k + i];
+            A[j * n + k + i] = R[i * k + j];
             B[j * n + i] = (i == j) - shift * b->Mp[i * room + j];
         }
     for (int i = 0; i < k; i++)
-        A[i * n + k + i] = B[(k + i) * n + k + i] = 1;
+        B[(k + i) * n + k + i] = 1;
 }
 
 /* The first of each pair of the conjugate eigenvalues beta/(re + i im) [n], whose columns hold the
@@ -154,12 +164,17 @@ static void take_general(const subspace *b, const double re[], const double im[]
                          const double beta[], const double *z, double complex c[], ritz *r)
 {
     const int k = b->count, n = 2 * k;
+    double largest = 0; /* nu */
+    for (int i = 0; i < n; i++)
+        if (beta[i] != 0)
+            largest = fmax(largest, hypot(re[i], im[i]) / fabs(beta[i]));
     for (int i = 0; i < n; i++) {
         const double complex lambda = beta[i] / (re[i] + I * im[i]);
         const int second = im[i] < 0;
         const double complex imaginary = second ? -I : I;
-        const double *column = z + (size_t)(second ? i - 1 : i) * (size_t)n + k;
-        if (!isfinite(cabs(lambda)) || !is_first_of_its_kind(lambda))
+        const double *column = z + (size_t)(second ? i - 1 : i) * (size_t)n;
+        if (!(hypot(re[i], im[i]) > 16 * n * DBL_EPSILON * largest * fabs(beta[i])) ||
+            !is_first_of_its_kind(lambda))
             continue;
         for (int j = 0; j < k; j++)
             c[j] = column[j] + (im[i] != 0 ? imaginary * column[n + j] : 0);
@@ -171,12 +186,14 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
 {
     const int k = b->count, n = 2 * k;
     const size_t square = (size_t)n * (size_t)n;
-    double *A = calloc(3 * square + 3 * (size_t)n + 1, sizeof *A), *B = A + square, *z = B + square;
-    double *re = z + square, *im = re + n, *beta = im + n;
+    double *A = calloc(4 * square + 3 * (size_t)n + 1, sizeof *A), *B = A + square, *z = B + square;
+    double *R = z + square, *re = R + square, *im = re + n, *beta = im + n;
     double complex *c = calloc((size_t)k + 1, sizeof *c);
     int info = -1;
-    if (A != NULL && c != NULL) {
-        general_matrices(b, shift, A, B);
+    if (A != NULL && c != NULL)
+        info = root_of_mass(b, R);
+    if (info == 0) {
+        general_matrices(b, shift, R, A, B);
         info = (int)LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', n, A, n, B, n, re, im, beta, NULL, n,
                                   z, n);
     }

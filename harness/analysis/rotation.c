@@ -16,6 +16,7 @@
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
+#include "harness/solver/history.h"
 #include "harness/solver/modes.h"
 #include "harness/solver/newton.h"
 #include "harness/solver/singular.h"
@@ -134,6 +135,7 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     } else {
         out->growth = out->frequency + count;
         out->count = r->count;
+        out->negative = r->negative;
         out->unproven = r->unproven;
         outcome = identify(c, r, mode, out, f);
     }
@@ -272,6 +274,25 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
         note_instability(c, &out->modes[i], o->value[i]);
     }
     return STATUS_OK;
+}
+
+/* Without negative eigenvalues nothing grows. Otherwise the modes decide, where they account for
+ * all of them. */
+static step_stability stability_of(const rotation_modes *modes)
+{
+    for (int i = 0; i < modes->count; i++)
+        if (modes->growth[i] > 0)
+            return STEP_GROWS;
+    return modes->negative == 0 ? STEP_STABLE : modes->unproven == 0 ? STEP_HELD : STEP_OPEN;
+}
+
+void rotation_judge_stations(analysis_context *c, int analysis, const analysis_outcome *o)
+{
+    const outcome_rotation *r = outcome_rotation_of(o);
+    for (int i = 0; r->modes != NULL && i < r->path.stations; i++)
+        if (r->modes[i].count > 0)
+            history_judge_station(c->result, analysis, r->path.value[i],
+                                  stability_of(&r->modes[i]));
 }
 
 status rotation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

@@ -5,5 +5,7 @@
 #include "harness/solver/context.h"
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* What the modes found say of the stability of the stations, when the steps have been judged. */
+void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 #endif

@@ -100,6 +100,8 @@ static void run_analyses(analysis_context *c)
         if (o->status == STATUS_OK)
             o->status = run(c, i, o, &f);
         history_judge_steps(c->result, c->scene, i, first_step);
+        if (a->kind == SCENE_ROTATION)
+            rotation_judge_stations(c, i, o);
         if (o->status == STATUS_SINGULAR && c->singular)
             singular_explain(c, &f);
         else if (is_stuck(o))

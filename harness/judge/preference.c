@@ -168,7 +168,7 @@ static step step_between(const scene *s, const cell_result *before, const cell_r
 static int met_unstable(const solve_result *r)
 {
     for (int i = 0; i < r->steps; i++)
-        if (r->step[i].stability == STEP_UNSTABLE)
+        if (result_is_unstable(r->step[i].stability))
             return 1;
     return 0;
 }

@@ -140,8 +140,8 @@ static const schema_field fields_of_step[] = {
     {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_step},
     {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
     {"stability", "", FIELD_TEXT,
-     "of the state where it ended: stable, unstable (negative pivots), undecided (not symmetric, "
-     "or in axes that turn)",
+     "of the state where it ended: stable, unstable (negative pivots), undecided (not symmetric); "
+     "in axes that turn: stable, unstable: grows, stable without damping, undecided",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
     {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},

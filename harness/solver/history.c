@@ -47,8 +47,19 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
         if (one->negative_pivots == 0)
             one->stability = STEP_STABLE;
         else if (a->kind != SCENE_ROTATION && !scene_rotates(a))
-            one->stability = STEP_UNSTABLE; /* in turning axes gyroscopic forces may hold it */
+            one->stability = STEP_UNSTABLE; /* in turning axes gyroscopic forces may hold it, ... */
+        else if (one->negative_pivots % 2 != 0)
+            one->stability = STEP_GROWS; /* ... but not an odd number: det(s^2 M + s G + K) is
+                                            negative at s = 0 and positive far away */
     }
+}
+
+void history_judge_station(solve_result *r, int analysis, double path, step_stability found)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (r->step[i].analysis == analysis && r->step[i].path == path &&
+            r->step[i].stability == STEP_OPEN)
+            r->step[i].stability = found;
 }
 
 step_stability history_stability_at(const solve_result *r, int analysis, double path)

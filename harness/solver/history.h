@@ -13,6 +13,8 @@ void history_drop_step(solve_result *r, const step_record *step);
 
 /* What the steps from `first` on are of, and whether the states where they ended are stable. */
 void history_judge_steps(solve_result *, const scene *, int analysis, int first);
+/* What the modes at a station say, where pivots do not. */
+void history_judge_station(solve_result *, int analysis, double path, step_stability);
 /* Where a step of the analysis ended at that path parameter; STEP_OPEN: nowhere. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);

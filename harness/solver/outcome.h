@@ -20,7 +20,8 @@ typedef struct rotation_modes {
     int count;
     double *frequency, *growth; /* [count] [rad/s], [1/s] */
     mode_shape *shape;          /* [count] */
-    int unproven; /* negative eigenvalues of the stiffness that they do not account for */
+    int negative;               /* eigenvalues of the stiffness, and ... */
+    int unproven;               /* ... those of them that the modes do not account for */
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 

@@ -17,8 +17,14 @@ int result_event_multiplicity(const path_event *e)
 
 const char *result_stability_name(step_stability which)
 {
-    static const char *const name[STEP_STABILITIES] = {"undecided", "stable", "unstable"};
+    static const char *const name[STEP_STABILITIES] = {"undecided", "stable", "unstable",
+                                                       "unstable: grows", "stable without damping"};
     return name[which];
+}
+
+int result_is_unstable(step_stability which)
+{
+    return which == STEP_UNSTABLE || which == STEP_GROWS;
 }
 
 void result_free(solve_result *r)

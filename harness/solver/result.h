@@ -67,9 +67,14 @@ typedef enum step_stability {
     STEP_OPEN, /* not decided by the signs of pivots: no symmetric tangent, or axes that turn */
     STEP_STABLE,
     STEP_UNSTABLE,
+    STEP_GROWS, /* in axes that turn: a small motion grows, by an odd number of negative pivots (det
+                   K < 0) or by a mode that was found */
+    STEP_HELD,  /* in axes that turn: held by gyroscopic forces alone, no motion grows without
+                   damping; one that turns with the structure makes it grow */
     STEP_STABILITIES
 } step_stability;
 const char *result_stability_name(step_stability);
+int result_is_unstable(step_stability);
 
 typedef struct step_record {
     int analysis;             /* of the scene */

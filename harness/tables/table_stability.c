@@ -9,11 +9,15 @@ enum { MOST_RUNS = 6, WORDS = 400 };
 
 const char *table_stability_word(step_stability which)
 {
-    return which == STEP_STABLE ? "yes" : which == STEP_UNSTABLE ? "no" : "?";
+    static const char *const word[STEP_STABILITIES] = {"?", "yes", "no", "no", "held"};
+    return word[which];
 }
 
-static const char *const words_of[] = {
-    [STEP_OPEN] = "not decided by pivots", [STEP_STABLE] = "stable", [STEP_UNSTABLE] = "unstable"};
+static const char *const words_of[] = {[STEP_OPEN] = "not decided by pivots",
+                                       [STEP_STABLE] = "stable",
+                                       [STEP_UNSTABLE] = "unstable",
+                                       [STEP_GROWS] = "unstable",
+                                       [STEP_HELD] = "stable without damping"};
 
 /* Appends as far as there is room. */
 static void add(char *text, const char *word)
@@ -83,7 +87,7 @@ int table_stability_paths(FILE *to, const scene *s, const solve_result *r)
 static int met_unstable(const solve_result *r)
 {
     for (int i = 0; i < r->steps; i++)
-        if (r->step[i].stability == STEP_UNSTABLE)
+        if (result_is_unstable(r->step[i].stability))
             return 1;
     return 0;
 }

@@ -6,7 +6,7 @@
 
 #include "harness/study/sweep.h"
 
-/* "yes", "no", "?" of a step. */
+/* "yes", "no", "held" (by gyroscopic forces), "?" of a step. */
 const char *table_stability_word(step_stability);
 /* A line for each path that is not stable all along; its number of lines. */
 int table_stability_paths(FILE *to, const scene *s, const solve_result *r);

@@ -112,8 +112,69 @@ static void indefinite(void)
     free(p.K);
 }
 
+/* K = -diag(1, 4): gyroscopic forces hold it from g = sqrt(1) + sqrt(4) on. Real parts of rounding
+ * are no growth there. */
+static void held_from(void)
+{
+    static const double g[] = {2.999, 3.001};
+    for (int i = 0; i < 2; i++) {
+        problem p;
+        gyroscopic_result r = {0};
+        fault f = {""};
+        gyroscopic_problem_alloc(2, &p);
+        p.K[0] = -1, p.K[3] = -4, p.M[0] = p.M[3] = 1, p.G[1] = -g[i], p.G[2] = g[i];
+        gsl_test(gyroscopic_problem_solve(&p, &r, &f) != STATUS_OK, "g = %g: solved (%s)", g[i],
+                 f.text);
+        gsl_test_int(r.unproven, 0, "g = %g: modes account for both", g[i]);
+        double largest = 0;
+        for (int k = 0; k < r.count; k++)
+            largest = fmax(largest, r.growth[k]);
+        gsl_test((largest > 0) != (i == 0), "g = %g: grows with %g", g[i], largest);
+        gyroscopic_free(&r);
+        free(p.K);
+    }
+}
+
+/* Heavy coordinates beside light ones and massless ones, K indefinite: what is wanted and has a
+ * mass is found, and nothing else. */
+static void light_and_massless(void)
+{
+    for (int decade = 0; decade <= 16; decade += 2)
+        for (int negative = 0; negative < 2; negative++) {
+            const double light = pow(10, -decade), sign = negative ? -1 : 1, g = 5;
+            problem p;
+            gyroscopic_result r = {0};
+            fault f = {""};
+            gyroscopic_problem_alloc(9, &p);
+            for (int i = 0; i < 9; i++) {
+                p.K[i * 10] = (i < 2 ? sign : 10) * (1 + 0.1 * i);
+                p.M[i * 10] = i < 3 ? 1 : i < 6 ? light : 0;
+            }
+            p.G[1] = -g, p.G[9] = g;
+            p.K[2 * 9 + 7] = p.K[7 * 9 + 2] = 1;
+            gsl_test(gyroscopic_problem_solve(&p, &r, &f) != STATUS_OK, "light %g: solved (%s)",
+                     light, f.text);
+            const double b = sign * 2.1 + g * g, root = sqrt(b * b / 4 - 1.1),
+                         slow = sqrt(b / 2 - root), fast = sqrt(b / 2 + root),
+                         third = sqrt(12 - 1 / 17.0);
+            gsl_test(r.count < 3 || r.count > 6, "light %g: %d frequencies", light, r.count);
+            gsl_test(decade < 8 && r.count != 6, "light %g: all %d frequencies", light, r.count);
+            gsl_test_rel(r.frequency[0], slow, 1e-10, "light %g, %g: slow", light, sign);
+            gsl_test_rel(r.frequency[1], third, 1e-10, "light %g, %g: third", light, sign);
+            for (int i = 3; i < r.count && decade > 0; i++)
+                gsl_test_rel(r.frequency[i], sqrt((10 + i) / light), 1e-6, "light %g: frequency %d",
+                             light, i);
+            if (decade > 0)
+                gsl_test_rel(r.frequency[2], fast, 1e-10, "light %g, %g: fast", light, sign);
+            gyroscopic_free(&r);
+            free(p.K);
+        }
+}
+
 int main(void)
 {
+    held_from();
+    light_and_massless();
     definite();
     equal_frequencies();
     indefinite();

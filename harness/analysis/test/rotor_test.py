@@ -1,0 +1,200 @@
+"""Rotors: a heavy disc on a light shaft, and whether a state that turns is stable."""
+import math
+import re
+import unittest
+
+from harness.test.program import ProgramTest, run
+
+# Overhung disc: bending is a problem of two unknowns in the complex plane.
+SHAFT = """beamwork: 1
+let: {d: 0.02}
+sections:
+  s: {constants: {A: pi*d^2/4, Iy: pi*d^4/64*%(flat)r, Iz: pi*d^4/64, It: pi*d^4/32}, young: 200e9, shear_modulus: 80e9,
+      density: %(density)r}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  disc: {at: [0.5, 0, 0], mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]}
+members: {shaft: {from: base, to: disc, section: s, y: [0, 1, 0]}}
+analyses: {r: {rotation: {omega: [%(omega)r, 0, 0], stations: [1], wanted: 8}}}
+quantities: {f_$n: {for: {n: 0..%(last)d}, frequency: {analysis: r, which: n}, unit: Hz}}
+omit: [%(omit)s]
+"""
+# A point mass on a shaft without mass, whose end does not tilt: 12 E I/L^3, in one plane `flat` times that.
+JEFFCOTT = SHAFT.replace("mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]", "mass: 5, hold: [ux, rx, ry, rz]")
+# Stiff arm with a mass at its tip, in a hinge with a soft spring beside the axis: three coordinates have a mass.
+ARM = """beamwork: 1
+let: {W: 20, e: 0.1, L: 0.9, k: 1}
+sections: {arm: {constants: {A: 1e-2, Iy: 1e-4, Iz: 1e-4, It: 2e-4}, young: %s, shear_modulus: 80e9}}
+nodes: {hinge: {at: [e, 0, 0], hold: [ux, uy, uz, rx]}, tip: {at: [e + L, 0, 0], mass: 1}}
+members: {arm: {from: hinge, to: tip, section: arm, y: [0, 1, 0]}}
+springs: {soft: {to: hinge, stiffness: [0, 0, 0, 0, k, k]}}
+analyses: {r: {rotation: {omega: [0, 0, W], stations: [1], wanted: 2}}}
+quantities:
+  lag:  {frequency: {analysis: r, which: 0}, unit: Hz}
+  flap: {frequency: {analysis: r, which: 1}, unit: Hz}
+"""
+# Nearly a string in the field of its own mass, whose elements are longer than its bending reaches.
+WIRE = """beamwork: 1
+let: {d: 1e-3}
+sections: {wire: {constants: {A: pi*d^2/4, Iy: pi*d^4/64, Iz: pi*d^4/64, It: pi*d^4/32}, young: 2e9, shear_modulus: 1e9, density: 7800}}
+nodes: {hub: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, tip: {at: [1, 0, 0]}}
+members: {wire: {from: hub, to: tip, section: wire, y: [0, 1, 0]}}
+springs: {soft: {to: hub, stiffness: [0, 0, 0, 0, 1e-6, 1e-6]}}
+analyses: {r: {rotation: {omega: [0, 0, 100], stations: [1], wanted: 4}}}
+quantities: {flap: {frequency: {analysis: r, which: 0, family: bending_z}, unit: Hz}}
+"""
+EI, GJ, EA = 200e9*math.pi*0.02**4/64, 80e9*math.pi*0.02**4/32, 200e9*math.pi*0.01**2
+LENGTH, MASS, DIAMETRAL = 0.5, 5, 0.02
+K11, K12, K22 = 12*EI/LENGTH**3, -6*EI/LENGTH**2, 4*EI/LENGTH
+FIRST = math.sqrt(K11/MASS)  # of JEFFCOTT
+DEFAULT = {"flat": 1.0, "density": 1e-6, "polar": 0.04, "omega": 300.0, "last": 5, "omit": "shear"}
+
+
+def bending(omega, polar):
+    """|w - W| of det(K - w^2 M + w W G) = 0, a polynomial of degree four whose roots are real."""
+    def value(w):
+        return (K11 - MASS*w*w)*(K22 - DIAMETRAL*w*w + polar*omega*w) - K12*K12
+    limit = 10*(FIRST + math.sqrt(K22/DIAMETRAL) + polar/DIAMETRAL*omega)
+    places = sorted({s*limit*10**(-5*i/40000) for i in range(40001) for s in (-1, 1)})
+    found = []
+    for a, b in zip(places, places[1:]):
+        if value(a)*value(b) > 0:
+            continue
+        low = value(a) > 0
+        for _ in range(200):
+            m = (a + b)/2
+            a, b = (m, b) if (value(m) > 0) == low else (a, m)
+        found.append(abs(a - omega))
+    assert len(found) == 4
+    return found
+
+
+def expected(omega, polar):
+    return sorted(w/2/math.pi for w in
+                  bending(omega, polar) + [math.sqrt(GJ/LENGTH/polar), math.sqrt(EA/LENGTH/MASS)])
+
+
+def critical(polar):
+    """Where a frequency in the turning frame is zero."""
+    a, b = 1.0, 300.0
+    for _ in range(200):
+        m = (a + b)/2
+        left = (K11 - MASS*m*m)*(K22 - (DIAMETRAL - polar)*m*m) - K12*K12
+        a, b = (m, b) if left > 0 else (a, m)
+    return a
+
+
+def values(text):
+    return [float(v) for v in re.findall(r"^f_\d+ +([-+.e\d]+) Hz", text, re.M)]
+
+
+class Rotors(ProgramTest):
+
+    def text(self, scene, formulation, n):
+        path = self.folder / "scene.yaml"
+        path.write_text(scene)
+        return run("solve", "--scene", path, "-f", formulation, "-n", n)
+
+    def solved(self, scene, formulation, n):
+        path = self.folder / "scene.yaml"
+        path.write_text(scene)
+        return self.record("solve", "--scene", path, "-f", formulation, "-n", n)
+
+    def frequencies(self, scene, formulation, n):
+        done = self.text(scene, formulation, n)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return values(done.stdout)
+
+    def close(self, found, exact, omega, within):
+        """What vanishes at the critical speed has the digits of the speed."""
+        self.assertEqual(len(found), len(exact))
+        for a, b in zip(found, exact):
+            self.assertLess(abs(a - b), within*(b + 1e-2*omega), (found, exact))
+
+    def test_stated(self):
+        for got, stated in zip(expected(300, 0.04), (32.51997385, 39.89422804, 59.62402347, 135.91112896,
+                                                     139.26009748, 797.88456080)):
+            self.assertLess(abs(got/stated - 1), 1e-9)
+
+    def test_meshes(self):
+        for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
+            for n in (1, 2, 4, 16, 64) if formulation == "collocation" else (2, 32):
+                self.close(self.frequencies(SHAFT % DEFAULT, formulation, n), expected(300, 0.04), 300, 2e-9)
+
+    def test_masses(self):
+        """The shaft's own mass is 2e-4 of the disc's at 7.85 kg/m^3, and its effect is of that size."""
+        for density in (7.85, 1e-3, 1e-6, 1e-9, 1e-12):
+            for n in (2, 16):
+                found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
+                self.close(found, expected(300, 0.04), 300, 1e-9 + 4e-5*density)
+
+    def test_speeds(self):
+        """Below, next to and above the critical speed; a flat disc and a long one."""
+        for polar in (0.04, 0.01):
+            at = critical(polar)
+            for omega in (1e-2, 1.0, at/2, at*(1 - 1e-3), at*(1 - 1e-6), at*(1 + 1e-6), at*(1 + 1e-3), 300.0, 1e4):
+                scene = SHAFT % {**DEFAULT, "polar": polar, "omega": omega, "density": 1e-9}
+                for n in (1, 8):
+                    self.close(self.frequencies(scene, "collocation", n), expected(omega, polar), omega, 1e-8)
+
+    def test_at_the_critical_speed(self):
+        """Right, or refused by name."""
+        at = critical(0.04)
+        for omega in (at*(1 - 1e-10), at, at*(1 + 1e-10)):
+            done = self.text(SHAFT % {**DEFAULT, "omega": omega}, "collocation", 4)
+            if done.returncode == 0:
+                self.close(values(done.stdout), expected(omega, 0.04), omega, 1e-8)
+            else:
+                self.assertIn("critical point", done.stderr)
+
+    def test_massless(self):
+        """Three coordinates have a mass; none of the others is a frequency."""
+        exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
+        for young, within in (("20e9", 1e-4), ("200e9", 1e-3)):  # the second leaves K 4 digits with 32 elements
+            for formulation in ("geometrically_exact", "collocation", "beamw"):
+                for n in (1, 8, 32):
+                    done = self.solved(ARM % young, formulation, n)
+                    for q, right in zip(done["quantities"], exact):
+                        self.assertLess(abs(q["value"]/right - 1), within, (formulation, young, n))
+
+    def test_indefinite_without_mass(self):
+        """Elements that are too long for the force in them are told, with what to do."""
+        done = self.text(WIRE, "geometrically_exact", 8)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("too long for the axial force", " ".join((done.stdout + done.stderr).split()))
+        done = self.solved(WIRE, "collocation", 8)
+        self.assertLess(abs(done["quantities"][0]["value"]/(100/2/math.pi) - 1), 3e-4)
+
+    def stability(self, scene, n=2):
+        return self.solved(scene, "collocation", n)["steps"][-1]["stability"]
+
+    def test_stability(self):
+        """Stiffnesses k and 1.3 k: K has 0, 0, 1, 2 and 2 negative eigenvalues."""
+        for part, said in ((0.5, "stable"), (0.9, "stable"), (1.05, "unstable: grows"),
+                           (1.2, "stable without damping"), (1.5, "stable without damping")):
+            scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
+            self.assertEqual(self.stability(scene), said, part)
+            told = self.text(scene, "collocation", 2).stdout
+            self.assertNotIn("negative pivots", told)
+            self.assertEqual("stable without damping" in told, part > 1.1, told)
+
+    def test_round_shaft(self):
+        """Equal stiffnesses: |w -+ W|, stable without damping above the critical speed."""
+        for part in (0.5, 0.999, 1.001, 1.5, 3.0):
+            scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
+            right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
+            for n in (1, 8):
+                self.close(self.frequencies(scene, "collocation", n), right, part*FIRST, 2e-9)
+            self.assertEqual(self.stability(scene), "stable" if part < 1 else "stable without damping")
+
+    def test_without_modes(self):
+        """An odd number of negative eigenvalues is enough; an even one leaves it open."""
+        for part, said in ((0.9, "stable"), (1.05, "unstable: grows"), (1.5, "undecided")):
+            scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
+            scene = scene.replace("frequency: {analysis: r, which: n}, unit: Hz",
+                                  "displacement: {analysis: r, node: disc, component: uy}")
+            self.assertEqual(self.stability(scene), said, part)
+
+
+if __name__ == "__main__":
+    unittest.main()
