@@ -86,6 +86,7 @@ static inline void build(scene *s, int warps, int released)
         scene_release_end(s, third, 0, SCENE_RZ);
         scene_release_end(s, third, 0, SCENE_UZ);
     }
+    scene_demand(s, FEATURE_MASS | FEATURE_ROTARY_INERTIA);
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE |
                       (warps ? FEATURE_SHEAR : 0));
 }

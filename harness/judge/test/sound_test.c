@@ -185,7 +185,7 @@ static void counted_equations(int count, const element_data *const data[], const
 /* A real cell: the counters are what the elements count. Strains that reactions are read from
  * are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
-                   const char *parameters, solve_newton newton, int reactions)
+                   const char *parameters, solve_newton newton, int reactions, int looks)
 {
     cell_result cell;
     formulation chosen;
@@ -213,6 +213,9 @@ static void actual(const char *name, int elements, const char *formulation_name,
              formulation_name, newton, f.text);
     gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
              formulation_name, newton, why);
+    /* A look at the stiffness at rest, where a path was unstable, is no work of the solution. */
+    stresses -= looks * cell.size.elements;
+    strains -= looks * cell.size.elements;
     gsl_test(cell.counters.stress_evaluations != stresses,
              "%s, %s, Newton %d: %ld stress evaluations counted, %ld done", name, formulation_name,
              newton, cell.counters.stress_evaluations, stresses);
@@ -234,17 +237,17 @@ int main(void)
         counts(kind[i]);
     steps();
     for (int newton = 0; newton < SOLVE_NEWTONS; newton++) {
-        actual("elastica", 3, "beamw_consistent", "", newton, 0);
-        actual("bend_45", 3, "geometrically_exact", "", newton, 0);
-        actual("sheet_cantilever", 3, "sheet_third", "", newton, 1);
+        actual("elastica", 3, "beamw_consistent", "", newton, 0, 0);
+        actual("bend_45", 3, "geometrically_exact", "", newton, 0, 0);
+        actual("sheet_cantilever", 3, "sheet_third", "", newton, 1, 0);
     }
-    actual("c_column", 3, "beamw_consistent", "", SOLVE_MIXED, 0);
-    actual("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0);
-    actual("rotating_cantilever", 3, "geometrically_exact", "", SOLVE_MIXED, 1);
-    actual("snap_through", 3, "collocation", "", SOLVE_MIXED, 0);
-    actual("shear_elastica", 1, "beamw_consistent", "", SOLVE_MIXED, 0);
-    actual("roll_up", 4, "sheet_third", "", SOLVE_MIXED, 0);
-    actual("c_cantilever", 3, "beamw_vlasov", "w=1.0;step=0.15", SOLVE_MIXED, 0);
-    actual("hexapod", 3, "sheet_third", "steps=3", SOLVE_MIXED, 1);
+    actual("c_column", 3, "beamw_consistent", "", SOLVE_MIXED, 0, 0);
+    actual("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0, 0);
+    actual("rotating_cantilever", 3, "geometrically_exact", "", SOLVE_MIXED, 1, 0);
+    actual("snap_through", 3, "collocation", "", SOLVE_MIXED, 0, 1);
+    actual("shear_elastica", 1, "beamw_consistent", "", SOLVE_MIXED, 0, 0);
+    actual("roll_up", 4, "sheet_third", "", SOLVE_MIXED, 0, 0);
+    actual("c_cantilever", 3, "beamw_vlasov", "w=1.0;step=0.15", SOLVE_MIXED, 0, 1);
+    actual("hexapod", 3, "sheet_third", "steps=3", SOLVE_MIXED, 1, 0);
     return gsl_test_summary();
 }

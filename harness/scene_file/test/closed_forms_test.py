@@ -13,6 +13,10 @@ SCENES = sorted((ROOT / "cases" / "closed_forms").glob("*.yaml"))
 # Of a value, relative, on the mesh that solve chooses by itself.
 CLOSE = 2e-3
 
+# Scenes whose elements of this formulation are too long for the force in them, however many: it
+# fails by name, and no value is shown.
+REFUSED = {"rotating_string": "geometrically_exact"}
+
 
 def wrong(solution):
     """What differs from its truth, or has none although one is known."""
@@ -47,7 +51,12 @@ def add(path):
         self.holds(path)
 
     def exact(self):
-        self.holds(path, "-f", "geometrically_exact", "-n", "32")
+        if path.stem in REFUSED:
+            done = self.answered("solve", "--scene", path, "-f", REFUSED[path.stem], "-n", "32",
+                                 code=1)
+            self.assertNotEqual(done.stderr, "")
+        else:
+            self.holds(path, "-f", "geometrically_exact", "-n", "32")
 
     chosen.__doc__ = f"{path.stem}: with what solve chooses"
     exact.__doc__ = f"{path.stem}: geometrically_exact with 32 elements"
