@@ -185,9 +185,7 @@ static status report_critical(continuation *p, path_goal goal, sought *s, int *j
     if (*jump)
         return STATUS_OK;
     s->from = 1;
-    if (s->by_rate || s->negative < 0)
-        s->negative = p->next.negative;
-    else if (abs(p->next.negative - s->negative) == 1)
+    if (s->by_rate || s->negative < 0 || abs(p->next.negative - s->negative) == 1)
         s->negative = p->next.negative;
     else {
         s->from = behind;

@@ -338,17 +338,17 @@ static status count_at(search *s, double path, int *negative, fault *f)
 static status find_more(search *s, double value[], int *count, fault *f)
 {
     const double apart = 1e-9;
-    double low = s->estimate, high = s->estimate;
+    double low = s->estimate + 2 * closest * fabs(s->estimate - s->begin);
     int passed = 0, above = 0;
     const double end = s->begin + farthest * fabs(s->estimate - s->begin);
     *count = 1;
     value[0] = s->estimate;
-    TRY(count_at(s, low = s->estimate + 2 * closest * fabs(s->estimate - s->begin), &passed, f));
+    TRY(count_at(s, low, &passed, f));
     kinematics_state_copy(s->n.c->model, s->n.state, s->stable);
     for (; *count < passed && *count < s->wanted; (*count)++)
         value[*count] = s->estimate;
     while (*count < s->wanted && low < end) {
-        high = fmin(end, low + 0.2 * (low - s->begin));
+        double high = fmin(end, low + 0.2 * (low - s->begin));
         TRY(count_at(s, high, &above, f));
         while (above > passed && high - low > apart * fabs(high)) {
             const double middle = (low + high) / 2;
