@@ -61,10 +61,11 @@ static int is_taken(const scene *s, scene_list list, const char *text)
 scene_words scene_numbered(const scene *s, scene_list list, int i)
 {
     scene_words out;
-    snprintf(out.text, sizeof out.text, "%s_%d", list == SCENE_DRIVERS ? "motion" : word_of[list],
-             i); /* as scene files say it */
+    int end =
+        snprintf(out.text, sizeof out.text, "%s_%d",
+                 list == SCENE_DRIVERS ? "motion" : word_of[list], i); /* as scene files say it */
     for (int k = 0; k < 8 && is_taken(s, list, out.text); k++)
-        strcat(out.text, "_");
+        end += snprintf(out.text + end, sizeof out.text - (size_t)end, "_");
     return out;
 }
 

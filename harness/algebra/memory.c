@@ -33,9 +33,10 @@ status memory_append(void *list, int *count, const void *entry, size_t size, con
     memcpy(&entries, list, sizeof entries);
     const size_t n = (size_t)*count;
     if ((n & (n - 1)) == 0) { /* lists double when their count is a power of two */
-        entries = realloc(entries, (n == 0 ? 1 : 2 * n) * size);
-        if (entries == NULL)
+        char *const grown = realloc(entries, (n == 0 ? 1 : 2 * n) * size);
+        if (grown == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for %s", what);
+        entries = grown;
         memcpy(list, &entries, sizeof entries);
     }
     memcpy(entries + n * size, entry, size);
