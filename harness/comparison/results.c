@@ -13,9 +13,10 @@ static void *add(void *list, int *count, int step, size_t size)
     char *all;
     memcpy(&all, list, sizeof all);
     if (*count % step == 0) {
-        all = realloc(all, ((size_t)*count + (size_t)step) * size);
-        if (all == NULL)
+        char *longer = realloc(all, ((size_t)*count + (size_t)step) * size);
+        if (longer == NULL)
             return NULL;
+        all = longer;
         memcpy(list, &all, sizeof all);
     }
     return memset(all + (size_t)(*count)++ * size, 0, size);

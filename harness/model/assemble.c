@@ -163,7 +163,7 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;
-    for (int i = p->layouts; i-- > 0 && i >= p->layouts - looked_at;)
+    for (int i = p->layouts - 1; i >= 0 && i >= p->layouts - looked_at; --i)
         if (p->layout[i].entries == entries &&
             memcmp(p->layout[i].entry, entry, (size_t)entries * sizeof *entry) == 0)
             return i;

@@ -45,7 +45,8 @@ static status start(const question *q, script *s, fault *f)
             close(out[i]);
             close(error[i]);
         }
-        return fault_set(f, STATUS_FAULT, "the deriving program cannot be started");
+        fault_set(f, STATUS_FAULT, "the deriving program cannot be started");
+        return STATUS_FAULT;
     }
     if (s->process == 0) {
         dup2(out[1], STDOUT_FILENO);
@@ -66,9 +67,10 @@ static status start(const question *q, script *s, fault *f)
     close(error[1]);
     s->says = fdopen(out[0], "r");
     s->complains = fdopen(error[0], "r");
-    return s->says != NULL && s->complains != NULL
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
+    if (s->says != NULL && s->complains != NULL)
+        return STATUS_OK;
+    fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
+    return STATUS_FAULT;
 }
 
 static int take_text(char **rest, char *to, size_t size)
