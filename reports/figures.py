@@ -254,7 +254,7 @@ def alone(markup):
 
 def handles_of(legend):
     """The drawn ones; matplotlib 3.7 gave them another name."""
-    return getattr(legend, "legend_handles", None) or legend.legendHandles
+    return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 
 def tag_legends(figure):
