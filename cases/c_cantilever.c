@@ -84,7 +84,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_hold_all(s, root);
     const int node = load_node(value, s, &c, tip);
     scene_add_load(s, SCENE_FORCE, node, 0, 0, -1);
-    scene_omit(s, (value[SHEAR] == 0 ? FEATURE_SHEAR : 0) |
+    scene_omit(s, FEATURE_WAGNER_TORQUE | (value[SHEAR] == 0 ? FEATURE_SHEAR : 0) |
                       (value[WAGNER] == 0 ? FEATURE_WAGNER_MOMENTS : 0) |
                       (value[ROTARY] == 0 ? FEATURE_ROTARY_INERTIA : 0));
     add_path(value, s, node);

@@ -51,6 +51,7 @@ static status build(const double value[], scene *s, fault *f)
               tip = scene_add_node(s, value[LENGTH], 0, 0),
               member = scene_add_member(s, root, tip, profile, y_axis);
     scene_member_at(s, member)->warp_p = SCENE_WARP_FIXED;
+    scene_omit(s, FEATURE_WAGNER_TORQUE); /* as J */
     spin(s, root, value[SPEED], value[DURATION]);
     scene_add_load(s, SCENE_GRAVITY, member, 0, 0, -9.81);
     const int motion = timed_add(s, value, SCENE_NONE);

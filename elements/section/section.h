@@ -23,8 +23,9 @@ typedef struct section {
     double Ip;            /* polar moment Iy + Iz about the centroid [m^4] */
     double wagner_y;      /* int y (y^2 + z^2) dA [m^5] */
     double wagner_z;      /* int z (y^2 + z^2) dA [m^5] */
-    double wagner_torque; /* c of the energy E c kx^4 per length: w^5 t / 1440 for a sheet [m^6] (N
-                             Eq. 46) */
+    double wagner_torque; /* c of the energy E c kx^4 per length [m^6]: 1/8 int q^2 dA, q what y^2 +
+                             z^2 has beyond strains of shortening and bending, w^5 t / 1440 for a
+                             sheet (N Eq. 46) */
     double D[9]; /* shear rigidities / G, order y, z, omega [m^2, m^2, m^4; m^3 off the diagonal]:
                     (Qy, Qz, Mw) = G D (gy, gz, gw) */
     double F[9]; /* D^-1, kept because it exists when D would be infinite (F = 0: shear-rigid) */

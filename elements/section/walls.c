@@ -125,6 +125,30 @@ static void wagner_constants(const section_spec *s, const double y[], const doub
     }
 }
 
+/* 1/8 int q^2 dA, q what r^2 = y^2 + z^2 has beyond the strains of shortening and bending, which
+ * are free: r^2 - Ip/A - wagner_y/Iz y - wagner_z/Iy z. The shear centre does not matter: turning
+ * about another point adds such strains only. At n across a wall q + q_n n + n^2. */
+static double wagner_torque(const section_spec *s, const double y[], const double z[],
+                            const section *c)
+{
+    const flow_rule rule = flow_rule_of_three();
+    const double mean = c->Ip / c->A, by_y = c->wagner_y / c->Iz, by_z = c->wagner_z / c->Iy;
+    double sum = 0;
+    for (int w = 0; w < s->walls; w++) {
+        const flow_frame n = flow_frame_of(s, w, y, z);
+        const double t = s->wall[w].thickness, thick = s->thickness_terms != 0 ? t : 0,
+                     bend = t * thick * thick / 12, quartic = t * pow(thick, 4) / 80;
+        for (int k = 0; k < FLOW_GAUSS; k++) {
+            const double ds = rule.w[k] * n.length, yk = flow_along(s, w, y, rule.x[k]),
+                         zk = flow_along(s, w, z, rule.x[k]),
+                         q = yk * yk + zk * zk - mean - by_y * yk - by_z * zk,
+                         q_n = (2 * yk - by_y) * n.ny + (2 * zk - by_z) * n.nz;
+            sum += ds * (t * q * q + bend * (q_n * q_n + 2 * q) + quartic);
+        }
+    }
+    return sum / 8;
+}
+
 /* Rotation to principal axes, the smaller of the two; 0 where every axis is one. */
 static double principal_angle(double Iyy, double Izz, double Iyz)
 {
@@ -217,6 +241,7 @@ status section_walls(const section_spec *s, section *out, fault *f)
     if (!warps)
         out->Iw = 0;
     wagner_constants(s, y, z, out);
+    out->wagner_torque = wagner_torque(s, y, z, out);
 
     const double *value[3] = {y, z, omega};
     const double inertia[3] = {out->Iz, out->Iy, out->Iw};
