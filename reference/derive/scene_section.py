@@ -3,6 +3,7 @@
 A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever the shear centre is
 off the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2 + z^2) dA only with `wagner_moments`.
 Rectangle: EIw = E (w t)^3/144, 1/F = k A with k = 5/6 where it is not given, and then 5/6 of the warping shear too; c = w^5 t/1440.
+Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py).
 Ring of radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int (r^2 - Ip/A)^2 dA.
 """
 import math

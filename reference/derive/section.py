@@ -87,6 +87,10 @@ def section(points, walls):
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
     out.wagner_z = area_integral(lambda i, j, s: at(z, i, j, s) *
                                  (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2))
+    # energy E c kx^4 per length of a twist whose shortening and bending are free: a fibre gains r^2 kx^2/2
+    quartic = area_integral(lambda i, j, s: (at(y, i, j, s) ** 2 + at(z, i, j, s) ** 2) ** 2)
+    out.wagner_torque = (quartic - out.Ip ** 2 / out.A - out.wagner_y ** 2 / out.Iz -
+                         out.wagner_z ** 2 / out.Iy) / 8
 
     field, inertia = (y, z, omega), (out.Iz, out.Iy, out.Iw)
     carried = [[mpf(0)] * 3 for _ in p]
