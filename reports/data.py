@@ -118,6 +118,7 @@ def mark(series, declared):
 
 def read_points(group, meshes, units, noise):
     series, points = {}, []
+    omitted = {row["point"]: row.get("omitted", "") for row in rows(group, "cells")}
     for row in rows(group, "series"):
         series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"],
                                         row["missing"], [], [], row.get("imported", ""),
@@ -137,7 +138,7 @@ def read_points(group, meshes, units, noise):
         ours, others = [s for s in own if not s.imported], [s for s in own if s.imported]
         points.append(
             Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others,
-                  noise))
+                  noise, omitted=omitted.get(row["point"], "")))
     return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 

@@ -137,6 +137,7 @@ class Point:
     noise: float = 1.25  # costs whose ratio is below it tie
     scene: str = ""  # as a scene file
     meanings: dict = field(default_factory=dict)  # quantity -> what it is, in one line
+    omitted: str = ""  # physics that the scene leaves out, in words
 
 
 @dataclass

@@ -10,7 +10,7 @@ enum {
     OMIT_SHEAR_Y = FEATURE_END,            /* shear flexibility along y */
     OMIT_SHEAR_COUPLING = FEATURE_END << 1 /* between its directions, and with warping */
 };
-enum { OMIT_WORDS = 200 };
+enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their words; how many there are */
 
 /* The needs that the type does not offer, or a limit it hits, in words, which are empty if and only
  * if there are none; 0: it has all that the scene needs. */

@@ -3,6 +3,7 @@
 #ifndef BEAMWORK_RANGES_H
 #define BEAMWORK_RANGES_H
 
+#include "cases/scene/omission.h"
 #include "harness/catalogue/formulation.h"
 #include "harness/ranges/design.h"
 #include "harness/ranges/rows.h"
@@ -46,7 +47,9 @@ typedef struct ranges {
     int mesh[SERIES_MAX_MESHES]; /* ascending */
     ranges_quantity quantity[RANGES_QUANTITIES];
     char left_out[FAULT_TEXT]; /* formulations that run at no point that was looked at, in words */
-    long points_in_batch;      /* but for the last one */
+    char
+        omitted[SCENE_OMISSION_WORDS]; /* physics that the scene leaves out, at the first of them */
+    long points_in_batch;              /* but for the last one */
     int batches;
     double point_cost; /* [s] about, of all cells of a point */
 } ranges;

@@ -4,13 +4,14 @@
 #include <stdlib.h>
 
 #include "harness/catalogue/assignment.h"
+#include "harness/model/missing.h"
 
 void ranges_csv_head(FILE *to, const ranges *r)
 {
     for (int i = 0; i < r->design.axes; i++)
         fprintf(to, "%s,", r->axis[i].of->name);
     fprintf(to, "formulation,elements,quantity,unit,value,reference,reference_kind,error,status,"
-                "cost,seconds\n");
+                "cost,seconds,not_modelled\n");
 }
 
 static void put(FILE *to, double value)
@@ -25,6 +26,8 @@ static void put_cell(FILE *to, const ranges *r, const rows *w, const char *where
                      int mesh)
 {
     const size_t cell = rows_cell(w, at, which, mesh);
+    char lacks[OMIT_WORDS];
+    missing_omit_words((unsigned)w->lacks[rows_lacks(w, at, which)], lacks);
     for (int q = 0; q < r->quantities; q++) {
         const size_t value = rows_value(w, at, which, mesh, q), known = rows_quantity(w, at, q);
         fprintf(to, "%s\"%s\",%d,%s,%s,", where, r->formulation[which].key, r->mesh[mesh],
@@ -35,7 +38,8 @@ static void put_cell(FILE *to, const ranges *r, const rows *w, const char *where
         put(to, w->error[value]);
         fprintf(to, "%s,", rows_status_name(w->status[cell]));
         put(to, w->cost[cell]);
-        fprintf(to, isfinite(w->seconds[cell]) ? "%.17g\n" : "\n", w->seconds[cell]);
+        put(to, w->seconds[cell]);
+        fprintf(to, lacks[0] != '\0' ? "\"%s\"\n" : "%s\n", lacks);
     }
 }
 

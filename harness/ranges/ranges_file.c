@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/missing.h"
 #include "harness/ranges/ranges_file_impl.h"
 #include "harness/truth/checksum.h"
 
@@ -34,7 +35,8 @@ static int columns_of(const ranges *r, const rows *w, column out[RANGES_FILE_COL
         {"status", NULL, H5T_NATIVE_UINT8, 2, {f, m}, from->status, ROWS_NOT_COMPUTED},
         {"cost", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->cost, 0},
         {"seconds", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->seconds, 0},
-        {"least", NULL, H5T_NATIVE_INT32, 2, {f, q}, from->least, 0}};
+        {"least", NULL, H5T_NATIVE_INT32, 2, {f, q}, from->least, 0},
+        {"not_modelled", NULL, H5T_NATIVE_INT32, 1, {f}, from->lacks, 0}};
     memcpy(out, all, sizeof all);
     return RANGES_FILE_COLUMNS;
 }
@@ -100,6 +102,13 @@ static void put_names(record *r, hid_t set, const char *name, const char *(*of)(
     record_text(r, set, name, text);
 }
 
+static const char *name_of_bit(int bit)
+{
+    static char words[OMIT_WORDS];
+    missing_omit_words(1u << bit, words);
+    return words;
+}
+
 /* Words of an axis: its values in the file are their numbers. */
 static void put_words(record *r, hid_t points, const axis *a)
 {
@@ -131,6 +140,7 @@ static void put_columns(ranges_file *file)
             put_words(r, file->column[0], &file->of->axis[i]);
     put_names(r, file->column[3], "names", rows_reference_name, ROWS_REFERENCES);
     put_names(r, file->column[6], "names", rows_status_name, ROWS_STATUSES);
+    put_names(r, file->column[10], "bits", name_of_bit, OMIT_BITS);
 }
 
 static status failed(const ranges_file *file, fault *f)

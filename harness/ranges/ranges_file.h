@@ -6,7 +6,7 @@
 #include "harness/record/output.h"
 #include "harness/record/record.h"
 
-enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 10 };
+enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 11 };
 
 typedef struct ranges_file {
     const ranges *of;

@@ -82,6 +82,8 @@ static void fill_cells(const making *m, int at, int which)
 {
     const series *one = &m->s->series[at * m->of->formulations + which];
     const point *p = &m->s->point[at];
+    m->out->lacks[rows_lacks(m->out, at, which)] =
+        one->without.other ? (int32_t)one->without.what : 0;
     for (int k = 0; k < m->of->meshes; k++) {
         const size_t cell = rows_cell(m->out, at, which, k);
         const int ran = p->status == STATUS_OK && one->missing[0] == '\0';

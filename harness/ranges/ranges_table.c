@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "harness/catalogue/parameters.h"
+#include "harness/model/missing.h"
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/tables/paragraph.h"
 
@@ -45,6 +46,8 @@ void ranges_table_head(FILE *to, const ranges *r)
                   r->design.points * r->formulations * r->meshes);
     for (int i = 0; i < r->design.axes; i++)
         write_axis(to, r, i);
+    if (r->omitted[0] != '\0')
+        paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->omitted);
     if (r->left_out[0] != '\0')
         paragraph_say(to, fprintf(to, "  left out: "), 4, "%s", r->left_out);
 }
@@ -75,7 +78,8 @@ static void write_line(FILE *to, const tally *t, int which, int q)
     const int at = fprintf(to, "  %-*s", RANGES_TABLE_NAME, r->formulation[which].key);
     fprintf(to, "%*s", at < RANGES_TABLE_NAME + 2 ? 0 : 1, "");
     if (s->asked == 0) {
-        fprintf(to, "%*s\n", RANGES_TABLE_COLUMN + 15, "without a reference");
+        fprintf(to, "%*s\n", RANGES_TABLE_COLUMN + 15,
+                t->others[which] > 0 ? "another model" : "without a reference");
         return;
     }
     for (int k = r->meshes - finest_shown(r); k < r->meshes; k++)
@@ -112,9 +116,12 @@ static void write_shares(FILE *to, const tally *t, int q)
 }
 
 /* Elements with which a formulation is within everywhere, in a word. */
-static void write_least(FILE *to, const tally_series *s, int width)
+static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
-    if (s->asked == 0)
+    const tally_series *s = tally_of(t, which, q);
+    if (t->others[which] == t->points)
+        fprintf(to, "%*s", width, "o");
+    else if (s->asked == 0)
         fprintf(to, "%*s", width, "?");
     else if (s->never > 0)
         fprintf(to, "%*s", width, "-");
@@ -138,7 +145,7 @@ static void write_leasts(FILE *to, const tally *t)
         for (int q = 0; q < r->quantities; q++) {
             fprintf(to, "  %-*.*s", RANGES_TABLE_NAME, RANGES_TABLE_NAME, r->quantity[q].name);
             for (int i = first; i < end; i++)
-                write_least(to, tally_of(t, i, q), WIDTH);
+                write_least(to, t, i, q, WIDTH);
             fputc('\n', to);
         }
     }
@@ -168,6 +175,19 @@ static void write_all_shares(FILE *to, const tally *t, int every)
         write_shares(to, t, t->of->quantities);
         write_leasts(to, t);
         write_open(to, t);
+    }
+}
+
+/* What formulations leave out, where that makes another model. */
+static void write_others(FILE *to, const tally *t)
+{
+    for (int i = 0; i < t->of->formulations; i++) {
+        char words[OMIT_WORDS];
+        missing_omit_words(t->lacks[i], words);
+        if (t->others[i] > 0)
+            paragraph_say(to, 0, 2,
+                          "%s: another model at %ld of %ld points, not counted: %s not modelled",
+                          t->of->formulation[i].key, t->others[i], t->points, words);
     }
 }
 
@@ -250,6 +270,7 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
         fprintf(to, "%ld of %ld points are there\n", t->points, r->design.points);
     ranges_table_known(to, t);
     write_all_shares(to, t, every);
+    write_others(to, t);
     write_failures(to, t);
     ranges_table_map(to, t, every);
     fprintf(to, "\nworst points with n = %d\n", r->mesh[r->meshes - 1]);

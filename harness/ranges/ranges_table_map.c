@@ -15,13 +15,15 @@ static void write_place(FILE *to, const tally_place *p, int mixed)
     char text[24];
     if (p->points == 0)
         snprintf(text, sizeof text, ".");
+    else if (p->other == p->points)
+        snprintf(text, sizeof text, "o");
     else if (p->asked == 0)
         snprintf(text, sizeof text, "?");
     else if (p->never > 0)
         snprintf(text, sizeof text, "-%s", mixed && p->proven > 0 ? "*" : "");
     else
         snprintf(text, sizeof text, "%d%s%s", p->least, mixed && p->proven > 0 ? "*" : "",
-                 p->asked < p->points ? "?" : "");
+                 p->asked + p->other < p->points ? "?" : "");
     fprintf(to, "%*s", RANGES_TABLE_COLUMN, text);
 }
 
@@ -88,6 +90,14 @@ static int has_mixed(const tally *t)
     return mixed;
 }
 
+static int has_other(const tally *t)
+{
+    long others = 0;
+    for (int i = 0; i < t->of->formulations; i++)
+        others += t->others[i];
+    return others > 0;
+}
+
 /* Is a field without a reference? parts: has it points with and points without? */
 static int has_unknown(const tally *t, int parts)
 {
@@ -95,7 +105,7 @@ static int has_unknown(const tally *t, int parts)
     int unknown = 0;
     for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++) {
         const tally_place *p = &t->map[i];
-        unknown |= p->asked < p->points && (parts ? p->asked > 0 : p->asked == 0);
+        unknown |= p->asked + p->other < p->points && (parts ? p->asked > 0 : p->asked == 0);
     }
     return unknown;
 }
@@ -120,8 +130,9 @@ void ranges_table_map(FILE *to, const tally *t, int every)
     }
     fprintf(to, "\n");
     paragraph_say(to, fprintf(to, "least n "), 2,
-                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s%s%s",
+                  "from which on every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
                   100 * r->request.tolerance, r->mesh[r->meshes - 1],
+                  has_other(t) ? "; o: another model" : "",
                   has_unknown(t, 0) ? "; ?: without a reference" : "",
                   has_unknown(t, 1) ? "; a number with ?: some of its points are without" : "",
                   has_mixed(t) ? "; *: against a truth, elsewhere against limits of meshes, which "

@@ -8,7 +8,7 @@ static size_t lay_out(rows *r)
     const size_t points = (size_t)r->points, f = (size_t)r->shape.formulations,
                  m = (size_t)r->shape.meshes, q = (size_t)r->shape.quantities;
     const size_t known = points * q, cells = points * f * m, values = cells * q,
-                 leasts = points * f * q;
+                 leasts = points * f * q, models = points * f;
     double *at = r->first;
     double **const column[] = {&r->reference, &r->doubt, &r->value,
                                &r->error,     &r->cost,  &r->seconds};
@@ -18,10 +18,11 @@ static size_t lay_out(rows *r)
         *column[i] = at != NULL ? at + doubles : NULL;
         doubles += length[i];
     }
-    r->least = at != NULL ? (int32_t *)(void *)(at + doubles) : NULL;
+    r->lacks = at != NULL ? (int32_t *)(void *)(at + doubles) : NULL;
+    r->least = at != NULL ? r->lacks + models : NULL;
     r->kind = at != NULL ? (uint8_t *)(void *)(r->least + leasts) : NULL;
     r->status = at != NULL ? r->kind + known : NULL;
-    return doubles * sizeof *at + leasts * sizeof *r->least + known + cells;
+    return doubles * sizeof *at + (models + leasts) * sizeof *r->least + known + cells;
 }
 
 status rows_alloc(const rows_shape *shape, int points, rows *out, fault *f)
@@ -66,6 +67,11 @@ size_t rows_cell(const rows *r, int point, int formulation, int mesh)
 size_t rows_value(const rows *r, int point, int formulation, int mesh, int quantity)
 {
     return rows_cell(r, point, formulation, mesh) * (size_t)r->shape.quantities + (size_t)quantity;
+}
+
+size_t rows_lacks(const rows *r, int point, int formulation)
+{
+    return (size_t)point * (size_t)r->shape.formulations + (size_t)formulation;
 }
 
 size_t rows_least(const rows *r, int point, int formulation, int quantity)

@@ -40,6 +40,8 @@ typedef struct rows {
     double *reference, *doubt; /* [points, quantities] value and relative uncertainty; NAN */
     double *value, *error;     /* [points, formulations, meshes, quantities]; error relative; NAN */
     double *cost, *seconds;    /* [points, formulations, meshes] s: counted work, measured */
+    int32_t *lacks;  /* [points, formulations] bits of missing.h: of another model, which counts
+                        nowhere; 0: of the scene's own */
     int32_t *least;  /* [points, formulations, quantities] elements from which on every mesh is
                         within  the tolerance; 0: none */
     uint8_t *kind;   /* [points, quantities] of rows_reference */
@@ -56,6 +58,7 @@ int rows_read(FILE *from, rows *);
 size_t rows_quantity(const rows *, int point, int quantity);
 size_t rows_cell(const rows *, int point, int formulation, int mesh);
 size_t rows_value(const rows *, int point, int formulation, int mesh, int quantity);
+size_t rows_lacks(const rows *, int point, int formulation);
 size_t rows_least(const rows *, int point, int formulation, int quantity);
 /* Words of the file. */
 const char *rows_reference_name(int kind);

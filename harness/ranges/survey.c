@@ -1,4 +1,5 @@
 #include "harness/ranges/survey.h"
+#include "harness/model/features.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -143,6 +144,7 @@ static status judge(ranges *r, const sweep *s, fault *f)
         return fault_set(f, STATUS_REFUSED, "no scene can be built at the points looked at: %.200s",
                          s->point[0].reason);
     TRY(check_words(&w, &s->point[known], f));
+    scene_omission_words(features_omitted(&s->point[known].scene), r->omitted);
     take_meshes(r, s);
     return keep_running(r, &w, f);
 }

@@ -105,6 +105,7 @@ typedef struct seen {
     int asked;  /* 0: nothing to measure by */
     int proven; /* 1: by a truth */
     int open;   /* 1: there is a value all the same */
+    int other;  /* 1: it is one of another model */
     int least;  /* 0: never */
     char within[SERIES_MAX_MESHES];
 } seen;
@@ -122,15 +123,19 @@ static seen look_at(const tally *t, const rows *w, int here, int which, int quan
             s.asked = 0;
         s.within[k] = fabs(w->error[at]) <= t->of->request.tolerance;
     }
-    s.asked &= !s.open;
+    s.other = w->lacks[rows_lacks(w, here, which)] != 0;
+    s.open &= !s.other;
+    s.asked &= !s.open && !s.other;
     s.proven = s.asked && (kind == ROWS_STORED || kind == ROWS_DERIVED);
     return s;
 }
 
 static void count(const tally *t, tally_series *to, tally_place *place, const seen *s)
 {
-    if (place != NULL)
+    if (place != NULL) {
         place->points++;
+        place->other += s->other;
+    }
     to->open += s->open;
     if (!s->asked)
         return;
@@ -150,9 +155,11 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
 
 static void join(const tally *t, seen *all, const seen *one)
 {
-    const int open = all->open | one->open, proven = all->proven | one->proven;
+    const int open = all->open | one->open, proven = all->proven | one->proven,
+              other = all->other | one->other;
     if (one->asked && !all->asked)
         *all = *one;
+    all->other = other;
     all->open = open;
     all->proven = proven;
     if (!one->asked)
@@ -201,7 +208,8 @@ static void look_for_worst(tally *t, const rows *w, int here, long index, int wh
     const int finest = t->of->meshes - 1;
     const int how = w->status[rows_cell(w, here, which, finest)];
     tally_worst one = {.point = index, .quantity = -1, .status = how, .error = NAN};
-    if (how == ROWS_NOT_OFFERED || how == ROWS_NO_SCENE)
+    if (how == ROWS_NOT_OFFERED || how == ROWS_NO_SCENE ||
+        w->lacks[rows_lacks(w, here, which)] != 0)
         return;
     for (int q = 0; q < t->of->quantities && how == STATUS_OK; q++) {
         const double error = w->error[rows_value(w, here, which, finest, q)];
@@ -266,6 +274,9 @@ static void count_point(tally *t, const rows *w, int here, long index, const dou
     }
     count_references(t, w, here);
     for (int i = 0; i < t->of->formulations; i++) {
+        const unsigned lacks = (unsigned)w->lacks[rows_lacks(w, here, i)];
+        t->others[i] += lacks != 0;
+        t->lacks[i] |= lacks;
         count_formulation(t, w, here, i, line, column);
         look_for_worst(t, w, here, index, i);
     }

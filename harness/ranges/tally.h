@@ -29,7 +29,7 @@ typedef struct tally_series {
 
 /* A place of the map. */
 typedef struct tally_place {
-    long points, asked, never;
+    long points, other, asked, never; /* other: of another model */
     long proven; /* of those asked: measured by a truth, not by limits of meshes alone */
     int least;   /* elements from which on all points here are within */
 } tally_place;
@@ -38,13 +38,15 @@ typedef struct tally {
     const ranges *of;
     long points, without_scene, first_without; /* index of the first such point */
     long kind[RANGES_QUANTITIES][ROWS_REFERENCES];
-    double doubt[RANGES_QUANTITIES]; /* the largest */
-    int columns, lines;              /* of the map; 0: more than two axes */
-    tally_series *series;            /* [formulations x (quantities + 1)], the last of all */
-    tally_place *map;                /* [formulations x (quantities + 1) x lines x columns] */
-    long *failed;                    /* [formulations x meshes] cells without a solution */
-    double *cost, *seconds;          /* [formulations x meshes] s: of all cells that ran */
-    long *ran;                       /* [formulations x meshes] */
+    double doubt[RANGES_QUANTITIES];  /* the largest */
+    int columns, lines;               /* of the map; 0: more than two axes */
+    tally_series *series;             /* [formulations x (quantities + 1)], the last of all */
+    tally_place *map;                 /* [formulations x (quantities + 1) x lines x columns] */
+    long *failed;                     /* [formulations x meshes] cells without a solution */
+    double *cost, *seconds;           /* [formulations x meshes] s: of all cells that ran */
+    long *ran;                        /* [formulations x meshes] */
+    long others[RANGES_FORMULATIONS]; /* points where it solves another model: they count nowhere */
+    unsigned lacks[RANGES_FORMULATIONS]; /* what it leaves out there: bits of missing.h */
     int worsts[RANGES_FORMULATIONS];
     tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST]; /* the worst first */
 } tally;

@@ -118,8 +118,6 @@ static const schema_field fields_of_series[] = {
     {"imported", "", FIELD_TEXT, "file of another program that it was read from; empty: run here",
      .get = get_imported},
     {"model", "", FIELD_TEXT, "beam, or another one that the other program has", .get = get_model},
-    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
-     .get = get_omitted},
     {"shear_theory", "", FIELD_TEXT, "in stability, which it follows here; empty: nothing shears",
      .get = get_theory},
     {0}};
@@ -141,6 +139,8 @@ static const schema_field fields_of_cell[] = {
     {"strains", "1", FIELD_INT, "strains of an element, its inner unknowns too",
      .get = get_strains},
     {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
+    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
+     .get = get_omitted},
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
     {"warping", "", FIELD_TEXT, "which ends of members hold it, share it, leave it free",
      .get = get_warping},

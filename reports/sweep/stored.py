@@ -11,7 +11,8 @@ MARK, VERSION = "beamwork_sweep", 1
 PIECE = 1_000_000  # values of one table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # how kinds of references begin that there are not
-ABSENT = ("not_offered", "no_scene")  # outcomes of what was not asked
+OTHER = "other_model"  # the outcome of a formulation that leaves physics out where that matters
+ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of what was not asked
 
 
 @dataclass(frozen=True)
@@ -126,8 +127,14 @@ class Sweep:
         names = {"at": "points", "doubt": "reference_doubt", "kind": "reference_kind"}
         names |= {name: name for name in ("value", "error", "status", "cost", "least")}
         whole = len(self.keys) * len(self.meshes) * len(self.quantities)
+        names |= {"lacks": "not_modelled"}
         for first, found in self.read(names.values(), PIECE // whole):
-            yield Piece(first, **dict(zip(names, found)))
+            columns = dict(zip(names, found))
+            other = columns.pop("lacks") != 0
+            columns["status"][other] = self.statuses.index(OTHER)
+            columns["value"][other] = columns["error"][other] = np.nan
+            columns["least"][other] = 0
+            yield Piece(first, **columns)
 
     def points_only(self):
         """The parameters of all points, in pieces."""
@@ -181,7 +188,7 @@ def check(file, sweep):
     f, m, q = len(sweep.keys), len(sweep.meshes), len(sweep.quantities)
     whole = {"points": (len(sweep.axes),), "reference_doubt": (q,), "reference_kind": (q,),
              "value": (f, m, q), "error": (f, m, q), "status": (f, m), "cost": (f, m),
-             "least": (f, q)}
+             "least": (f, q), "not_modelled": (f, )}
     for name, size in whole.items():
         if file[name].shape != (sweep.points, *size) or 0 in file[name].shape:
             raise ValueError(f"table '{name}' has the size {file[name].shape}, "
@@ -213,7 +220,7 @@ def read(path):
                           axes_of(file), quantities,
                           [text(r["key"]) for r in file["formulations"][()]],
                           [int(n) for n in file["meshes"][()]], file["points"].shape[0],
-                          listed(file["status"].attrs["names"]),
+                          listed(file["status"].attrs["names"]) + [OTHER],
                           listed(file["reference_kind"].attrs["names"]), worst_of(file))
             check(file, found)
             return found

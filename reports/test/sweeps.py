@@ -83,7 +83,7 @@ def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"
                   "reference_kind": ((p, q), "u1"), "value": ((p, f, m, q), "f8"),
                   "error": ((p, f, m, q), "f8"), "status": ((p, f, m), "u1"),
                   "cost": ((p, f, m), "f8"), "seconds": ((p, f, m), "f8"),
-                  "least": ((p, f, q), "i4")}
+                  "least": ((p, f, q), "i4"), "not_modelled": ((p, f), "i4")}
         table = {name: file.create_dataset(name, shape, of, chunks=True, compression="gzip",
                                            compression_opts=1)
                  for name, (shape, of) in shapes.items()}

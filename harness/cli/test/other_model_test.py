@@ -104,3 +104,32 @@ class OtherModel(ProgramTest):
         text = self.answered("sweep", "shear_column", "--vary", "length=0.5,1", "-f",
                              "beamw_vlasov").stdout
         self.assertNotIn("does not offer", text)
+
+    def test_sweep_of_another_model(self):
+        """It is marked at the points where it is one, and is in no share and no ranking there."""
+        path = self.folder / "leaf.yaml"
+        path.write_text(LEAF.replace("sections:", "parameters: {t: {value: 0.1, unit: m}}\nsections:") %
+                        ("t", "0.001", "0"))
+        words = ("sweep", "--scene", path, "--vary", "t=0.0005,0.1", "-f", "beamw_vlasov", "-f",
+                 "collocation", "-k", "uy")
+        text = self.answered(*words, "-o", self.folder / "s.h5").stdout
+        self.assertIn("omitted: trapeze, wagner_torque", text)
+        self.assertIn("beamw_vlasov: another model at 1 of 2 points, not counted: shear not modelled",
+                      " ".join(text.split()))
+        rows = csv.DictReader(io.StringIO(self.answered(*words, "--format", "csv").stdout))
+        self.assertEqual({(r["t"], r["not_modelled"]) for r in rows
+                          if r["formulation"] == "beamw_vlasov"}, {("0.0005", ""), ("0.1", "shear")})
+        with h5py.File(self.folder / "s.h5") as file:
+            lacks, bits = file["not_modelled"][()], file["not_modelled"].attrs["bits"].decode()
+        self.assertEqual([[bool(x) for x in row] for row in lacks], [[False, False], [True, False]])
+        self.assertEqual(bits.split("\n")[int(lacks[1, 0]).bit_length() - 1], "shear")
+
+    def test_omitted(self):
+        """What the scene leaves out stands in every table."""
+        deep = self.scene("0.1", "1", "0")
+        for words, code in ((("solve", "-n", "2"), 0), (("converge",), 0), (("verify", "-v"), 3)):
+            text = self.answered(words[0], *deep, *words[1:], code=code).stdout
+            self.assertIn("omitted: trapeze, wagner_torque", text, words)
+        rows = csv.DictReader(io.StringIO(
+            self.answered("converge", *deep, "-n", "1,2", "--format", "csv").stdout))
+        self.assertEqual({r["omitted"] for r in rows}, {"trapeze, wagner_torque"})

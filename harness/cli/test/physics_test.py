@@ -244,8 +244,6 @@ class PhysicsTest(SceneCase):
                                  [f"omitted: {told}"] if told else [], words)
             record = self.record("solve", "--scene", scene, "-n", 2)
             self.assertEqual(record["omitted"], told.split(", ") if told else [])
-            record = self.record("converge", "--scene", scene, "-n", 2, "-f", "collocation")
-            self.assertEqual(record["series"][0]["omitted"], told or "")
         for theory, told in (("haringx", ["Haringx", "Haringx"]), ("engesser", ["Haringx", "Engesser"])):
             scene = self.scene(text + f"shear_theory: {theory}\n")
             lines = [self.answered("solve", "--scene", scene, "-n", 2, "-f", name).stdout.splitlines()
