@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "harness/judge/curve_error.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 #include "harness/record/reach_line.h"
@@ -39,6 +40,48 @@ static json_t *quantity_of(const gathering *g, int series_index, int quantity)
     json_t *out = json_record(&record_verdict, &s, 0);
     json_object_set_new(out, "meshes", meshes_of(g, series_index, quantity));
     return out;
+}
+
+static json_t *number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+/* A curve: how far each mesh is from the finest one, and that from another formulation. */
+static json_t *curve_of(const sweep *s, const series *one, int quantity, const series *other)
+{
+    const scene *what = &s->point[one->point].scene;
+    const scene_quantity *q = &what->quantity[quantity];
+    const int finest = curve_error_finest(one, quantity),
+              best = curve_error_finest(other, quantity);
+    json_t *meshes = json_array();
+    for (int k = 0; k < one->meshes; k++) {
+        const double error = finest < 0 ? NAN
+                                        : curve_error_between(what, quantity, &one->cell[k].solve,
+                                                              &one->cell[finest].solve, NULL);
+        json_array_append_new(
+            meshes, json_pack("{s:i,s:o}", "elements", one->mesh[k], "error", number(error)));
+    }
+    const double apart = finest < 0 || best < 0
+                             ? NAN
+                             : curve_error_between(what, quantity, &one->cell[finest].solve,
+                                                   &other->cell[best].solve, NULL);
+    return json_pack("{s:s,s:s,s:s,s:s,s:o,s:s,s:o}", "quantity", q->name, "unit", q->unit,
+                     "x_name", q->x.name, "x_unit", q->x.unit, "meshes", meshes, "reference",
+                     other->formulation.key, "reference_error", number(apart));
+}
+
+static json_t *curves_of(const sweep *s, const series *one)
+{
+    json_t *all = json_array();
+    const scene *what = &s->point[one->point].scene;
+    for (int q = 0; q < what->quantities && one->missing[0] == '\0'; q++) {
+        const int reference =
+            what->quantity[q].reduction == SCENE_CURVE ? curve_error_reference(s, q) : -1;
+        if (reference >= 0)
+            json_array_append_new(all, curve_of(s, one, q, &s->series[reference]));
+    }
+    return all;
 }
 
 /* The last line of the text. */
@@ -95,6 +138,7 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
         const subject here = {.sweep = s, .point = p, .series = one, .record = one};
         json_t *out = json_record(&record_series, &here, KEY_AROUND);
         json_object_set_new(out, record_quantity.table, quantities);
+        json_object_set_new(out, record_curve.table, curves_of(s, one));
         json_array_append_new(all, out);
     }
     return json_finish(json_pack("{s:i,s:o,s:f,s:o,s:o}", "schema_version", SCHEMA_VERSION,

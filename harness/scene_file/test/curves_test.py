@@ -98,6 +98,15 @@ class CurvesTest(SceneCase):
             error = 100*max(abs(a - b) for a, b in zip(value[n], value[4]))/size
             self.assertAlmostEqual(percent, error, delta=1e-3*error + 1e-4)
         self.assertIn("from collocation", block.splitlines()[2])
+        record = self.record("converge", "--scene", path, "-f", "beamw", "-f", "collocation")
+        found, = (c for c in record["series"][0]["curves"] if c["quantity"] == "k_z")
+        self.assertEqual((found["x_name"], found["x_unit"], found["reference"]), ("place", "mm", "collocation"))
+        for mesh in found["meshes"]:
+            n = mesh["elements"]
+            error = max(abs(a - b) for a, b in zip(value[n], value[4]))/size
+            self.assertAlmostEqual(mesh["error"], error, delta=1e-9 + 1e-9*error)
+        last = record["series"][1]["curves"]
+        self.assertTrue(all(c["reference_error"] == 0 for c in last))
         self.assertIn("place [mm]: the same curve on all meshes", text)
 
     def test_chosen(self):
