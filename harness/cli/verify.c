@@ -135,6 +135,7 @@ static void tell_supports(const scenes *own, const sweep *s)
             const point *p = &s->point[s->series[i].point];
             if (p->type != scene_file_case(own->file[k]) || s->series[i].missing[0] != '\0')
                 continue;
+            case_input_tell_units(own->file[k], p->parameter);
             supports_told(own->file[k], p->parameter, &s->series[i].formulation, &p->scene);
             break;
         }

@@ -11,6 +11,7 @@
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
 #include "harness/model/features.h"
+#include "harness/study/cell.h"
 #include "harness/truth/data_place.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
@@ -99,6 +100,21 @@ const case_type *case_input_scene(command_request *r)
     return NULL;
 }
 
+void case_input_tell_units(const scene_file *file, const double parameter[])
+{
+    char words[FAULT_TEXT];
+    scene s;
+    if (file == NULL || scene_file_states(file, "units"))
+        return;
+    if (cell_scene(scene_file_case(file), parameter, NULL, &s, NULL) == STATUS_OK &&
+        scene_looks_foreign(&s, words))
+        fprintf(stderr,
+                "beamwork: warning: %s; numbers are in m, N, Pa and kg, else the scene says units: "
+                "mm, N, MPa\n",
+                words);
+    scene_free(&s);
+}
+
 static const case_type *named_case(const command_request *r)
 {
     fault f;
@@ -125,8 +141,10 @@ const case_type *case_input_find(command_request *r)
             return NULL;
         }
     const int code = r->scene != NULL && r->assignments > 0 ? check_values(r) : EXIT_AS_EXPECTED;
-    if (code == EXIT_AS_EXPECTED)
+    if (code == EXIT_AS_EXPECTED) {
+        case_input_tell_units(r->scene, r->parameter);
         return type;
+    }
     r->refusal = code;
     return NULL;
 }
@@ -169,12 +187,6 @@ status case_input_truths(const command_request *r, truths *t, fault *f)
 
 void case_input_tell_analysis(const command_request *r, const scene *s)
 {
-    char words[FAULT_TEXT];
-    if (r->scene != NULL && !scene_file_states(r->scene, "units") && scene_looks_foreign(s, words))
-        fprintf(stderr,
-                "beamwork: warning: %s; numbers are in m, N, Pa and kg, else the scene says units: "
-                "mm, N, MPa\n",
-                words);
     if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
         return;
     const scene_analysis *a = &s->analysis[0];

@@ -16,6 +16,8 @@ int case_input_read(const command_request *r, const char *path, scene_file **out
 /* Truths of the run: those stored, or, of a scene file, its own at the parameters of the request.
  */
 status case_input_truths(const command_request *r, truths *t, fault *f);
+/* One line on stderr where the numbers of a scene file look like other units; NULL: none. */
+void case_input_tell_units(const scene_file *, const double parameter[]);
 /* One line on stderr: which analysis was made up where the scene file states none. */
 void case_input_tell_analysis(const command_request *r, const scene *s);
 /* The packed truths: --truths, or their place (harness/truth/data_place.h). */

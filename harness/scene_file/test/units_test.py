@@ -166,6 +166,13 @@ class UnitsTest(SceneCase):
                       {**METRES, "YOUNG": 30e9, "SHEAR": 12e9, "WIDTH": 12, "THICK": 2, "LENGTH": 60}):
             self.assertFalse(self.warned(filled(LEAF, **right)), right)
 
+    def test_verbs(self):
+        """Each that reads the scene says it once."""
+        path = self.scene(filled(LEAF, **MILLIMETRES))
+        for words in (("solve", "-n", 1), ("converge", "-n", 1), ("verify",), ("bench", "-n", 1), ("truth",)):
+            told = run(words[0], "--scene", path, *words[1:]).stderr
+            self.assertEqual(told.count("numbers are in m, N, Pa and kg"), 1, words)
+
     def test_examples(self):
         for path in sorted(EXAMPLES.glob("*.yaml")):
             done = run("solve", "--scene", path, "-n", 1)
