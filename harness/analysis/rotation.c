@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "harness/algebra/clock.h"
-#include "harness/algebra/gyroscopic.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/static.h"
 #include "harness/equations/linearise.h"
@@ -21,6 +20,7 @@
 #include "harness/solver/newton.h"
 #include "harness/solver/singular.h"
 #include "harness/solver/tangent.h"
+#include "harness/turning/gyroscopic.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 

@@ -1,4 +1,4 @@
-#include "harness/algebra/gyroscopic_index.h"
+#include "harness/turning/gyroscopic_index.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 
 #include <complex.h>
 
-#include "harness/algebra/subspace.h"
+#include "harness/turning/subspace.h"
 
 typedef struct ritz {
     int room, count, size;  /* pairs wanted and found; vectors in the basis when they were */

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/algebra/gyroscopic.h"
 #include "harness/algebra/test/matrices.h"
+#include "harness/turning/gyroscopic.h"
 
 enum { WANTED = 8 };
 

@@ -1,4 +1,4 @@
-#include "harness/algebra/subspace.h"
+#include "harness/turning/subspace.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "harness/algebra/ritz.h"
+#include "harness/turning/ritz.h"
 
 #include <float.h>
 #include <lapacke.h>

@@ -1,4 +1,4 @@
-#include "harness/algebra/gyroscopic.h"
+#include "harness/turning/gyroscopic.h"
 
 #include <float.h>
 #include <math.h>
@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/algebra/gyroscopic_count.h"
-#include "harness/algebra/gyroscopic_index.h"
-#include "harness/algebra/ritz.h"
+#include "harness/turning/gyroscopic_count.h"
+#include "harness/turning/gyroscopic_index.h"
+#include "harness/turning/ritz.h"
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 

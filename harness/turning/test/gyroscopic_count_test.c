@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/gyroscopic_count.h"
-#include "harness/algebra/test/gyroscopic_problem.h"
+#include "harness/turning/gyroscopic_count.h"
+#include "harness/turning/test/gyroscopic_problem.h"
 
 /* The number of frequencies below one, beside LAPACK's: between all neighbours, below the first and
  * above the last. */

@@ -10,7 +10,7 @@
 #ifndef BEAMWORK_GYROSCOPIC_INDEX_H
 #define BEAMWORK_GYROSCOPIC_INDEX_H
 
-#include "harness/algebra/ritz.h"
+#include "harness/turning/ritz.h"
 
 typedef struct gyroscopic_index {
     int negative; /* eigenvalues of K that the modes account for */

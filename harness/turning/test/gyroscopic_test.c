@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/algebra/test/gyroscopic_problem.h"
+#include "harness/turning/test/gyroscopic_problem.h"
 
 static void compare(const problem *p, int definite_, const char *name)
 {

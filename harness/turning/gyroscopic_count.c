@@ -1,4 +1,4 @@
-#include "harness/algebra/gyroscopic_count.h"
+#include "harness/turning/gyroscopic_count.h"
 
 #include <stdlib.h>
 #include <string.h>
