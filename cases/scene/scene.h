@@ -258,6 +258,8 @@ void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 void scene_set_body(scene *s, int node, scene_body body);
 /* Has the node a mass or an inertia? */
 int scene_has_body(const scene_node *n);
+/* Has anything? */
+int scene_has_mass(const scene *s);
 /* Turns of a node that all its members release and nothing else meets, so that it has no angle of
  * its own there and is held: 0: none; SCENE_IDLE_AXIS: about `axis`, which turns with it. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };

@@ -55,22 +55,6 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-static int has_mass(const scene *s)
-{
-    for (int i = 0; i < s->nodes; i++)
-        if (scene_has_body(&s->node[i]))
-            return 1;
-    for (int i = 0; i < s->members; i++) {
-        section c;
-        if (scene_constants(s, s->member[i].section, &c, NULL) != STATUS_OK || c.density > 0)
-            return 1; /* what is wrong with it is told where it is computed */
-        for (int k = 0; k < 36; k++)
-            if (c.mass[k] != 0)
-                return 1;
-    }
-    return 0;
-}
-
 /* What goes on from a motion has its clock and its rates. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
@@ -105,7 +89,7 @@ static status check_follows(const scene *s, int i, fault *f)
             scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
         TRY(check_resumed(s, &s->analysis[i], i, f));
-    if (!has_mass(s))
+    if (!scene_has_mass(s))
         return fault_set(
             f, STATUS_REFUSED,
             "%s: nothing in it has a mass; give a section a density or a mass, or a node a body",

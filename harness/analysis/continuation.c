@@ -53,6 +53,26 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
+/* Of the step from `before` to `here`: whether it was decided, and what has passed zero so far
+ * where there is no inertia that tells. */
+static void judge(continuation *p, const path_point *before, step_record *record)
+{
+    outcome_continuation *o = p->o;
+    if ((p->here.negative < 0 || p->doubtful) && !o->undecided) {
+        o->undecided = 1;
+        o->decided_events = p->c->result->events;
+        o->undecided_from = before->factor;
+        o->undecided_to = p->here.factor;
+    }
+    record->passed = p->first;
+    for (int i = 0; i < p->c->result->events; i++) {
+        const path_event *e = &p->c->result->event[i];
+        if (e->analysis == p->analysis && e->kind != EVENT_BRANCH_JUMP)
+            record->passed += e->negative_after - e->negative_before;
+    }
+    record->by_eigenvalues = !p->here.symmetric && !o->undecided && p->first >= 0;
+}
+
 /* `next` becomes `here`. */
 static status accept(continuation *p, step_record *record, fault *f)
 {
@@ -61,7 +81,8 @@ static status accept(continuation *p, step_record *record, fault *f)
     p->next = before;
     record->path = p->here.factor;
     record->increment = p->here.factor - before.factor;
-    record->negative_pivots = p->here.negative;
+    record->negative_pivots = p->here.symmetric ? p->here.negative : -1;
+    judge(p, &before, record);
     model_counters(p->c->model)->steps++;
     TRY(add_point(p, f));
     return history_add_step(p->c->result, record, f);
@@ -96,11 +117,16 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     turn_start(p);
     t->doubt = continuation_sound_doubt(p, last_resort, &t->swing);
     int jump = 0, hidden = 0;
+    p->doubtful = 0;
     const int changes = p->here.negative != p->next.negative ||
                         p->here.determinant != p->next.determinant ||
                         (p->here.rate < 0) != (p->next.rate < 0);
-    if (t->doubt == NULL && !changes && !last_resort)
-        TRY(continuation_critical_within(p, goal, &hidden, f));
+    if (t->doubt == NULL)
+        TRY(continuation_critical_within(p, goal, changes, &hidden, f));
+    if (last_resort && hidden) {
+        p->doubtful = 1;
+        hidden = 0;
+    }
     if (t->doubt == NULL && !hidden)
         TRY(continuation_critical(p, goal, &jump, f));
     if (hidden)
@@ -262,6 +288,7 @@ static status start(continuation *p, fault *f)
     step_record record = {0};
     TRY(newton_to(&p->n, 0, &record, f));
     TRY(continuation_step_look(p, NULL, &p->here, &record, f));
+    p->first = p->here.negative;
     return add_point(p, f);
 }
 

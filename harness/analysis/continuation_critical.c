@@ -12,11 +12,13 @@
 #include "harness/model/kinematics.h"
 #include "harness/solver/history.h"
 
-enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12 };
+enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 5 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
 static const double closeness = 1e-10;      /* of a trial, relative to the step */
 static const double near = 1e-3;            /* of a vanishing eigenvalue, beside those before */
 static const double one_point = 1e-6;       /* nearer ones are one, relative to the step */
+static const double touches = 0.02;         /* least value beside those around it */
+static const double aside = 1e-3; /* real part of a pair that passes the axis beside zero */
 
 /* One end of the interval in which the critical point lies. */
 typedef struct bound {
@@ -47,6 +49,18 @@ static double least_eigenvalue(continuation *p)
     }
     model_counters(p->c->model)->solutions += INVERSE_ITERATIONS;
     return eigenvalue;
+}
+
+/* Of the point, where K is factored: the same, or the real part of what stands next to zero. */
+static double least_of(continuation *p, const path_point *at)
+{
+    return at->symmetric ? least_eigenvalue(p) : at->least;
+}
+
+/* Is what stands next to zero a pair whose real part vanishes beside its size? */
+static int is_aside(const path_point *at)
+{
+    return !at->symmetric && at->nearest > 0 && fabs(creal(at->mu[0])) < aside * cabs(at->mu[0]);
 }
 
 /* |phi . f'|/(|phi| |f'|), the lengths in the metric and in its dual. */
@@ -95,7 +109,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(corrected);
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
-    b->value = s->by_rate ? p->trial.rate : least_eigenvalue(p);
+    b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
     /* Another eigenvalue may be the least one: its sign tells nothing of this point. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
@@ -120,7 +134,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
     const int by_rate = s->by_rate;
     bound low = {s->from, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
     double at = s->from, scale = by_rate ? fmax(fabs(low.value), fabs(high.value)) : 0,
-           value = scale;
+           value = scale, best = by_rate ? scale : NAN;
     int last = 0;
     for (int i = 0; i < MOST_TRIALS && high.at - low.at > closeness; i++) {
         bound trial = {i % 8 == 7 ? (low.at + high.at) / 2 : next_part(&low, &high), NAN};
@@ -131,9 +145,11 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
-        value = fabs(trial.value);
+        const int whole = by_rate || p->trial.symmetric || p->trial.nearest == 0;
+        value = whole ? fabs(trial.value) : cabs(p->trial.mu[0]);
         scale = fmax(scale, isfinite(value) ? value : 0);
-        if (value <= closeness * scale)
+        best = fmin(best, value);
+        if (value <= closeness * scale || (!by_rate && is_aside(&p->trial)))
             break;
         if (i > 0 && before == last) {
             if (before)
@@ -144,7 +160,10 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         last = before;
         *(before ? &low : &high) = trial;
     }
-    *gone = value > near * scale;
+    *gone = best > near * scale;
+    p->narrow = is_aside(&p->trial) || high.at - low.at <= closeness;
+    if (!by_rate && !*gone && is_aside(&p->trial) && value > one_point * scale)
+        p->doubtful = 1; /* a pair beside zero, or a double value at it? */
     *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
@@ -165,11 +184,31 @@ static status count_behind(continuation *p, path_goal goal, const sought *s, dou
     return STATUS_OK;
 }
 
+/* What changes without an eigenvalue at zero: a pair that passes the axis beside it, no branch? */
+static int is_pair(const continuation *p, const sought *s)
+{
+    return !s->by_rate && !p->next.symmetric && p->narrow && s->negative >= 0 &&
+           p->next.negative >= 0;
+}
+
+/* *s goes on behind the pair, which is no critical point. */
+static status pass_pair(continuation *p, path_goal goal, sought *s, double behind, int *jump,
+                        fault *f)
+{
+    const int before = s->negative;
+    s->from = behind;
+    TRY(count_behind(p, goal, s, &s->from, &s->negative, f));
+    *jump = s->negative == before || (s->negative - before) % 2 != 0;
+    return STATUS_OK;
+}
+
 /* The critical point inside the step becomes an event. *s goes on behind it. */
 static status report_critical(continuation *p, path_goal goal, sought *s, int *jump, fault *f)
 {
     double behind = 1;
     TRY(locate(p, goal, s, jump, &behind, f));
+    if (*jump && is_pair(p, s))
+        return pass_pair(p, goal, s, behind, jump, f);
     if (*jump)
         return STATUS_OK;
     path_event event = {
@@ -207,7 +246,8 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Is the part of the step another than its ends: in pivots, or in where the load goes? */
+/* Is the part of the step, which becomes the trial point, another than its ends: in pivots, or in
+ * where the load goes? */
 static status look_at(continuation *p, path_goal goal, double part, int *differs, double *least,
                       fault *f)
 {
@@ -216,36 +256,77 @@ static status look_at(continuation *p, path_goal goal, double part, int *differs
     int before = 0;
     TRY(try_at(p, goal, &s, &trial, &before, f));
     *differs = !before || (p->trial.rate < 0) != (p->here.rate < 0);
-    *least = least_eigenvalue(p);
+    *least = least_of(p, &p->trial);
     return STATUS_OK;
+}
+
+/* Do all eigenvalues next to zero change less than `clear` of the least one? */
+static int is_quiet(const path_point *a, const path_point *b, double clear)
+{
+    if (a->nearest == 0 || a->nearest != b->nearest)
+        return 0;
+    const double most = clear * fmin(cabs(a->mu[0]), cabs(b->mu[0]));
+    for (int i = 0; i < a->nearest; i++)
+        if (fabs(cabs(a->mu[i]) - cabs(b->mu[i])) > most ||
+            (creal(a->mu[i]) < 0) != (creal(b->mu[i]) < 0))
+            return 0;
+    return 1;
+}
+
+/* Does a parabola through three values at equal distances, of one sign, come to zero between
+ * them, or so near that it could? */
+static int dips(const double value[3])
+{
+    const double sign = value[1] > 0 ? 1 : -1, bend = value[0] - 2 * value[1] + value[2],
+                 slope = (value[2] - value[0]) / 2;
+    const int same = (value[0] > 0) == (value[1] > 0) && (value[1] > 0) == (value[2] > 0);
+    return same && sign * bend > 0 && fabs(slope) < fabs(bend) &&
+           sign * (value[1] - slope * slope / (2 * bend)) <
+               touches * fmax(fabs(value[0]), fabs(value[2]));
+}
+
+static int is_between(int a, int b, int c)
+{
+    return (a <= b && b <= c) || (a >= b && b >= c);
 }
 
 /* The middle, and the rest where a parabola through the least eigenvalues is not clear of zero. */
-static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
+static status look_within(continuation *p, path_goal goal, int changes, int *hidden, fault *f)
 {
-    static const double part[] = {0.2, 0.4, 0.6, 0.8};
     const double clear = 0.5; /* of the least one: what it may change by from the ends */
     const double a = p->here.least, b = p->next.least;
-    double middle;
+    double value[PARTS + 1] = {a, [PARTS] = b}, middle;
     TRY(look_at(p, goal, 0.5, hidden, &middle, f));
+    *hidden &= !changes;
     const double least = fmin(fmin(fabs(a), fabs(b)), fabs(middle));
-    if (fabs(middle - a) < clear * least && fabs(middle - b) < clear * least)
+    const int near_ends = fabs(middle - a) < clear * least && fabs(middle - b) < clear * least;
+    if (!changes && near_ends &&
+        (p->trial.symmetric ||
+         (is_quiet(&p->here, &p->trial, clear) && is_quiet(&p->trial, &p->next, clear))))
         return STATUS_OK;
-    for (int i = 0; i < 4 && !*hidden; i++)
-        TRY(look_at(p, goal, part[i], hidden, &middle, f));
+    int last = p->here.negative;
+    for (int i = 1; i < PARTS && !*hidden; i++) {
+        TRY(look_at(p, goal, (double)i / PARTS, hidden, &value[i], f));
+        *hidden = changes ? !is_between(last, p->trial.negative, p->next.negative) : *hidden;
+        last = p->trial.negative;
+    }
+    for (int i = 0; i + 2 <= PARTS && !p->trial.symmetric; i++)
+        *hidden |= dips(value + i);
     return STATUS_OK;
 }
 
-status continuation_critical_within(continuation *p, path_goal goal, int *hidden, fault *f)
+status continuation_critical_within(continuation *p, path_goal goal, int changes, int *hidden,
+                                    fault *f)
 {
     *hidden = 0;
-    if (!p->asks_critical)
+    if (!p->asks_critical || (changes && p->next.symmetric))
         return STATUS_OK;
-    p->next.least = least_eigenvalue(p);
+    p->next.least = least_of(p, &p->next);
     kinematics_state_copy(p->c->model, p->n.state, p->end);
-    const status outcome = look_within(p, goal, hidden, f);
+    const status outcome = look_within(p, goal, changes, hidden, f);
     kinematics_state_copy(p->c->model, p->end, p->n.state);
     p->looked = 0;
+    *hidden |= outcome == STATUS_SINGULAR;
     return outcome == STATUS_SINGULAR ? STATUS_OK : outcome;
 }
 

@@ -2,6 +2,7 @@
 #include "harness/analysis/continuation_extract.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
@@ -38,22 +39,14 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, o->status, o->reason);
 }
 
-/* Did any step end at a tangent that is not symmetric? */
-static int was_unsymmetric(const solve_result *r)
-{
-    for (int i = 0; i < r->steps; i++)
-        if (r->step[i].negative_pivots < 0)
-            return 1;
-    return 0;
-}
-
 static void take_critical(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
     const scene_point *what = scene_point_of(q);
     const event_kind kind = what->kind == SCENE_LIMIT_POINT ? EVENT_LIMIT_POINT : EVENT_BIFURCATION;
+    const outcome_continuation *p = outcome_continuation_of(o);
     int order = 0;
-    for (int i = 0; i < c->result->events; i++) {
+    for (int i = 0; i < (p->undecided ? p->decided_events : c->result->events); i++) {
         const path_event *e = &c->result->event[i];
         if (e->analysis != q->analysis || e->kind != kind)
             continue;
@@ -66,13 +59,16 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
     }
     if (o->status != STATUS_OK)
         quantity_no_value(r, o->status, o->reason);
-    else if (was_unsymmetric(c->result))
-        quantity_no_value(
-            r, STATUS_NOT_CONVERGED,
-            "undecided: where loads make the tangent unsymmetric only the sign of its "
-            "determinant is followed, and that changes at no such point; two points "
-            "within a step, or a double one, do not change it: take smaller steps");
-    else
+    else if (p->undecided) {
+        char reason[FAULT_TEXT];
+        snprintf(
+            reason, sizeof reason,
+            "undecided: between load factors %.6g and %.6g an eigenvalue of the tangent comes too "
+            "near to zero to tell whether it passes it; smaller steps, or a load that differs a "
+            "little, may tell",
+            p->undecided_from, p->undecided_to);
+        quantity_no_value(r, STATUS_NOT_CONVERGED, reason);
+    } else
         quantity_no_value(r, o->status, "no such point on the path");
 }
 

@@ -9,16 +9,26 @@
 #ifndef BEAMWORK_CONTINUATION_IMPL_H
 #define BEAMWORK_CONTINUATION_IMPL_H
 
+#include <complex.h>
+
 #include "harness/solver/newton.h"
+
+enum { PATH_NEAREST = 6 };
 
 /* A point of the path. */
 typedef struct path_point {
     double factor, control; /* [1], [m] */
     double rate;            /* dfactor/ds with s in the model's metric */
     double *tangent;        /* [free + driven] dx/ds */
-    int negative;           /* negative pivots of K; -1: not symmetric */
-    int determinant;        /* sign of det K */
-    double least;           /* eigenvalue of K of least size; NAN: not asked for */
+    int symmetric;
+    int negative;    /* negative pivots of K, or what continuation_step counts in their
+                        place; -1: not known */
+    int determinant; /* sign of det K */
+    double least;    /* eigenvalue of K of least size, its real part where K is not
+                        symmetric; NAN: not asked for */
+    int nearest;
+    double complex mu[PATH_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
+                                        K is not symmetric */
 } path_point;
 
 /* Where a step goes: to this value of the control coordinate, or so far along the arc. */
@@ -43,7 +53,10 @@ typedef struct continuation {
     double *moved;      /* [free + driven] sum of the increments of the step */
     double *mode;       /* [free + driven] null vector */
     path_point here, next, trial;
-    int looked; /* 1: n.dx, response and the factors belong to the present state */
+    int first;    /* negative pivots at the begin */
+    int narrow;   /* 1: where something changes was told as near as can be */
+    int doubtful; /* 1: whether the step has critical points could not be decided */
+    int looked;   /* 1: n.dx, response and the factors belong to the present state */
 } continuation;
 
 status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
@@ -84,7 +97,7 @@ status continuation_sound_report_jump(continuation *, const rival *, double from
  * a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* Where critical points are asked for: *hidden 1 when something changes within the step and back,
- * as far as that lasts a fifth of it. */
-status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
+ * as far as that lasts a fifth of it. changes 1: its ends differ. */
+status continuation_critical_within(continuation *, path_goal, int changes, int *hidden, fault *);
 
 #endif

@@ -1,8 +1,10 @@
 /* One point of a continued path: Newton under a constraint, and the tangent there. */
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/algebra/arnoldi.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
 #include "harness/equations/advance.h"
@@ -132,6 +134,78 @@ status continuation_step_correct(continuation *p, path_goal goal, step_record *r
     return STATUS_OK;
 }
 
+/* Where a tangent is not symmetric it has no inertia: what counts instead are the eigenvalues next
+ * to zero of D^-1 K, D the metric, and which of them lie left of the imaginary axis.  That number
+ * changes where one passes zero, which is a critical point, and where a pair passes the axis beside
+ * zero, which is none; pairs that meet on the axis do not change it, nor does rounding that makes a
+ * pair of a double value.  A symmetric K has as many of them as negative pivots. */
+enum {
+    FEWEST = 6,
+    MOST = 48,
+    SPARE = 3
+}; /* eigenvalues that are looked at; beyond the last on the left */
+/* Of an eigenvalue beside those looked at: its sign may be. */
+static const double rounding = 1e-6;
+
+/* y = D^1/2 K^-1 D^1/2 x */
+static void apply(void *context, const double x[], double y[])
+{
+    const continuation *p = context;
+    for (int k = 0; k < p->n.free; k++)
+        y[k] = sqrt(p->weight[k]) * x[k];
+    factor_solve(p->n.factor, y);
+    for (int k = 0; k < p->n.free; k++)
+        y[k] *= sqrt(p->weight[k]);
+}
+
+/* How many lie on the left; 0 for *sure: others may, beyond those that were looked at. */
+static int left_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
+{
+    int left = 0;
+    for (int i = 0; i < r->count; i++)
+        left += creal(r->theta[i]) < 0;
+    const double least = cabs(r->theta[0]), last = cabs(r->theta[r->count - 1]);
+    const int parity = left % 2 == 0 ? 1 : -1;
+    *sure = (left <= wanted - SPARE || r->count < wanted) &&
+            (parity == determinant || last < rounding * least);
+    return left;
+}
+
+static void take(const arnoldi_result *r, path_point *out)
+{
+    out->nearest = r->count < PATH_NEAREST ? r->count : PATH_NEAREST;
+    for (int i = 0; i < out->nearest; i++)
+        out->mu[i] = 1 / r->theta[i];
+    out->least = creal(out->mu[0]);
+}
+
+static status index_of(continuation *p, path_point *out, fault *f)
+{
+    for (int wanted = FEWEST;; wanted *= 2) {
+        arnoldi_result r = {0};
+        const int n = p->n.free;
+        const arnoldi_problem of = {n, wanted < n ? wanted : n, apply, p};
+        fault why = {""};
+        int sure = 0;
+        const status outcome = arnoldi_solve(&of, &r, &why);
+        model_counters(p->c->model)->solutions += r.applied;
+        out->nearest = 0;
+        if (outcome == STATUS_OK && r.count > 0) {
+            out->negative = left_of(&r, of.wanted, out->determinant, &sure);
+            take(&r, out);
+        }
+        arnoldi_free(&r);
+        if (outcome == STATUS_FAULT)
+            return fault_set(f, outcome, "%s", why.text);
+        if (sure)
+            return STATUS_OK;
+        if (outcome != STATUS_OK || wanted >= n || wanted >= MOST) {
+            out->negative = -1;
+            return STATUS_OK;
+        }
+    }
+}
+
 /* The point from response = K^-1 f'. */
 static status point_of(continuation *p, const double along[], path_point *out,
                        const step_record *record, fault *f)
@@ -146,10 +220,12 @@ static status point_of(continuation *p, const double along[], path_point *out,
     out->factor = kinematics_state_path(p->n.state);
     out->control = control_value(p);
     out->negative = record->negative_pivots;
+    out->symmetric = out->negative >= 0;
     out->determinant = factor_count(p->n.factor).determinant;
     out->least = NAN;
+    out->nearest = 0;
     p->looked = 1;
-    return STATUS_OK;
+    return out->symmetric ? STATUS_OK : index_of(p, out, f);
 }
 
 status continuation_step_look(continuation *p, const double along[], path_point *out,

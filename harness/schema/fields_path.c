@@ -124,7 +124,8 @@ static void get_stability(const subject *s, field_value *out)
 {
     const step_record *step = s->record;
     if (step->stability == STEP_UNSTABLE)
-        snprintf(out->room, sizeof out->room, "unstable (%d)", step->negative_pivots);
+        snprintf(out->room, sizeof out->room, "unstable (%d)",
+                 step->by_eigenvalues ? step->passed : step->negative_pivots);
     else
         snprintf(out->room, sizeof out->room, "%s", result_stability_name(step->stability));
     out->text = out->room;
@@ -140,7 +141,9 @@ static const schema_field fields_of_step[] = {
     {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_step},
     {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
     {"stability", "", FIELD_TEXT,
-     "of the state where it ended: stable, unstable (negative pivots), undecided (not symmetric); "
+     "of the state where it ended: stable, unstable (negative pivots); where the tangent is not "
+     "symmetric unstable "
+     "(eigenvalues that have passed zero), no divergence (without mass), undecided; "
      "in axes that turn: stable, unstable: grows, stable without damping, undecided",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},

@@ -35,6 +35,16 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
+/* With a mass an odd number of eigenvalues beyond zero is a divergence, and what else there is
+ * frequencies tell. */
+static step_stability without_symmetry(const scene *s, const step_record *one)
+{
+    const int massive = scene_has_mass(s);
+    if (one->passed > 0 && (!massive || one->passed % 2 != 0))
+        return STEP_UNSTABLE;
+    return massive || one->passed < 0 ? STEP_OPEN : STEP_NO_DIVERGENCE;
+}
+
 void history_judge_steps(solve_result *r, const scene *s, int analysis, int first)
 {
     const scene_analysis *a = &s->analysis[analysis];
@@ -42,6 +52,8 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
         step_record *one = &r->step[i];
         one->analysis = analysis;
         one->stability = STEP_OPEN;
+        if (one->by_eigenvalues)
+            one->stability = without_symmetry(s, one);
         if (a->kind == SCENE_MOTION || one->negative_pivots < 0)
             continue;
         if (one->negative_pivots == 0)

@@ -115,7 +115,11 @@ typedef struct outcome_continuation {
     outcome_path path;
     int points;               /* of the path, the first without load */
     double *factor, *control; /* [points] load factor and control value [m] */
-    model_state **state;      /* [points] of nodes; NULL unless a curve of coordinates is wanted */
+    int undecided; /* 1: whether there are critical points between these load factors, and
+                      how many, could not be told: what is known are the events before */
+    int decided_events;
+    double undecided_from, undecided_to;
+    model_state **state; /* [points] of nodes; NULL unless a curve of coordinates is wanted */
 } outcome_continuation;
 
 typedef struct analysis_outcome {

@@ -17,7 +17,8 @@ int result_event_multiplicity(const path_event *e)
 
 const char *result_stability_name(step_stability which)
 {
-    static const char *const name[STEP_STABILITIES] = {"undecided", "stable", "unstable",
+    static const char *const name[STEP_STABILITIES] = {"undecided",       "no divergence",
+                                                       "stable",          "unstable",
                                                        "unstable: grows", "stable without damping"};
     return name[which];
 }

@@ -65,6 +65,7 @@ typedef struct iteration_record {
 /* Of a state under small disturbances that keep what is held and driven. */
 typedef enum step_stability {
     STEP_OPEN, /* not decided by the signs of pivots: no symmetric tangent, or axes that turn */
+    STEP_NO_DIVERGENCE, /* no symmetric tangent and no mass: no eigenvalue has passed zero */
     STEP_STABLE,
     STEP_UNSTABLE,
     STEP_GROWS, /* in axes that turn: a small motion grows, by an odd number of negative pivots (det
@@ -82,6 +83,9 @@ typedef struct step_record {
     double path, increment;
     int iterations, rejected,
         negative_pivots; /* rejected: tries of longer steps that failed before this one */
+    int by_eigenvalues;  /* 1: the tangent is not symmetric, and its eigenvalues were followed: ...
+                          */
+    int passed;          /* ... so many have passed zero */
     double residual, correction, incompatibility; /* of the last iteration */
     double remaining; /* what the next one would have changed, as the contraction so far predicts;
                          NAN: not known */

@@ -9,11 +9,12 @@ enum { MOST_RUNS = 6, WORDS = 400 };
 
 const char *table_stability_word(step_stability which)
 {
-    static const char *const word[STEP_STABILITIES] = {"?", "yes", "no", "no", "held"};
+    static const char *const word[STEP_STABILITIES] = {"?", "?", "yes", "no", "no", "held"};
     return word[which];
 }
 
 static const char *const words_of[] = {[STEP_OPEN] = "not decided by pivots",
+                                       [STEP_NO_DIVERGENCE] = "no divergence",
                                        [STEP_STABLE] = "stable",
                                        [STEP_UNSTABLE] = "unstable",
                                        [STEP_GROWS] = "unstable",

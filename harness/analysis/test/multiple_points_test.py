@@ -33,6 +33,25 @@ quantities:
   l_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: limit, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
+# Torque and thrust, both of fixed direction, on both ends of a pinned shaft.
+SHAFT = """beamwork: 1
+sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: %(It)r}, young: 1, shear_modulus: 1}}
+nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz]}, c: {at: [0.5, 0, 0], hold: [rx]},
+        b: {at: [1, 0, 0], hold: [uy, uz]}}
+members: {l: {from: a, to: c, section: s, y: [0, 1, 0]},
+          r: {from: c, to: b, section: s, y: [0, 1, 0]}}
+loads: {p: {force: [-1, 0, 0], on: b}, t: {moment: [%(m)r, 0, 0], on: b},
+        u: {moment: [-%(m)r, 0, 0], on: a}}
+analyses: {path: {continuation: {control: {node: b, component: ux}, by: coordinate, to: [-%(to)r],
+                                 step: %(step)r, step_max: %(step)r}}}
+quantities:
+  P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
+"""
+FOLLOWED = COLUMN.replace("{p: {force: [-1, 0, 0], on: b}%(more)s}",
+                          "{p: {force: [%(fixed)r, 0, 0], on: b}, "
+                          "f: {force: [%(eta)r, 0, 0], on: b, follower: true}}") \
+                 .replace("%(a)s", "all").replace("%(b)s", "")
 PINNED = {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz, rx]", "more": ""}
 CLAMPED = {"a": "all", "b": "", "more": ""}
 ZERO = ("", ", z: {moment: [0, 0, 0], on: b}", ", z: {force: [0, 0, 0], on: b, follower: true}",
@@ -85,18 +104,63 @@ class MultiplePoints(ProgramTest):
                 more = more.replace("on: b", "on: t")
                 self.near(self.points(n=4, scene=ARCH, step=step, more=more), fine, 1e-7, step)
 
+    def test_greenhill(self):
+        """A round shaft under thrust P and a torque m P of fixed direction: double points where
+        (m P/2)^2 + P = pi^2, which no determinant shows; one that is not quite round has two."""
+        for m in (1e-8, 0.1, 0.5, 2):
+            exact = PI2 if m < 1e-3 else 2 * (math.sqrt(1 + m ** 2 * PI2) - 1) / m ** 2
+            for twist in (1, 1e4):
+                for step in (2e-6, 1.5e-5):
+                    end = 0.5e-5 if m == 2 else 1.5e-5
+                    found = self.points(n=4, scene=SHAFT, Iy=1, It=twist, m=m, to=end, step=step)
+                    self.near(found, (exact, exact), 1e-4, m, twist, step)
+                    self.assertEqual(found[2:], [None, None])
+        for Iy in (1.02, 3):
+            fine = self.points(n=4, scene=SHAFT, Iy=Iy, It=1e4, m=0.5, to=1.5e-5, step=1e-6)
+            self.assertEqual(fine[2:], [None, None])
+            for step in (3e-6, 1.5e-5):
+                self.near(self.points(n=4, scene=SHAFT, Iy=Iy, It=1e4, m=0.5, to=1.5e-5, step=step),
+                          fine[:2], 1e-8, Iy, step)
+
+    def test_partly_following(self):
+        """Of a force on a free head the part eta follows: cos sqrt P = -eta/(1 - eta), where
+        stability is lost and regained; above one half nowhere."""
+        for eta in (0.2, 0.4, 0.49, 0.4999, 0.501, 1):
+            self.follow(eta, 1, (1e-6, 3e-6, 1e-5))
+        self.follow(0.4, 3, (1e-6, 3e-6, 1e-5, 3e-5))
+
+    def follow(self, eta, Iy, steps):
+        exact = [math.acos(-eta / (1 - eta)) if eta < 0.5 else None]
+        exact = [exact[0] ** 2, (2 * math.pi - exact[0]) ** 2] if eta < 0.5 else []
+        exact = sorted(exact * 2 if Iy == 1 else exact + [exact[0] * Iy])
+        for step in steps:
+            found = self.points(n=16, scene=FOLLOWED, Iy=Iy, fixed=-(1 - eta), eta=-eta, to=2e-5,
+                                step=step)
+            self.near(found, exact, 2e-4, eta, Iy, step)
+            self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
+
+    def test_words_without_symmetry(self):
+        """No mass: no divergence up to the first point; with one frequencies would tell."""
+        for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
+                              (1e-9, ["undecided"] * 6)):
+            path = self.folder / "scene.yaml"
+            path.write_text((FOLLOWED % {"Iy": 1, "fixed": -0.8, "eta": -0.2, "to": 6e-6,
+                                         "step": 1e-6})
+                            .replace("young: 1,", "young: 1, density: %r," % density))
+            done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
+            self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
+
     def test_what_is_undecided_is_said(self):
-        """Greenhill's round shaft under thrust and torque: double points, which no determinant
-        shows."""
+        """One half follows: an eigenvalue touches zero at pi^2."""
         path = self.folder / "scene.yaml"
-        path.write_text(COLUMN % {**PINNED, "Iy": 1, "step": 1.5e-5, "to": 1.5e-5,
-                                  "more": ", t: {moment: [0.5, 0, 0], on: b, factor: [1, 1], "
-                                          "path: [0, 1]}"})
-        done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
-        for q in json.loads(done.stdout).get("quantities", []):
-            self.assertTrue("value" not in q or q["value"] is None or q["value"] < 9.87, q)
-            if q.get("value") is None:
-                self.assertIn("undecided", q["reason"])
+        for step in (2e-6, 1.2e-5):
+            path.write_text(FOLLOWED % {"Iy": 3, "fixed": -0.5, "eta": -0.5, "to": 1.2e-5,
+                                        "step": step})
+            done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
+            self.assertEqual(done.returncode, 1, done.stdout)
+            for q in json.loads(done.stdout)["quantities"]:
+                self.assertIsNone(q.get("value"))
+                self.assertRegex(q["reason"], "undecided: between load factors 9.8[67][0-9]* and 9.8[67]")
 
     def test_stability_of_steps(self):
         path = self.folder / "scene.yaml"
