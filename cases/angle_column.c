@@ -86,6 +86,6 @@ const case_type case_angle_column = {
                "and end moments",
     .source = "code_aster V3.01.103 (SSLL103); closed form of the thin-walled column, one "
               "half-wave at a time",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -96,6 +96,6 @@ const case_type case_c_cantilever = {
     .name = "c_cantilever",
     .summary = "C-shaped cantilever under an eccentric tip force, far beyond lateral buckling",
     .source = "J section 5.2, Figs. 11-13",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -67,6 +67,6 @@ const case_type case_carried_rod = {
     .name = "carried_rod",
     .summary = "bent and twisted rod carried around by whole turns",
     .source = "exact: a helix of constant moment, and rigid motion",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -21,9 +21,13 @@ typedef struct case_type {
     const char *file; /* of a scene file; NULL: built in */
 } case_type;
 
-static inline status case_build(const case_type *c, const double value[], scene *s, fault *f)
-{
-    return c->build_from != NULL ? c->build_from(c->context, value, s, f) : c->build(value, s, f);
-}
+/* Last part of the parameters of every built-in case: does it leave out what its source does, or
+ * nothing? */
+extern const parameter_type case_omit[];
+/* Nothing, although the source may leave something out: what is known of the case is of another
+ * model. */
+int case_omits_nothing(const case_type *, const double value[]);
+
+status case_build(const case_type *, const double value[], scene *s, fault *f);
 
 #endif

@@ -134,6 +134,6 @@ const case_type case_cross_flexure = {
     .name = "cross_flexure",
     .summary = "cross-flexure hinge: moment, shift and support stiffness of the turned arm",
     .source = "geometrically exact beams between rigid bodies (reference/derive/network.py)",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -62,6 +62,6 @@ const case_type case_hexapod = {
     .name = "hexapod",
     .summary = "flexure hexapod of twelve spherical joints: support stiffness along its stroke",
     .source = "N section 4.3, Fig. 10; synthetic sizes",
-    .parameters = {joint_parameters, hexapod_parameters, parameters},
+    .parameters = {joint_parameters, hexapod_parameters, parameters, case_omit},
     .build = build,
 };

@@ -73,6 +73,6 @@ const case_type case_lateral_buckling = {
     .summary = "lateral-torsional buckling of cantilevers and simply supported beams",
     .source =
         "Timoshenko and Gere, Theory of Elastic Stability; boundary-value problem of thin beams",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

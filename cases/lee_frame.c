@@ -90,6 +90,6 @@ const case_type case_lee_frame = {
     .summary = "frame of Lee: snap-through and snap-back between two limit points",
     .source = "Lee, Manuel and Rossow, J. Eng. Mech. Div. ASCE 94 (1968); exact limit points "
               "(reference/derive/lee_frame.py)",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -55,6 +55,6 @@ const case_type case_loaded_cantilever = {
     .name = "loaded_cantilever",
     .summary = "cantilever under dead and following loads, at its tip and along it",
     .source = "equations of the elastica, integrated from the tip",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -39,6 +39,6 @@ const case_type case_moment_buckling = {
     .summary =
         "C-shaped beam with fork ends under uniform end moment: buckling moments of both signs",
     .source = "J section 5.1 (section and length); closed form of the monosymmetric beam",
-    .parameters = {column_parameters, column_rigid, column_stability, parameters},
+    .parameters = {column_parameters, column_rigid, column_stability, parameters, case_omit},
     .build = build,
 };

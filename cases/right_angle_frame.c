@@ -66,6 +66,6 @@ const case_type case_right_angle_frame = {
     .name = "right_angle_frame",
     .summary = "hinged right-angle frame under end moments: lateral buckling",
     .source = "Argyris et al., Comput. Meth. Appl. Mech. Eng. 17/18 (1979)",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

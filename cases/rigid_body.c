@@ -49,6 +49,6 @@ const case_type case_rigid_body = {
     .name = "rigid_body",
     .summary = "a rigid body with three moments of inertia tumbles free of forces",
     .source = "elliptic functions (reference/derive/rigid_body.py)",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -30,6 +30,6 @@ const case_type case_roll_up = {
     .name = "roll_up",
     .summary = "cantilever rolled into a circle by an end moment",
     .source = "exact: a circle",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

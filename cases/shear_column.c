@@ -41,6 +41,6 @@ const case_type case_shear_column = {
     .name = "shear_column",
     .summary = "pinned column, flexible in shear: Engesser against Haringx",
     .source = "closed forms of Engesser and Haringx",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -29,6 +29,6 @@ const case_type case_shear_elastica = {
     .name = "shear_elastica",
     .summary = "cantilever flexible in shear under a transverse tip force",
     .source = "quadrature of the Simo-Reissner beam",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

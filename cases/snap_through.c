@@ -75,6 +75,6 @@ const case_type case_snap_through = {
     .name = "snap_through",
     .summary = "shallow frame of two hinged bars: snap-through with two limit points",
     .source = "closed form of the frame of von Mises",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

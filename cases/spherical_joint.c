@@ -78,6 +78,6 @@ const case_type case_spherical_joint = {
     .summary = "spherical flexure joint of six folded sheets: support stiffness around one turn of "
                "its tilt axis",
     .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
-    .parameters = {joint_parameters, parameters},
+    .parameters = {joint_parameters, parameters, case_omit},
     .build = build,
 };

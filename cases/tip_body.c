@@ -47,6 +47,6 @@ const case_type case_tip_body = {
     .name = "tip_body",
     .summary = "cantilever with a rigid body at its end, at rest and turning steadily: frequencies",
     .source = "exact frequencies of the beam with such an end (reference/derive/tip_body.py)",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -44,6 +44,6 @@ const case_type case_wagner_torsion = {
     .name = "wagner_torsion",
     .summary = "twisted strip, free to shorten: Wagner torque",
     .source = "exact solution of uniform torsion with the Wagner torque",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

@@ -47,6 +47,6 @@ const case_type case_warping_torsion = {
     .name = "warping_torsion",
     .summary = "cantilever in non-uniform torsion, shear-rigid",
     .source = "Vlasov torsion, closed form",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

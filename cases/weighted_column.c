@@ -49,6 +49,6 @@ const case_type case_weighted_column = {
     .summary = "buckling under weight and a load on the head, of which one stays",
     .source = "Timoshenko and Gere, Theory of Elastic Stability: a bar under its own weight and an "
               "end load",
-    .parameters = {parameters},
+    .parameters = {parameters, case_omit},
     .build = build,
 };

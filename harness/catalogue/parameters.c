@@ -38,7 +38,7 @@ status parameters_parse(const case_type *c, const char *text, double value[], in
     parameters_default(c, value);
     if (any != NULL)
         for (int i = 0; i < n; i++)
-            any[i] = all;
+            any[i] = all && parameter_at(c->parameters, i) != case_omit;
     return all ? STATUS_OK : assignment_parse(&list, text, value, any, f);
 }
 
@@ -78,6 +78,8 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     const parameter_type *p;
     int i = 0;
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
+        if (p == case_omit && !case_omits_nothing(c, value))
+            break; /* the last one: points have the names that they had before there was it */
         write_word(p, i, value[i], any != NULL && any[i], before);
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;

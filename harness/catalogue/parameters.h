@@ -15,7 +15,7 @@ void parameters_default(const case_type *c, double value[]);
 /* "NAME=VALUE" (harness/catalogue/assignment.h). */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
 /* "NAME=VALUE;NAME=VALUE": values other than the default; a value "*" is skipped and marked in
- * any[] (may be NULL); "*" alone: any of all. */
+ * any[] (may be NULL); "*" alone: any of all, of the physics of the source. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
 /* The same, written: empty for the defaults. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);

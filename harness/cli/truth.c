@@ -56,6 +56,12 @@ static status print_derived(const case_type *type, const double parameter[], fau
     char script[PATH_MAX], text[PARAMETERS_TEXT];
     derived_value *value;
     int count;
+    if (case_omits_nothing(type, parameter))
+        return fault_set(f, STATUS_REFUSED,
+                         "nothing is stored of %s with omit=none, and the program of the case "
+                         "derives it as its source has it; write it as a scene, 'beamwork scene %s "
+                         "--set omit=none', and derive that with --scene",
+                         type->name, type->name);
     TRY(derive_script("at.py", script, f));
     parameters_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);

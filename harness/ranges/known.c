@@ -94,6 +94,8 @@ static status derive(const ranges *r, const point *p, known *out, fault *f)
     derived_value *value = NULL;
     int count = 0;
     fault why;
+    if (case_omits_nothing(p->type, p->parameter))
+        return STATUS_OK; /* derived is what the source has */
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)

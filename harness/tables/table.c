@@ -1,10 +1,13 @@
 #include "harness/tables/table.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "cases/scene/omission.h"
+#include "harness/catalogue/parameters.h"
 #include "harness/judge/rounding.h"
 #include "harness/model/features.h"
+#include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 2 };
@@ -47,12 +50,35 @@ void table_point(FILE *to, const point *p)
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
 }
 
-void table_omitted(FILE *to, const scene *s)
+/* What the source of a case leaves out, where the case was asked for whole. */
+static unsigned omitted_by_source(const point *p)
 {
+    double value[CASE_MAX_PARAMETERS];
+    scene s = {0};
+    unsigned omitted = 0;
+    memcpy(value, p->parameter, sizeof value);
+    value[parameters_count(p->type) - 1] = 0;
+    if (cell_scene(p->type, value, NULL, &s, NULL) == STATUS_OK)
+        omitted = features_omitted(&s);
+    scene_free(&s);
+    return omitted;
+}
+
+void table_omitted(FILE *to, const point *p)
+{
+    const int whole = case_omits_nothing(p->type, p->parameter);
     char words[SCENE_OMISSION_WORDS];
-    scene_omission_words(features_omitted(s), words);
-    if (words[0] != '\0')
+    scene_omission_words(whole ? omitted_by_source(p) : features_omitted(&p->scene), words);
+    if (words[0] != '\0' && !whole)
         paragraph_write(to, fprintf(to, "omitted: "), INDENT, words);
+    if (whole && words[0] == '\0')
+        paragraph_say(to, fprintf(to, "omitted: "), INDENT,
+                      "nothing, as without omit=none, which shows the values that are stored");
+    else if (whole)
+        paragraph_say(to, fprintf(to, "omitted: "), INDENT,
+                      "nothing, where the source of the case leaves out %s: values that are stored "
+                      "of it are of another model, and not shown",
+                      words);
 }
 
 void table_theory(FILE *to, const scene *s, const element_type *type)

@@ -20,7 +20,7 @@ void table_point(FILE *to, const point *p);
 /* A line on the physics that the scene leaves out, and one on the theory of shear that the
  * formulation follows where there are both shear and stability; none where there is nothing to say.
  */
-void table_omitted(FILE *to, const scene *s);
+void table_omitted(FILE *to, const point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);
 void table_series(FILE *to, const sweep *s, int index);
 

@@ -268,7 +268,7 @@ void table_beside(FILE *to, const sweep *s, const truths *t)
 {
     table_point(to, &s->point[0]);
     fputc('\n', to);
-    table_omitted(to, &s->point[0].scene);
+    table_omitted(to, &s->point[0]);
     for (int q = 0; q < s->point[0].scene.quantities; q++)
         if (s->point[0].scene.quantity[q].reduction != SCENE_CURVE)
             write_quantity(to, s, t, q);

@@ -79,7 +79,7 @@ static void quantity_block(FILE *to, const sweep *s, const truths *t, int index,
 void table_convergence(FILE *to, const sweep *s, const truths *t)
 {
     for (int i = 0; i < s->points; i++)
-        table_omitted(to, &s->point[i].scene);
+        table_omitted(to, &s->point[i]);
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         const scene *wanted = &s->point[one->point].scene;

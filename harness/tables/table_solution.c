@@ -114,7 +114,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     warping_ends(&p->scene, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "warping: "), INDENT, ends);
-    table_omitted(to, &p->scene);
+    table_omitted(to, p);
     table_theory(to, &p->scene, one->formulation.type);
     table_path_events(to, &c->solve);
     fprintf(to, "%-*s %*s %-*s %11s\n", NAME, "quantity", VALUE, "value", UNIT, "unit", "error");

@@ -215,7 +215,7 @@ static void print_point(block *b, const judgement *j, int index)
     fputc('\n', b->to);
     table_point(b->to, b->at);
     fputc('\n', b->to);
-    table_omitted(b->to, &b->at->scene);
+    table_omitted(b->to, b->at);
     b->name = b->name > 11 ? b->name : 11; /* of the heading */
     print_columns(b);
     for (int q = 0; q < b->at->scene.quantities; q++)

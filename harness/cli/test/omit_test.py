@@ -1,0 +1,66 @@
+"""The parameter `omit` of built-in cases: their sources leave physics out, omit=none has all of it, and what is stored
+of a case does not speak of that."""
+import re
+
+from harness.scene_file.test.scene_case import SceneCase, values
+
+WHOLE = ("--set", "omit=none")
+
+
+class OmitTest(SceneCase):
+
+    def cases(self):
+        return [c["case"] for c in self.record("list")["cases"]]
+
+    def test_every_case_has_all_physics(self):
+        """It runs, leaves nothing out, and is held against nothing."""
+        changed = 0
+        for case in self.cases():
+            solved = self.record("solve", case, *WHOLE)
+            self.assertEqual((solved["cell"]["status"], solved["omitted"]), ("ok", []), case)
+            self.assertEqual(solved["parameters"]["omit"], "none", case)
+            self.assertEqual([q["quantity"] for q in solved["quantities"] if q.get("truth") is not None], [], case)
+        for case in ("angle_column", "elastica", "elbow", "hexapod", "moment_buckling", "sheet_wagner"):
+            said = " ".join(self.answered("solve", case, *WHOLE).stdout.split())
+            left_out = re.search("omitted: nothing, where the source of the case leaves out ([a-z_, ]*): values", said)
+            text = " ".join(self.answered("solve", case).stdout.split())
+            self.assertEqual("omitted: " in text, left_out is not None, case)
+            if left_out:
+                self.assertIn("omitted: " + left_out[1], text)
+                changed += 1
+            else:
+                self.assertIn("omitted: nothing, as without omit=none", said)
+        self.assertEqual(changed, 3)
+
+    def test_as_the_scene(self):
+        """The same as its scene with its `omit` deleted, to 1e-12."""
+        for case, point in (("c_column", ()), ("moment_buckling", ("--set", "length=4")), ("c_cantilever", ()),
+                            ("elastica", ("--set", "load=3"))):
+            where = ("-f", "geometrically_exact", "-n", 4)
+            mine = values(self.record("solve", case, *where, *point, *WHOLE))
+            text = self.answered("scene", case, *point).stdout
+            bare = re.sub(r"(?m)^omit:.*\n", "", text)
+            self.assertNotEqual(bare, text, case)
+            own = values(self.record("solve", "--scene", self.scene(bare), *where))
+            self.assertEqual(set(mine), set(own))
+            for name, value in mine.items():
+                if isinstance(value, float):
+                    self.assertLessEqual(abs(own[name] - value), 1e-12 * abs(value), (case, name))
+            self.assertNotRegex(self.answered("scene", case, *WHOLE).stdout, "(?m)^omit:")
+
+    def test_more_than_single_switches(self):
+        """With it a case has shear, whatever its own switch says."""
+        solved = [values(self.record("solve", "moment_buckling", "-n", 4, "-f", "geometrically_exact", *more))
+                  for more in ((), ("--set", "shear=1"), WHOLE, (*WHOLE, "--set", "shear=1"))]
+        self.assertEqual(solved[2], solved[3])
+        self.assertEqual(solved[2], solved[1])
+        self.assertNotEqual(solved[2], solved[0])
+
+    def test_no_truth(self):
+        """None is stored, none is derived, no verdict is passed; the way to one is told."""
+        self.refused(1, "beamwork scene c_column --set omit=none", "truth", "c_column", *WHOLE, silent=False)
+        self.assertIn("buckling_load", self.answered("truth", "c_column", "--set", "omit=source").stdout)
+        judged = self.record("converge", "elastica", "-f", "geometrically_exact", *WHOLE)
+        text = str(judged["series"])
+        self.assertNotIn("'pass'", text)
+        self.assertIn("'pass'", str(self.record("converge", "elastica", "-f", "geometrically_exact")["series"]))
