@@ -138,6 +138,34 @@ unsigned features_omitted(const scene *s)
     return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
 }
 
+unsigned features_not_given(const scene *s, int section_index)
+{
+    const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE,
+                   needs = needs_of_analyses(s);
+    section c;
+    unsigned out = FEATURE_WARPING;
+    if (!is_used(s, section_index) || scene_constants(s, section_index, &c, NULL) != STATUS_OK)
+        return 0;
+    if (c.matrices) {
+        out |= higher;
+    } else if (s->section[section_index].kind == SECTION_CONSTANTS) {
+        const unsigned has = needs_of_constants(&c, ~0U);
+        const int symmetric = !features_eccentric(&c);
+        out = (FEATURE_SHEAR | FEATURE_WARPING | FEATURE_WAGNER_TORQUE |
+               (symmetric ? 0 : FEATURE_WAGNER_MOMENTS)) &
+              ~has;
+    } else {
+        return 0;
+    }
+    if (!(needs & (FEATURE_GEOMETRIC | FEATURE_LARGE)))
+        out &= ~higher;
+    if (!(needs & FEATURE_LARGE))
+        out &= ~(unsigned)FEATURE_WAGNER_TORQUE;
+    if (s->plane != SCENE_SPACE)
+        out &= FEATURE_SHEAR; /* nothing twists */
+    return out & ~s->omits;
+}
+
 int features_sheared(const scene *s)
 {
     return is_sheared(features_needed(s));

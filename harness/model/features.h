@@ -11,6 +11,10 @@ unsigned features_needed(const scene *);
 unsigned features_of_quantities(const scene *);
 /* Of the physics that it would call for, what the scene leaves out. */
 unsigned features_omitted(const scene *);
+/* Of the physics that it does not leave out, what a section that is given by its numbers has
+ * nothing of, and what counts where there are the analyses of the scene: zero, as far as the
+ * numbers say. */
+unsigned features_not_given(const scene *, int section);
 /* The same with the theory of shear in stability that the type has instead of the one the scene
  * asks for: FEATURE_* bits. */
 unsigned features_needed_of(const scene *, const element_type *);

@@ -56,6 +56,47 @@ class OmitTest(SceneCase):
         self.assertEqual(solved[2], solved[1])
         self.assertNotEqual(solved[2], solved[0])
 
+    def test_numbers_that_are_not_given(self):
+        """A section by its numbers has nothing of what they do not say, which is told unless it cannot count, is left
+        out, or is known from the shape."""
+        constants = "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10"
+        full = ", F: [1200, 0, 0, 0, 1200, 0, 0, 0, 0], Iw: 1e-10"
+        diagonal = "stiffness: [2e8, 1e8, 1e8, 1e3, 4e5, 2e5], mass: [8, 8, 8, 1e-3, 1e-3, 1e-3]"
+        shapes = "rectangle: {width: 0.1, thickness: 0.01}, young: 2e11, shear_modulus: 8e10"
+        for section, analysis, more, told in (
+            (constants % "", "linear: {}", "", "shear, warping"),
+            (constants % "", "static: {stations: [1]}", "", "shear, wagner_torque, warping"),
+            (constants % "", "static: {stations: [1]}", "omit: [shear, wagner_torque]\n", "warping"),
+            (constants % "", "static: {stations: [1]}", "plane: xy\n", "shear"),
+            (constants % "", "static: {stations: [1]}", "omit: all\n", None),
+            (constants % (full + ", ys: 0.01"), "static: {stations: [1]}", "", "wagner_moments, wagner_torque"),
+            (constants % (full + ", ys: 0.01, wagner_y: 1e-8, wagner_torque: 1e-11"), "static: {stations: [1]}", "",
+             None),
+            (constants % full, "linear: {}", "", None),
+            (diagonal, "linear: {}", "", "warping"),
+            (diagonal, "static: {stations: [1]}", "", "trapeze, wagner_moments, wagner_torque, warping"),
+            (shapes, "static: {stations: [1]}", "", None)):
+            scene = self.scene(f"""\
+beamwork: 1
+sections:
+  bar: {{{section}}}
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [1, 0, 0]}}
+members:
+  bar: {{from: a, to: b, section: bar, y: [0, 1, 0]}}
+loads:
+  push: {{force: [0, 10, 0], on: b}}
+analyses:
+  st: {{{analysis}}}
+quantities:
+  u: {{displacement: {{analysis: st, node: b, component: uy}}, unit: m}}
+{more}""")
+            for verb in (("solve", ), ("converge", "-f", "collocation", "-n", 2)):
+                said = " ".join(self.answered(verb[0], "--scene", scene, *verb[1:]).stdout.split())
+                found = re.findall("not known: ([a-z_, ]*) of section bar, whose numbers", said)
+                self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
+
     def test_no_truth(self):
         """None is stored, none is derived, no verdict is passed; the way to one is told."""
         self.refused(1, "beamwork scene c_column --set omit=none", "truth", "c_column", *WHOLE, silent=False)
