@@ -101,7 +101,7 @@ static int has_drive(const scene *s, char *who, int size)
 
 static const char *const no_potential = "has no potential: the tangent is not symmetric and "
                                         "stability may be lost by flutter; ask for "
-                                        "a static path, a continuation or a motion",
+                                        "it about a static path, or for a motion",
                          *const no_drive =
                              "is moved, and a continuation changes loads only; take it away, or "
                              "ask for a static path";
@@ -110,13 +110,13 @@ static const char *const no_potential = "has no potential: the tangent is not sy
  * analysis and a path, compliance and about a path, rotation, motion. */
 const scene_input scene_inputs[] = {
     {"force", "uuuuu-uu-uuu", NULL, has_force},
-    {"force that follows", "uusxs-xs-usu", no_potential, has_following_force},
-    {"force beside its node", "uuuss-ss-uuu", NULL, has_force_beside},
-    {"moment", "uusss-ss-usu", NULL, has_moment},
-    {"moment that follows", "uusxs-xs-usu", no_potential, has_following_moment},
+    {"force that follows", "uusxu-xu-usu", no_potential, has_following_force},
+    {"force beside its node", "uuusu-su-uuu", NULL, has_force_beside},
+    {"moment", "uussu-su-usu", NULL, has_moment},
+    {"moment that follows", "uusxu-xu-usu", no_potential, has_following_moment},
     {"load along a member", "uuuuu-uu-uuu", NULL, has_line},
-    {"load along a member that follows", "uusxs-xs-usu", no_potential, has_following_line},
-    {"moments along a member", "uusxs-xs-usu", no_potential, has_line_of_moments},
+    {"load along a member that follows", "uusxu-xu-usu", no_potential, has_following_line},
+    {"moments along a member", "uusxu-xu-usu", no_potential, has_line_of_moments},
     {"gravity on members", "uuuuu-uu-uuu", NULL, has_gravity},
     {"weight of a body", "uuuuu-uu-uuu", NULL, has_weight},
     {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},

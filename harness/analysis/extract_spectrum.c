@@ -70,6 +70,10 @@ void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
     const outcome_side *side = &outcome_spectrum_of(o)->positive;
     fault f = {"out of memory for a mode"};
     int found = -1;
+    if (q->what.kind == SCENE_GROWTH) {
+        r->value = quantity_scaled(q, outcome_spectrum_of(o)->growth);
+        return;
+    }
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
     const status known =
         x != NULL ? find_mode(c, scene_mode_of(q), side, x, &found, &f) : STATUS_FAULT;

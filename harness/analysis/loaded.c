@@ -9,10 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/pi.h"
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
 #include "harness/equations/rotating_frame.h"
+#include "harness/flutter/flutter.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
@@ -44,7 +46,7 @@ static status followed_state(const analysis_context *c, int analysis, const mode
     return STATUS_OK;
 }
 
-/* Newton at the followed state: its K in n->K, factored. */
+/* Newton at the followed state: its K in n->K, factored, which need not be symmetric. */
 static status start(analysis_context *c, int analysis, const char *what, newton *n, fault *f)
 {
     const model_state *state = NULL;
@@ -57,16 +59,53 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
                          what);
     TRY(followed_state(c, analysis, &state, f));
     kinematics_state_copy(c->model, state, n->state);
-    TRY(newton_direction(n, kinematics_state_path(n->state), &unused, f));
-    return context_symmetric(n->factor, what, f);
+    return newton_direction(n, kinematics_state_path(n->state), &unused, f);
+}
+
+static int asks_for_growth(const analysis_context *c, int analysis)
+{
+    for (int i = 0; i < c->scene->quantities; i++)
+        if (scene_asks(&c->scene->quantity[i], analysis, SCENE_GROWTH))
+            return 1;
+    return 0;
+}
+
+/* Without a symmetric, definite tangent: motions that may grow. */
+static status unsymmetric_frequencies(analysis_context *c, int analysis, newton *n,
+                                      outcome_spectrum *out, fault *f)
+{
+    flutter_system of;
+    unsymmetric_result r = {0};
+    int mode = 0;
+    status outcome = flutter_system_alloc(n, &of, f);
+    if (outcome == STATUS_OK && of.massless)
+        outcome = fault_set(f, STATUS_REFUSED, "nothing has a mass: there are no frequencies");
+    if (outcome == STATUS_OK)
+        outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
+    const flutter_kind kind = outcome == STATUS_OK ? flutter_of(&of, &r, &mode) : FLUTTER_NONE;
+    if (kind != FLUTTER_NONE) {
+        out->growth = r.growth[mode];
+        if (c->result->reason[0] == '\0')
+            snprintf(c->result->reason, sizeof c->result->reason,
+                     "unstable at path %g: %s, grows with %.4g 1/s",
+                     kinematics_state_path(n->state), flutter_name(&of, kind), r.growth[mode]);
+    }
+    if (outcome == STATUS_OK)
+        flutter_take(&r, &out->positive);
+    flutter_system_free(&of);
+    unsymmetric_free(&r);
+    return outcome;
 }
 
 /* With what loaded_modal frees. */
 static status frequencies(analysis_context *c, int analysis, newton *n, sparse *M, eigen_result *e,
-                          fault *f)
+                          outcome_spectrum *out, fault *f)
 {
     const sparse *pattern;
     TRY(start(c, analysis, "frequencies", n, f));
+    const int negative = factor_count(n->factor).negative_pivots;
+    if (negative < 0 || (negative > 0 && asks_for_growth(c, analysis)))
+        return unsymmetric_frequencies(c, analysis, n, out, f);
     TRY(assemble_pattern(c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, M, f));
     TRY(rotating_frame_inertia(c->model, n->state, 0, M, NULL, f));
@@ -86,12 +125,13 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     newton n;
     sparse M = {0};
     eigen_result e = {0};
-    const status result = frequencies(c, analysis, &n, &M, &e, f);
+    const status result = frequencies(c, analysis, &n, &M, &e, &o->left.spectrum, f);
     for (int i = 0; i < e.positive.count; i++) {
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
         e.positive.error[i] /= 2; /* the root's */
     }
-    outcome_take(&e.positive, &o->left.spectrum.positive);
+    if (e.positive.mu != NULL)
+        outcome_take(&e.positive, &o->left.spectrum.positive);
     eigen_free(&e);
     sparse_free_values(&M);
     newton_free(&n);
@@ -146,11 +186,12 @@ static int loads_wanted(const analysis_context *c, int analysis)
 
 static status search_alloc(analysis_context *c, int analysis, search *s, fault *f)
 {
-    TRY(start(c, analysis, "critical loads", &s->n, f));
     s->wanted = loads_wanted(c, analysis);
     s->size = fabs(kinematics_state_path(s->n.state));
     if (s->size == 0)
         s->size = 1;
+    if (!factor_is_symmetric(s->n.factor))
+        return STATUS_OK;
     if (factor_count(s->n.factor).negative_pivots > 0)
         TRY(begin_at_rest(&s->n, f));
     TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
@@ -406,10 +447,40 @@ static status hand_over(search *s, outcome_side *out, fault *f)
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
+/* Where the loads have no potential: the first load, and what it is. */
+static status find_without_potential(analysis_context *c, search *s, outcome_side *out, fault *f)
+{
+    flutter_point first;
+    char how[64] = "";
+    TRY(flutter_search(&s->n, s->size, static_walk, &first, f));
+    double *value = calloc(1, sizeof *value), *error = calloc(1, sizeof *error);
+    if (value == NULL || error == NULL) {
+        free(value);
+        free(error);
+        free(first.mode);
+        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+    }
+    value[0] = first.path;
+    error[0] = first.error;
+    *out = (outcome_side){.count = 1, .value = value, .mode = first.mode, .error = error};
+    snprintf(out->reason, sizeof out->reason,
+             "of loads without a potential the first critical load alone is looked for");
+    if (first.frequency > 0)
+        snprintf(how, sizeof how, " at %.6g Hz", first.frequency / (2 * PI));
+    if (c->result->reason[0] == '\0')
+        snprintf(c->result->reason, sizeof c->result->reason,
+                 "stability is lost at path %.6g: %s%s%s", first.path, first.what, how,
+                 first.massless ? "; nothing has a mass, so that flutter was not looked for" : "");
+    return STATUS_OK;
+}
+
 /* With what loaded_buckling frees. */
 static status run(analysis_context *c, int analysis, search *s, outcome_side *out, fault *f)
 {
+    TRY(start(c, analysis, "critical loads", &s->n, f));
     TRY(search_alloc(c, analysis, s, f));
+    if (!factor_is_symmetric(s->n.factor))
+        return find_without_potential(c, s, out, f);
     TRY(find_critical(s, f));
     return hand_over(s, out, f);
 }

@@ -58,6 +58,36 @@ void damping_follow(model *m, double g, const double known[], const double from[
     m->damping->from = from;
 }
 
+status damping_matrix(model *m, const model_state *s, sparse *C, fault *f)
+{
+    enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
+    const mesh_pattern *p = assemble_of(m, C);
+    mesh_damping *const before = m->damping;
+    mesh_damping d;
+    sparse_zero(C);
+    m->damping = NULL;
+    const status begun = damping_begin(m, &d, f);
+    for (int i = 0; begun == STATUS_OK && m->damping != NULL && i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        const double eta = m->scene->member[el->member].damping;
+        const size_t n = (size_t)m->strains;
+        node_state x[ELEMENT_MAX_NODES];
+        double J[E * ELEMENT_MAX_COORDINATES], S[E * E], A[X * X] = {0}, work[E * X];
+        if (eta == 0)
+            continue;
+        kinematics_gather(m, s, el, x);
+        m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+        for (size_t k = 0; k < n * n; k++)
+            S[k] = eta * d.stiffness[(size_t)el->kind * n * n + k];
+        dense_add_congruence(m->strains, m->coordinates, J, S, A, work);
+        eliminate_matrix(m, s, el, NULL, A);
+        assemble_matrix(p, i, A, C);
+    }
+    damping_end(m, &d);
+    m->damping = before;
+    return begun;
+}
+
 /* Increments that the rates would be of an instant: those of rotations in fixed axes. */
 static void in_space(const model *m, const model_state *s, const double v[], double out[])
 {

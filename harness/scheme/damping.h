@@ -13,6 +13,9 @@ int damping_acts(const scene *);
 status damping_begin(model *, mesh_damping *, fault *);
 void damping_end(model *, mesh_damping *);
 
+/* C of small motions about a state, on a pattern of assemble.h. */
+status damping_matrix(model *, const model_state *, sparse *C, fault *);
+
 /* Rates of the strains now: known + g (e - from); all [elements x strains]. */
 void damping_follow(model *, double g, const double known[], const double from[]);
 /* e' = J x' at rates v[free + driven] -> rate[elements x strains]. */

@@ -28,6 +28,7 @@ void outcome_modes_free(rotation_modes *);
 /* Buckling, modal; what was found stays where the analysis failed. */
 typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are positive */
+    double growth;    /* [1/s] of modes about a state without potential, the largest; 0: stable */
     double *strained; /* [free + driven] displacements by initial strains alone, about which modes
                          of the structure without loads are; NULL: there are none */
 } outcome_spectrum;

@@ -64,7 +64,7 @@ static void add(scene *s, const char *name)
     else if (IS("load along a member that follows"))
         follow(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
     else if (IS("moments along a member"))
-        scene_add_load(s, SCENE_DISTRIBUTED_MOMENT, 1, 20, 30, 40);
+        scene_add_load(s, SCENE_DISTRIBUTED_MOMENT, 1, 60, 90, 120);
     else if (IS("gravity on members"))
         scene_add_load(s, SCENE_GRAVITY, 1, -30, -9.81, 20);
     else if (IS("weight of a body")) {

@@ -1,0 +1,276 @@
+#include "harness/flutter/arnoldi.h"
+
+#include <float.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+
+enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
+
+/* Of a residual: in parts of the value itself, and of the largest one, whose rounding is in all. */
+static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
+                    bearable_residual = 1e-5;
+/* Values are the same up to this part of them. */
+static const double same = 1e-6;
+/* What is left of a vector that the basis has already. */
+static const double nothing = 1e-14;
+
+typedef struct solver {
+    const arnoldi_problem *p;
+    arnoldi_result *out;
+    int room, count, chain; /* vectors; the last one is of the present start when chain is 1 */
+    double *Q, *TQ, *H;     /* [room x n], [room x n], [room x room] Q^T T Q */
+    double *work, *A, *z, *re, *im;
+    int *order;
+    unsigned long long seed;
+    int found;         /* of the Ritz values in order[] those that are no rounding */
+    double *last;      /* [wanted] sizes when they had converged the last time */
+    double complex *x; /* [n] */
+} solver;
+
+void arnoldi_free(arnoldi_result *r)
+{
+    free(r->theta);
+    free(r->mode);
+    free(r->residual);
+    memset(r, 0, sizeof *r);
+}
+
+static void fill_start(solver *s, double x[])
+{
+    for (int i = 0; i < s->p->n; i++) {
+        s->seed = s->seed * 6364136223846793005ull + 1442695040888963407ull;
+        x[i] = (double)(s->seed >> 11) / 9007199254740992.0 - 0.5;
+    }
+}
+
+/* x less its part in the basis; the length of the rest by that of x. */
+static double orthogonalise(const solver *s, double x[])
+{
+    const int n = s->p->n;
+    const double before = sqrt(dense_dot(n, x, x));
+    for (int twice = 0; twice < 2; twice++)
+        for (int k = 0; k < s->count; k++) {
+            const double *q = s->Q + (size_t)k * (size_t)n, part = dense_dot(n, q, x);
+            for (int i = 0; i < n; i++)
+                x[i] -= part * q[i];
+        }
+    return before > 0 ? sqrt(dense_dot(n, x, x)) / before : 0;
+}
+
+/* Takes in x, which is orthogonal to the basis. */
+static void take(solver *s, double x[])
+{
+    const int n = s->p->n, k = s->count++;
+    double *q = s->Q + (size_t)k * (size_t)n, *Tq = s->TQ + (size_t)k * (size_t)n;
+    const double length = sqrt(dense_dot(n, x, x));
+    for (int i = 0; i < n; i++)
+        q[i] = x[i] / length;
+    s->p->apply(s->p->context, q, Tq);
+    s->out->applied++;
+    for (int i = 0; i <= k; i++) {
+        s->H[i * s->room + k] = dense_dot(n, s->Q + (size_t)i * (size_t)n, Tq);
+        s->H[k * s->room + i] = dense_dot(n, q, s->TQ + (size_t)i * (size_t)n);
+    }
+}
+
+/* One more vector: of the present chain, or where that ends a new start; 0: there is none. */
+static int grow(solver *s)
+{
+    const int n = s->p->n;
+    if (s->count == s->room)
+        return 0;
+    if (s->chain) {
+        memcpy(s->work, s->TQ + (size_t)(s->count - 1) * (size_t)n, (size_t)n * sizeof *s->work);
+        s->chain = orthogonalise(s, s->work) > nothing;
+    }
+    if (!s->chain) {
+        fill_start(s, s->work);
+        if (!(orthogonalise(s, s->work) > nothing))
+            return 0;
+    }
+    s->chain = 1;
+    orthogonalise(s, s->work);
+    take(s, s->work);
+    return 1;
+}
+
+static double size_of(const solver *s, int i)
+{
+    return hypot(s->re[s->order[i]], s->im[s->order[i]]);
+}
+
+/* Largest first; conjugates stay neighbours, as LAPACK has them. */
+static void sort(solver *s)
+{
+    const int k = s->count;
+    for (int i = 0; i < k; i++) {
+        int at = i;
+        const double size = hypot(s->re[i], s->im[i]);
+        for (; at > 0 && size > size_of(s, at - 1); at--)
+            s->order[at] = s->order[at - 1];
+        s->order[at] = i;
+    }
+}
+
+static status ritz(solver *s, fault *f)
+{
+    const int k = s->count;
+    for (int j = 0; j < k; j++)
+        for (int i = 0; i < k; i++)
+            s->A[j * k + i] = s->H[i * s->room + j];
+    if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', k, s->A, k, s->re, s->im, NULL, 1, s->z, k) != 0)
+        return fault_set(f, STATUS_NOT_CONVERGED, "an eigenvalue problem of %d unknowns fails", k);
+    sort(s);
+    s->found = 0;
+    while (s->found < k && size_of(s, s->found) > 16 * k * DBL_EPSILON * size_of(s, 0))
+        s->found++;
+    if (s->found > s->p->wanted) {
+        s->found = s->p->wanted;
+        const int last = s->order[s->found - 1];
+        if (s->im[last] > 0 && s->found < k && s->order[s->found] == last + 1)
+            s->found++;
+    }
+    return STATUS_OK;
+}
+
+/* The vector of value i of the order, into x; its residual in parts of the value. */
+static double vector_of(const solver *s, int i, double complex x[])
+{
+    const int k = s->count, n = s->p->n, at = s->order[i], second = s->im[at] < 0;
+    const double *re = s->z + (size_t)(second ? at - 1 : at) * (size_t)k, *im = re + k;
+    const double complex theta = s->re[at] + I * s->im[at];
+    double residual = 0, length = 0;
+    for (int row = 0; row < n; row++) {
+        double complex value = 0, image = 0;
+        for (int j = 0; j < k; j++) {
+            const double part = s->im[at] != 0 ? im[j] : 0;
+            const double complex c = re[j] + I * (second ? -part : part);
+            value += c * s->Q[(size_t)j * (size_t)n + (size_t)row];
+            image += c * s->TQ[(size_t)j * (size_t)n + (size_t)row];
+        }
+        x[row] = value;
+        image -= theta * value;
+        length += creal(value) * creal(value) + cimag(value) * cimag(value);
+        residual += creal(image) * creal(image) + cimag(image) * cimag(image);
+    }
+    return sqrt(residual / length) / cabs(theta);
+}
+
+/* Have all that are wanted converged? *worst: the largest residual. */
+static int converged(solver *s, double *worst)
+{
+    int good = 1;
+    *worst = 0;
+    for (int i = 0; i < s->found; i++) {
+        const double residual = vector_of(s, i, s->x);
+        *worst = fmax(*worst, residual);
+        good &= residual <= good_residual + rounding_residual * size_of(s, 0) / size_of(s, i);
+    }
+    return good;
+}
+
+/* Did the last start bring a value that is as large as those wanted? */
+static int changed(solver *s)
+{
+    int different = 0;
+    for (int i = 0; i < s->p->wanted; i++) {
+        const double size = i < s->found ? size_of(s, i) : 0;
+        different |= fabs(size - s->last[i]) > same * size;
+        s->last[i] = size;
+    }
+    return different;
+}
+
+/* Vectors until the pairs wanted have converged, or there are no more of use. */
+static status iterate(solver *s, int vectors, fault *f)
+{
+    for (double best = INFINITY, worst;; vectors = MORE) {
+        int grown = 0;
+        while (grown < vectors && grow(s))
+            grown++;
+        TRY(ritz(s, f));
+        if (converged(s, &worst) || grown == 0 || (worst > best / 2 && worst < stalled_residual))
+            return worst <= bearable_residual || s->count == s->p->n
+                       ? STATUS_OK
+                       : fault_set(f, STATUS_NOT_CONVERGED,
+                                   "eigenvalues without symmetry: residual %.1e with %d vectors",
+                                   worst, s->count);
+        best = fmin(best, worst);
+    }
+}
+
+static status hand_over(solver *s, fault *f)
+{
+    arnoldi_result *r = s->out;
+    const size_t n = (size_t)s->p->n, count = (size_t)s->found;
+    r->theta = calloc(count + 1, sizeof *r->theta);
+    r->mode = calloc(count * n + 1, sizeof *r->mode);
+    r->residual = calloc(count + 1, sizeof *r->residual);
+    if (r->theta == NULL || r->mode == NULL || r->residual == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->found);
+    r->count = s->found;
+    for (int i = 0; i < s->found; i++) {
+        r->theta[i] = s->re[s->order[i]] + I * s->im[s->order[i]];
+        r->residual[i] = vector_of(s, i, r->mode + (size_t)i * n);
+    }
+    return STATUS_OK;
+}
+
+static status find(solver *s, fault *f)
+{
+    int vectors = FIRST + 2 * s->p->wanted;
+    for (int start = 0; start < MAX_STARTS; start++) {
+        s->chain = 0;
+        TRY(iterate(s, vectors, f));
+        const int news = changed(s);
+        if (start > 0 && !news)
+            return hand_over(s, f);
+        if (s->count == s->p->n)
+            return hand_over(s, f);
+        vectors = MORE + s->p->wanted;
+    }
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "eigenvalues without symmetry: the start number %d still finds others",
+                     MAX_STARTS);
+}
+
+static status allocate(solver *s, fault *f)
+{
+    const size_t n = (size_t)s->p->n, room = (size_t)s->room;
+    s->Q = malloc((2 * room + 1) * n * sizeof *s->Q);
+    s->H = calloc(3 * room * room + 2 * room + (size_t)s->p->wanted + 1, sizeof *s->H);
+    s->order = calloc(room + 1, sizeof *s->order);
+    s->x = calloc(n + 1, sizeof *s->x);
+    if (s->Q == NULL || s->H == NULL || s->order == NULL || s->x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors", s->room);
+    s->TQ = s->Q + room * n;
+    s->work = s->TQ + room * n;
+    s->A = s->H + room * room;
+    s->z = s->A + room * room;
+    s->re = s->z + room * room;
+    s->im = s->re + room;
+    s->last = s->im + room;
+    return STATUS_OK;
+}
+
+status arnoldi_solve(const arnoldi_problem *p, arnoldi_result *r, fault *f)
+{
+    solver s = {.p = p, .out = r, .seed = 0x9E3779B97F4A7C15ull};
+    memset(r, 0, sizeof *r);
+    s.room = p->n < MAX_VECTORS ? p->n : MAX_VECTORS;
+    status outcome = STATUS_OK;
+    if (p->n > 0 && p->wanted > 0) {
+        outcome = allocate(&s, f);
+        if (outcome == STATUS_OK)
+            outcome = find(&s, f);
+    }
+    free(s.Q);
+    free(s.H);
+    free(s.order);
+    free(s.x);
+    return outcome;
+}

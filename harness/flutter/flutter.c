@@ -1,0 +1,94 @@
+#include "harness/flutter/flutter.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/equations/rotating_frame.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/scheme/damping.h"
+
+status flutter_system_alloc(const newton *n, flutter_system *s, fault *f)
+{
+    memset(s, 0, sizeof *s);
+    TRY(sparse_alloc_like(&n->K, &s->M, f));
+    TRY(rotating_frame_inertia(n->c->model, n->state, 0, &s->M, NULL, f));
+    s->massless = 1;
+    for (int k = 0; k < s->M.column[s->M.n]; k++)
+        s->massless &= s->M.value[k] == 0;
+    for (int j = 0; s->massless && j < s->M.n; j++)
+        for (int k = s->M.column[j]; k < s->M.column[j + 1]; k++)
+            if (s->M.row[k] == j)
+                s->M.value[k] = fabs(n->K.value[k]);
+    s->damped = !s->massless && damping_acts(n->c->scene);
+    return s->damped ? sparse_alloc_like(&n->K, &s->C, f) : STATUS_OK;
+}
+
+void flutter_system_free(flutter_system *s)
+{
+    sparse_free_values(&s->M);
+    sparse_free_values(&s->C);
+}
+
+status flutter_motions(const newton *n, flutter_system *s, int wanted, int estimate,
+                       unsymmetric_result *r, fault *f)
+{
+    const unsymmetric_problem p = {.K = &n->K,
+                                   .M = &s->M,
+                                   .C = s->damped ? &s->C : NULL,
+                                   .K_factor = n->factor,
+                                   .wanted = wanted,
+                                   .estimate = estimate};
+    if (!s->massless)
+        TRY(rotating_frame_inertia(n->c->model, n->state, 0, &s->M, NULL, f));
+    if (s->damped)
+        TRY(damping_matrix(n->c->model, n->state, &s->C, f));
+    const status found = unsymmetric_solve(&p, r, f);
+    model_counters(n->c->model)->solutions += r->solutions;
+    return found;
+}
+
+void flutter_take(unsymmetric_result *from, outcome_side *to)
+{
+    const double largest_error = 1e-2; /* beyond it no digit is worth telling */
+    to->count = from->count;
+    to->value = from->frequency;
+    to->mode = from->mode;
+    to->error = from->error;
+    for (int i = 0; i < to->count; i++) {
+        if (to->error[i] <= largest_error)
+            continue;
+        to->value[i] = NAN;
+        if (to->status == STATUS_OK)
+            snprintf(to->reason, sizeof to->reason,
+                     "frequency %d of %d unknowns is lost in round-off (error %.1e): refine less",
+                     i + 1, from->n, to->error[i]);
+        to->status = STATUS_NOT_CONVERGED;
+    }
+    from->frequency = from->mode = from->error = NULL;
+}
+
+flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
+{
+    flutter_kind kind = FLUTTER_NONE;
+    double largest = 0;
+    for (int i = 0; i < r->count; i++) {
+        const flutter_kind one = r->frequency[i] > 0 ? FLUTTER_OSCILLATES : FLUTTER_DIVERGES;
+        if (!(r->growth[i] > largest) || (s->massless && one == FLUTTER_OSCILLATES))
+            continue;
+        largest = r->growth[i];
+        kind = one;
+        *mode = i;
+    }
+    return kind;
+}
+
+const char *flutter_name(const flutter_system *s, flutter_kind kind)
+{
+    if (s->massless)
+        return kind == FLUTTER_NONE ? "no divergence" : "divergence";
+    if (kind == FLUTTER_DIVERGES)
+        return "divergence";
+    return s->damped ? "flutter, growth with the members' damping" : "flutter, undamped";
+}

@@ -1,0 +1,314 @@
+/* Walk from path 0 in steps that change no frequency much; where two come near one another the
+ * place between is looked into.  Then halving, and interpolation on the unstable side, where the
+ * square of the imaginary part of s^2 (of a flutter), s^2 (of a divergence) or s (with damping) is
+ * smooth. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/flutter/flutter.h"
+#include "harness/model/kinematics.h"
+#include "harness/solver/context.h"
+
+enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
+static const double first_step = 1e-3; /* of the path of the state followed */
+static const double wanted_change = 0.15, largest_change = 0.5; /* of a square of a frequency */
+static const double quickest = 10;                              /* a step by that before it */
+static const double farthest =
+    1e3; /* of the path of the state followed, unless its loads are small */
+static const double farther = 100; /* of the path that doubles a square at the first rate */
+static const double rough = 1e-2;  /* bracket that interpolation begins in, of the path */
+static const double closer = 0.1;  /* part of the way that is left */
+static const double closest = 1e-5, wanted_error = 1e-10; /* of the path */
+static const double near_divergence = 1e-4;               /* where Newton still converges */
+static const double alike = 1e-10; /* squares of a double value, relative difference squared */
+
+typedef struct station {
+    double path;
+    flutter_kind kind;
+    int count;
+    double square[MOTIONS]; /* of frequencies, ascending; negative: diverges */
+    double measure;         /* of what grows: zero where stability is lost */
+    double frequency;
+} station;
+
+typedef struct search {
+    newton *n;
+    flutter_walk *walk;
+    flutter_system of;
+    model_state *kept; /* of the last stable station */
+    station before, last, next;
+    double size;
+    unsymmetric_result found; /* of the last unstable station */
+    int mode;
+} search;
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void describe(search *s, const unsymmetric_result *r, station *out)
+{
+    const int all = s->of.massless || s->of.damped; /* the size of s counts */
+    out->kind = flutter_of(&s->of, r, &s->mode);
+    out->count = r->count < MOTIONS ? r->count : MOTIONS;
+    for (int i = 0; i < out->count; i++)
+        out->square[i] = r->frequency[i] > 0
+                             ? r->frequency[i] * r->frequency[i] + all * r->growth[i] * r->growth[i]
+                             : -r->growth[i] * r->growth[i];
+    qsort(out->square, (size_t)out->count, sizeof *out->square, ascending);
+    if (out->kind == FLUTTER_NONE)
+        return;
+    const double rate = r->growth[s->mode], split = r->split[s->mode];
+    out->frequency = r->frequency[s->mode];
+    out->measure = s->of.damped                      ? rate / hypot(rate, out->frequency)
+                   : out->kind == FLUTTER_OSCILLATES ? split * split
+                                                     : rate * rate;
+}
+
+/* The station at `path`, walked to from the kept state; STATUS_SINGULAR: the tangent is. */
+static status look(search *s, double path, station *out, fault *f)
+{
+    newton *n = s->n;
+    step_record unused = {0};
+    unsymmetric_result r = {0};
+    double increment = path - kinematics_state_path(s->kept);
+    memset(out, 0, sizeof *out);
+    out->path = path;
+    kinematics_state_copy(n->c->model, s->kept, n->state);
+    if (increment != 0)
+        TRY(s->walk(n, path, &increment, f));
+    TRY(newton_direction(n, path, &unused, f));
+    status outcome = flutter_motions(n, &s->of, s->of.damped ? WATCHED : MOTIONS, 0, &r, f);
+    if (outcome == STATUS_OK)
+        describe(s, &r, out);
+    if (outcome == STATUS_OK && out->kind != FLUTTER_NONE) {
+        unsymmetric_free(&s->found);
+        s->found = r;
+    } else {
+        unsymmetric_free(&r);
+    }
+    return outcome;
+}
+
+static void keep(search *s, const station *at)
+{
+    s->before = s->last;
+    s->last = *at;
+    kinematics_state_copy(s->n->c->model, s->n->state, s->kept);
+}
+
+/* Largest relative change of a square, of the lowest; of one that falls to zero by what the lowest
+ * was at path 0. */
+static double change(const station *a, const station *b, double lowest)
+{
+    double largest = 0;
+    for (int i = 0; i < WATCHED && i < a->count && i < b->count; i++)
+        largest =
+            fmax(largest, fabs(b->square[i] - a->square[i]) / fmax(fabs(a->square[i]), lowest));
+    return largest;
+}
+
+/* Relative difference of neighbours, squared: negative beyond a flutter. */
+static double difference(const station *a, int i)
+{
+    const double part = (a->square[i + 1] - a->square[i]) / (a->square[i + 1] + a->square[i]);
+    return part * part;
+}
+
+/* Where the parabola through three stations has its least value, which is below zero or small,
+ * between the first and the last; NAN: nowhere. */
+static double vertex(const station *a, const station *b, const station *c, int i)
+{
+    const double fa = difference(a, i), fb = difference(b, i), fc = difference(c, i);
+    const double ab = (fb - fa) / (b->path - a->path), bc = (fc - fb) / (c->path - b->path);
+    const double bend = (bc - ab) / (c->path - a->path);
+    if (!(bend > 0) || fmax(fa, fmax(fb, fc)) < alike)
+        return NAN;
+    const double at = (a->path + b->path) / 2 - ab / (2 * bend);
+    const double least = fa + ab * (at - a->path) + bend * (at - a->path) * (at - b->path);
+    return at > a->path && at < c->path && least < 0.1 * fmin(fa, fmin(fb, fc)) ? at : NAN;
+}
+
+/* Stable at a, b and c; is there a flutter between? Then it is s->next. */
+static status look_between(search *s, station a, station b, station c, int i, fault *f)
+{
+    for (int looks = 0; looks < MAX_LOOKS; looks++) {
+        const double at = vertex(&a, &b, &c, i), span = c.path - a.path;
+        station m;
+        if (isnan(at) || fabs(at - b.path) < 1e-6 * span || at - a.path < 1e-6 * span ||
+            c.path - at < 1e-6 * span)
+            return STATUS_OK;
+        TRY(look(s, at, &m, f));
+        if (m.kind != FLUTTER_NONE) {
+            s->next = m;
+            return STATUS_OK;
+        }
+        if (at < b.path && difference(&m, i) < difference(&b, i)) {
+            c = b;
+            b = m;
+        } else if (at < b.path) {
+            a = m;
+        } else if (difference(&m, i) < difference(&b, i)) {
+            a = b;
+            b = m;
+        } else {
+            c = m;
+        }
+    }
+    return STATUS_OK;
+}
+
+/* From the kept state, which is that of `last`, to the first unstable station: s->next. */
+static status walk(search *s, fault *f)
+{
+    double step = first_step * s->size, end = farthest * s->size;
+    const double lowest = s->last.count > 0 ? s->last.square[0] : 0;
+    int stations = 0;
+    for (int looks = 0; looks < MAX_STATIONS; looks++) {
+        const double path = s->last.path + step;
+        if (path > end && stations > WATCHED)
+            break;
+        const status outcome = look(s, path, &s->next, f);
+        if (outcome == STATUS_FAULT)
+            return outcome;
+        const double changed = outcome == STATUS_OK ? change(&s->last, &s->next, lowest) : INFINITY;
+        if (outcome != STATUS_OK || (s->next.kind == FLUTTER_NONE && changed > largest_change)) {
+            if (step < 1e-6 * fmax(fabs(path), 1e-9 * s->size))
+                return outcome != STATUS_OK ? outcome
+                                            : fault_set(f, STATUS_NOT_CONVERGED,
+                                                        "frequencies jump at path %g", path);
+            step /= 4;
+            continue;
+        }
+        if (s->next.kind != FLUTTER_NONE)
+            return STATUS_OK;
+        const station c = s->next;
+        for (int i = 0; stations > 0 && !s->of.massless && !s->of.damped && i + 1 < WATCHED + 2 &&
+                        i + 1 < c.count;
+             i++) {
+            TRY(look_between(s, s->before, s->last, c, i, f));
+            if (s->next.kind != FLUTTER_NONE && s->next.path < s->last.path) {
+                TRY(look(s, s->before.path, &s->last, f));
+                keep(s, &s->last);
+            }
+            if (s->next.kind != FLUTTER_NONE)
+                return STATUS_OK;
+        }
+        if (kinematics_state_path(s->n->state) != path)
+            TRY(look(s, path, &s->next, f));
+        keep(s, &s->next);
+        if (stations++ == 0)
+            end = fmax(end, farther * path / changed);
+        step *= fmin(quickest, wanted_change / changed);
+    }
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "no critical load from path 0 to %g: nothing diverges%s", s->last.path,
+                     s->of.massless ? " there, and nothing has a mass, so that flutter was not "
+                                      "looked for: give a section a density"
+                                    : " or flutters there");
+}
+
+/* Where the measure vanishes by those at unstable stations p[0] < p[1] < .. */
+static double extrapolate(int points, const double p[], const double g[])
+{
+    const double slope = (p[0] - p[1]) / (g[0] - g[1]), line = p[0] - g[0] * slope;
+    if (points < 3)
+        return line;
+    const double bend = ((p[1] - p[2]) / (g[1] - g[2]) - slope) / (g[2] - g[0]);
+    return line + g[0] * g[1] * bend;
+}
+
+/* From the bracket of the last stable and the next, unstable station. */
+static status close_in(search *s, flutter_point *out, fault *f)
+{
+    double p[POINTS] = {0}, g[POINTS] = {0}, low = s->last.path, estimate = NAN, apart = INFINITY;
+    station high = s->next;
+    int points = 0;
+    for (int i = 0; i < MAX_CLOSER; i++) {
+        const int is_rough = high.path - low > rough * fabs(high.path);
+        if (!is_rough && (points == 0 || high.path < p[0])) {
+            memmove(p + 1, p, (POINTS - 1) * sizeof *p);
+            memmove(g + 1, g, (POINTS - 1) * sizeof *g);
+            p[0] = high.path;
+            g[0] = high.measure;
+            points += points < POINTS;
+        }
+        double target = (low + high.path) / 2;
+        if (points > 1 && g[1] > g[0]) {
+            const double last = estimate, found = extrapolate(points, p, g);
+            estimate = fmin(fmax(found, low), high.path);
+            apart = fabs(estimate - last);
+            if (apart <= wanted_error * fabs(estimate) ||
+                high.path - estimate <=
+                    (high.kind == FLUTTER_DIVERGES ? near_divergence : closest) * fabs(high.path))
+                break;
+            target = estimate + closer * (high.path - estimate);
+        }
+        station m;
+        const status outcome = look(s, target, &m, f);
+        if (outcome == STATUS_SINGULAR) { /* at a divergence */
+            estimate = target;
+            apart = 0;
+            break;
+        }
+        TRY(outcome);
+        if (m.kind == FLUTTER_NONE) {
+            low = target;
+            keep(s, &m);
+        } else {
+            points = m.kind == high.kind ? points : 0;
+            high = m;
+        }
+    }
+    if (isnan(estimate))
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the critical load was not found: between path %g and %g", low, high.path);
+    out->path = estimate;
+    out->error = apart / fabs(estimate);
+    out->frequency = high.kind == FLUTTER_OSCILLATES ? high.frequency : 0;
+    if (s->found.mode == NULL || high.kind == FLUTTER_NONE)
+        return STATUS_OK;
+    const size_t n = (size_t)s->found.n;
+    out->mode = calloc(n + 1, sizeof *out->mode);
+    if (out->mode == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+    memcpy(out->mode, s->found.mode + (size_t)s->mode * n, n * sizeof *out->mode);
+    return STATUS_OK;
+}
+
+static status run(search *s, flutter_point *out, fault *f)
+{
+    newton *n = s->n;
+    step_record unused = {0};
+    TRY(kinematics_state_alloc(n->c->model, &s->kept, f));
+    kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);
+    TRY(newton_to(n, 0, &unused, f));
+    TRY(newton_direction(n, 0, &unused, f));
+    TRY(flutter_system_alloc(n, &s->of, f));
+    kinematics_state_copy(n->c->model, n->state, s->kept);
+    TRY(look(s, 0, &s->last, f));
+    if (s->last.kind != FLUTTER_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "the state at path 0 is not stable: %s; critical loads are those of one "
+                         "that is",
+                         flutter_name(&s->of, s->last.kind));
+    TRY(walk(s, f));
+    return close_in(s, out, f);
+}
+
+status flutter_search(newton *n, double size, flutter_walk *walk_to, flutter_point *out, fault *f)
+{
+    search s = {.n = n, .walk = walk_to, .size = size};
+    memset(out, 0, sizeof *out);
+    const status outcome = run(&s, out, f);
+    if (outcome == STATUS_OK)
+        out->what = flutter_name(&s.of, out->frequency > 0 ? FLUTTER_OSCILLATES : FLUTTER_DIVERGES);
+    out->massless = s.of.massless;
+    flutter_system_free(&s.of);
+    kinematics_state_free(s.kept);
+    unsymmetric_free(&s.found);
+    return outcome;
+}

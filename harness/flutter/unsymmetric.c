@@ -1,0 +1,333 @@
+#include "harness/flutter/unsymmetric.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/flutter/arnoldi.h"
+
+/* Coordinates are measured by the roots of the diagonal of K, rates times `second`. */
+typedef struct solver {
+    const unsymmetric_problem *p;
+    unsymmetric_result *out;
+    int n, massive; /* coordinates, and those with a mass */
+    int *of;        /* [massive] */
+    double *scale;  /* [n] */
+    double *x, *y;  /* [n] work */
+    double second;  /* [s] */
+    arnoldi_result right, left;
+} solver;
+
+void unsymmetric_free(unsymmetric_result *r)
+{
+    free(r->frequency);
+    free(r->error);
+    free(r->mode);
+    memset(r, 0, sizeof *r);
+}
+
+static void solve(const solver *s, int transposed, double x[])
+{
+    if (transposed)
+        factor_solve_transposed(s->p->K_factor, x);
+    else
+        factor_solve(s->p->K_factor, x);
+    s->out->solutions++;
+}
+
+/* y = K^-1 M x */
+static void apply_undamped(void *context, const double in[], double out[])
+{
+    const solver *s = context;
+    for (int i = 0; i < s->n; i++)
+        s->x[i] = in[i] / s->scale[i];
+    sparse_mul(s->p->M, s->x, s->y);
+    solve(s, 0, s->y);
+    for (int i = 0; i < s->n; i++)
+        out[i] = s->y[i] * s->scale[i];
+}
+
+/* y = M K^-T x */
+static void apply_undamped_transposed(void *context, const double in[], double out[])
+{
+    const solver *s = context;
+    for (int i = 0; i < s->n; i++)
+        s->x[i] = in[i] * s->scale[i];
+    solve(s, 1, s->x);
+    sparse_mul(s->p->M, s->x, s->y);
+    for (int i = 0; i < s->n; i++)
+        out[i] = s->y[i] / s->scale[i];
+}
+
+/* [-K^-1 C, -K^-1 M; 1, 0] of [x; v] */
+static void apply_damped(void *context, const double in[], double out[])
+{
+    const solver *s = context;
+    for (int i = 0; i < s->n; i++)
+        s->x[i] = in[i] / s->scale[i];
+    sparse_mul(s->p->C, s->x, s->y);
+    memset(s->x, 0, (size_t)s->n * sizeof *s->x);
+    for (int k = 0; k < s->massive; k++)
+        s->x[s->of[k]] = in[s->n + k] / s->scale[s->of[k]] / s->second;
+    sparse_mul(s->p->M, s->x, out);
+    for (int i = 0; i < s->n; i++)
+        s->y[i] = -s->y[i] - out[i];
+    solve(s, 0, s->y);
+    for (int k = 0; k < s->massive; k++)
+        out[s->n + k] = in[s->of[k]] * s->second;
+    for (int i = 0; i < s->n; i++)
+        out[i] = s->y[i] * s->scale[i];
+}
+
+static void apply_damped_transposed(void *context, const double in[], double out[])
+{
+    const solver *s = context;
+    for (int i = 0; i < s->n; i++)
+        s->x[i] = in[i] * s->scale[i];
+    solve(s, 1, s->x);
+    sparse_mul(s->p->C, s->x, s->y);
+    for (int i = 0; i < s->n; i++)
+        out[i] = -s->y[i] / s->scale[i];
+    sparse_mul(s->p->M, s->x, s->y);
+    for (int k = 0; k < s->massive; k++) {
+        out[s->of[k]] += in[s->n + k] * s->second;
+        out[s->n + k] = -s->y[s->of[k]] / s->scale[s->of[k]] / s->second;
+    }
+}
+
+static double diagonal(const sparse *a, int j)
+{
+    for (int k = a->column[j]; k < a->column[j + 1]; k++)
+        if (a->row[k] == j)
+            return fabs(a->value[k]);
+    return 0;
+}
+
+static void measure(solver *s)
+{
+    double largest = 0;
+    for (int i = 0; i < s->n; i++)
+        largest = fmax(largest, diagonal(s->p->K, i));
+    for (int i = 0; i < s->n; i++) {
+        const double k = diagonal(s->p->K, i);
+        s->scale[i] = sqrt(k > 0 ? k : largest > 0 ? largest : 1);
+        if (diagonal(s->p->M, i) > 0)
+            s->of[s->massive++] = i;
+    }
+}
+
+/* The longest time that the undamped structure has, about. */
+static void find_second(solver *s, double from[], double to[])
+{
+    double size = 0;
+    for (int i = 0; i < s->n; i++)
+        from[i] = 1 + 0.1 * (i % 7);
+    for (int pass = 0; pass < 3; pass++) {
+        const double length = sqrt(dense_dot(s->n, from, from));
+        for (int i = 0; i < s->n; i++)
+            from[i] /= length;
+        apply_undamped(s, from, to);
+        size = sqrt(dense_dot(s->n, to, to));
+        memcpy(from, to, (size_t)s->n * sizeof *to);
+        if (!(size > 0))
+            break;
+    }
+    s->second = size > 0 ? sqrt(size) : 1;
+}
+
+static status pairs(solver *s, int transposed, arnoldi_result *out, fault *f)
+{
+    const int damped = s->p->C != NULL, wanted = (damped ? 2 : 1) * s->p->wanted;
+    arnoldi_problem a = {.n = s->n + (damped ? s->massive : 0), .wanted = wanted, .context = s};
+    if (damped)
+        a.apply = transposed ? apply_damped_transposed : apply_damped;
+    else
+        a.apply = transposed ? apply_undamped_transposed : apply_undamped;
+    return arnoldi_solve(&a, out, f);
+}
+
+/* y = |A| x, or A x. */
+static void multiply(const sparse *A, int absolute, const double complex x[], double complex y[])
+{
+    for (int j = 0; j < A->n; j++)
+        y[j] = 0;
+    for (int j = 0; j < A->n; j++)
+        for (int k = A->column[j]; k < A->column[j + 1]; k++) {
+            const double a = absolute ? fabs(A->value[k]) : A->value[k];
+            y[A->row[k]] += a * x[j];
+            if (A->symmetric && A->row[k] != j)
+                y[j] += a * x[A->row[k]];
+        }
+}
+
+static double complex root(const solver *s, double complex theta)
+{
+    return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
+}
+
+/* Work of the estimates, [n] each. */
+typedef struct estimate {
+    double complex *x, *w, *y, *left; /* left: [left.count x n] */
+} estimate;
+
+static void size_of(int n, const double complex x[], double complex y[])
+{
+    for (int i = 0; i < n; i++)
+        y[i] = cabs(x[i]);
+}
+
+static double complex product(int n, const double complex a[], const double complex b[])
+{
+    double complex sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* w^T (2 s M + C) x, or of absolute values. */
+static double slope(const solver *s, int absolute, double complex at, const double complex w[],
+                    const estimate *e)
+{
+    multiply(s->p->M, absolute, e->x, e->y);
+    double complex sum = 2 * (absolute ? cabs(at) : at) * product(s->n, w, e->y);
+    if (s->p->C == NULL)
+        return cabs(sum);
+    multiply(s->p->C, absolute, e->x, e->y);
+    return cabs(sum + product(s->n, w, e->y));
+}
+
+/* Rounding of the entries of K changes s by w^T dK x/(w^T (2 s M + C) x); where values meet, by the
+ * root of what it does to their difference. */
+static double error_of(const solver *s, int i, const estimate *e)
+{
+    const int n = s->n;
+    const double complex theta = s->right.theta[i], at = root(s, theta);
+    const size_t size = s->p->C != NULL ? (size_t)(n + s->massive) : (size_t)n;
+    double least = INFINITY, cap = INFINITY;
+    for (int j = 0; j < s->left.count; j++) {
+        const double complex *w = e->left + (size_t)j * (size_t)n;
+        if (cabs(s->left.theta[j] - theta) > 1e-4 * cabs(theta))
+            continue;
+        for (int k = 0; k < n; k++)
+            e->x[k] = s->right.mode[(size_t)i * size + (size_t)k] / s->scale[k];
+        const double simple = slope(s, 0, at, w, e);
+        size_of(n, e->x, e->x);
+        size_of(n, w, e->w);
+        const double whole = slope(s, 1, at, e->w, e);
+        multiply(s->p->K, 1, e->x, e->y);
+        const double rounding = DBL_EPSILON * creal(product(n, e->w, e->y)) / cabs(at);
+        least = fmin(least, rounding / simple);
+        cap = fmin(cap, sqrt(rounding / whole));
+    }
+    return fmin(least, cap) + s->right.residual[i] * fmin(1, least / DBL_EPSILON);
+}
+
+/* Left vectors w of K: K^-T times those of the operator. */
+static status left_vectors(solver *s, estimate *e, fault *f)
+{
+    const size_t n = (size_t)s->n;
+    TRY(pairs(s, 1, &s->left, f));
+    e->x = calloc((3 + (size_t)s->left.count) * n + 1, sizeof *e->x);
+    if (e->x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->left.count);
+    e->w = e->x + n;
+    e->y = e->w + n;
+    e->left = e->y + n;
+    for (int j = 0; j < s->left.count; j++) {
+        const size_t size = s->p->C != NULL ? n + (size_t)s->massive : n;
+        const double complex *v = s->left.mode + (size_t)j * size;
+        for (int half = 0; half < 2; half++) {
+            for (size_t i = 0; i < n; i++)
+                s->x[i] = (half ? cimag(v[i]) : creal(v[i])) * s->scale[i];
+            solve(s, 1, s->x);
+            for (size_t i = 0; i < n; i++)
+                e->left[(size_t)j * n + i] += half ? I * s->x[i] : s->x[i];
+        }
+    }
+    return STATUS_OK;
+}
+
+/* The phase that makes the real part as large as it can be; of the second of two conjugates its
+ * imaginary part. */
+static void take_mode(const solver *s, int i, int second, double mode[])
+{
+    const size_t size = s->p->C != NULL ? (size_t)(s->n + s->massive) : (size_t)s->n;
+    const double complex *v = s->right.mode + (size_t)i * size;
+    double complex square = 0;
+    for (int k = 0; k < s->n; k++)
+        square += v[k] * v[k];
+    const double complex phase = cexp(-I * carg(square) / 2);
+    for (int k = 0; k < s->n; k++) {
+        const double complex x = phase * v[k] / s->scale[k];
+        mode[k] = second && fabs(cimag(square)) > 0 ? cimag(x) : creal(x);
+    }
+}
+
+static void take(solver *s, int i, double error)
+{
+    unsymmetric_result *r = s->out;
+    const double complex theta = s->right.theta[i], at = root(s, theta);
+    const int damped = s->p->C != NULL, second = cimag(theta) < 0, k = r->count;
+    const double complex square = at * at;
+    const double same = damped ? 10 * error : fmax(unsymmetric_same, 20 * error);
+    const int grows = fabs(creal(at)) > (damped ? same * cabs(at) : same / 2 * cabs(at));
+    if (damped && (cimag(at) < 0 || (cimag(at) == 0 && creal(at) < 0)))
+        return;
+    if (k == s->p->wanted)
+        return;
+    r->frequency[k] = grows || damped ? fabs(cimag(at)) : cabs(at);
+    r->growth[k] = !grows ? 0 : damped ? creal(at) : second ? -fabs(creal(at)) : fabs(creal(at));
+    r->split[k] = creal(square) > 0 && cimag(theta) == 0 ? 1 : fabs(cimag(square)) / cabs(square);
+    r->error[k] = error;
+    take_mode(s, i, second, r->mode + (size_t)k * (size_t)s->n);
+    r->count++;
+}
+
+static status hand_over(solver *s, fault *f)
+{
+    unsymmetric_result *r = s->out;
+    const size_t count = (size_t)s->right.count;
+    estimate e = {0};
+    r->frequency = calloc(3 * count + 1, sizeof *r->frequency);
+    r->error = calloc(count + 1, sizeof *r->error);
+    r->mode = calloc(count * (size_t)s->n + 1, sizeof *r->mode);
+    if (r->frequency == NULL || r->error == NULL || r->mode == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d modes", s->right.count);
+    r->growth = r->frequency + count;
+    r->split = r->growth + count;
+    const status outcome = s->p->estimate ? left_vectors(s, &e, f) : STATUS_OK;
+    for (int i = 0; outcome == STATUS_OK && i < s->right.count; i++)
+        take(s, i, s->p->estimate ? error_of(s, i, &e) : 0);
+    free(e.x);
+    return outcome;
+}
+
+status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fault *f)
+{
+    const size_t n = (size_t)p->K->n;
+    solver s = {.p = p, .out = r, .n = p->K->n, .second = 1};
+    memset(r, 0, sizeof *r);
+    r->n = s.n;
+    s.scale = calloc(5 * n + 1, sizeof *s.scale);
+    s.of = calloc(n + 1, sizeof *s.of);
+    status outcome = STATUS_FAULT;
+    if (s.scale == NULL || s.of == NULL) {
+        fault_set(f, STATUS_FAULT, "out of memory for modes");
+    } else {
+        s.x = s.scale + n;
+        s.y = s.x + n;
+        measure(&s);
+        if (p->C != NULL && s.n > 0)
+            find_second(&s, s.y + n, s.y + 2 * n);
+        outcome = pairs(&s, 0, &s.right, f);
+        if (outcome == STATUS_OK)
+            outcome = hand_over(&s, f);
+    }
+    free(s.scale);
+    free(s.of);
+    arnoldi_free(&s.right);
+    arnoldi_free(&s.left);
+    return outcome;
+}
