@@ -4,6 +4,7 @@
 #include "elements/section/walls.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "elements/section/flow.h"
@@ -251,4 +252,26 @@ status section_walls(const section_spec *s, section *out, fault *f)
             out->F[3 * i + j] =
                 (i == 2 || j == 2) && !warps ? 0 : out->F[3 * i + j] / (inertia[i] * inertia[j]);
     return STATUS_OK;
+}
+
+double walls_one_sided(const section_spec *s)
+{
+    const flow_rule rule = flow_rule_of_three();
+    walls_lines lines;
+    section c = {0};
+    double mixed = 0, warps = 0, quartic = 0;
+    if (s->kind != SECTION_WALLS || walls_lines_of(s, &lines, &c, NULL) != STATUS_OK)
+        return 0;
+    for (int w = 0; w < s->walls; w++)
+        for (int k = 0; k < FLOW_GAUSS; k++) {
+            const double dA = rule.w[k] * tree_wall_length(s, w) * s->wall[w].thickness,
+                         y = flow_along(s, w, lines.y, rule.x[k]),
+                         z = flow_along(s, w, lines.z, rule.x[k]), square = y * y + z * z,
+                         omega = flow_along(s, w, lines.omega, rule.x[k]);
+            mixed += dA * omega * square;
+            warps += dA * omega * omega;
+            quartic += dA * square * square;
+        }
+    /* walls that meet in one point do not warp along their mid-lines */
+    return warps > 1e-24 * quartic ? fabs(mixed) / sqrt(warps * quartic) : 0;
 }

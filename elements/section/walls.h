@@ -23,4 +23,9 @@ status walls_lines_of(const section_spec *spec, walls_lines *lines, section *out
  * line. */
 status section_walls(const section_spec *spec, section *out, fault *f);
 
+/* int omega r^2 dA in parts of the square root of int omega^2 dA int r^4 dA: by it a bimoment turns
+ * the section on, and a twist to one side is not that to the other; no element has it. 0 of
+ * symmetric sections, and of those that are no walls. */
+double walls_one_sided(const section_spec *spec);
+
 #endif

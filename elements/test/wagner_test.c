@@ -7,6 +7,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/math/quadrature.h"
+#include "elements/section/walls.h"
 #include "elements/test/sections.h"
 
 typedef struct shape {
@@ -129,6 +130,36 @@ static void over_the_area(const shape *s, int thick, double angle)
                  "%s ten times larger", s->name);
 }
 
+/* A section that a half turn brings onto itself, and one without any symmetry, twist to either side
+ * in other ways; a mirror makes both sides alike, whatever the axes, and so do walls that meet in
+ * one point. */
+static void one_sided(const shape *s, double angle)
+{
+    const section_spec spec = spec_of(s, 0, 1, angle);
+    const double found = walls_one_sided(&spec);
+    const int skew = s->name[0] == 'Z' || s->name[0] == 'b';
+    gsl_test(skew ? !(found > 0.02) : !(found < 1e-9), "%s, turned by %g: one-sided by %g", s->name,
+             angle, found);
+}
+
+/* The Z by hand: omega, with its mean taken off, is that of the middle of the web where no wall is,
+ * and even in the half turn; int omega r^2 dA over web and twice one flange. */
+static void one_sided_zed(void)
+{
+    const double b = 0.07, h = 0.1, t = 2e-3; /* h: half of the web */
+    const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
+    const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
+    /* from 0 in the web omega goes to h b at the ends of the flanges: mean h b/2 over these */
+    const double mean = 2 * flange * h * b / 2 / area;
+    const double omega_r2 = 2 * flange * h * b * (h * h / 2 + b * b / 4),
+                 r2 = 2 * flange * (h * h + b * b / 3) + web * h * h / 3,
+                 omega2 = 2 * flange * h * h * b * b / 3 - mean * mean * area,
+                 r4 = 2 * flange * (pow(h, 4) + 2 * h * h * b * b / 3 + pow(b, 4) / 5) +
+                      web * pow(h, 4) / 5;
+    gsl_test_rel(walls_one_sided(&spec), fabs(omega_r2 - mean * r2) / sqrt(omega2 * r4), 1e-12,
+                 "Z, by hand");
+}
+
 /* Legs b of thickness t about their common end: 1/8 (int r^4 dA - Ip^2/A). */
 static void cruciform(void)
 {
@@ -194,8 +225,11 @@ static void ring(void)
 int main(void)
 {
     for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++)
-        for (int k = 0; k < 6; k++)
+        for (int k = 0; k < 6; k++) {
             over_the_area(&shapes[i], k % 2, 0.35 * k);
+            one_sided(&shapes[i], 0.35 * k);
+        }
+    one_sided_zed();
     cruciform();
     equal_angle();
     strip(0.1, 0.02);

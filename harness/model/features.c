@@ -5,6 +5,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/section/matrices.h"
+#include "elements/section/walls.h"
 #include "harness/model/model_impl.h"
 
 int features_eccentric(const section *c)
@@ -164,6 +165,16 @@ unsigned features_not_given(const scene *s, int section_index)
     if (s->plane != SCENE_SPACE)
         out &= FEATURE_SHEAR; /* nothing twists */
     return out & ~s->omits;
+}
+
+int features_one_sided(const scene *s, int section_index)
+{
+    const unsigned left_out = s->omits & (FEATURE_WARPING | FEATURE_WAGNER_TORQUE);
+    section c;
+    return is_used(s, section_index) && left_out == 0 && s->plane == SCENE_SPACE &&
+           (needs_of_analyses(s) & (FEATURE_GEOMETRIC | FEATURE_LARGE)) != 0 &&
+           scene_constants(s, section_index, &c, NULL) == STATUS_OK && c.Iw > 0 &&
+           walls_one_sided(&s->section[section_index]) > 1e-6;
 }
 
 int features_sheared(const scene *s)

@@ -15,6 +15,9 @@ unsigned features_omitted(const scene *);
  * nothing of, and what counts where there are the analyses of the scene: zero, as far as the
  * numbers say. */
 unsigned features_not_given(const scene *, int section);
+/* Of walls: does its bimoment turn it on, which no formulation has, where the analyses have
+ * stresses and neither warping nor the Wagner torque is left out? */
+int features_one_sided(const scene *, int section);
 /* The same with the theory of shear in stability that the type has instead of the one the scene
  * asks for: FEATURE_* bits. */
 unsigned features_needed_of(const scene *, const element_type *);

@@ -76,6 +76,12 @@ static void not_given(FILE *to, const point *p)
             paragraph_say(to, fprintf(to, "not known: "), INDENT,
                           "%s of section %s, whose numbers say nothing of it: taken as zero", words,
                           name.text);
+        if (features_one_sided(&p->scene, i))
+            paragraph_say(to, fprintf(to, "not modelled: "), INDENT,
+                          "what the bimoment of section %s does to its torsion (int omega r^2 dA, "
+                          "which is not zero there): where warping is restrained, twists to either "
+                          "side differ",
+                          name.text);
     }
 }
 

@@ -97,6 +97,40 @@ quantities:
                 found = re.findall("not known: ([a-z_, ]*) of section bar, whose numbers", said)
                 self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
 
+    def test_what_is_not_modelled(self):
+        """A Z whose warping is restrained turns further to one side; a channel, a Z that is not stressed and one whose
+        cubic torsion is left out do not."""
+        for flange, analysis, more, told in (
+            (0.07, "static: {stations: [1]}", "", True), (-0.07, "static: {stations: [1]}", "", False),
+            (0.07, "buckling: {}", "", True), (0.07, "linear: {}", "", False),
+            (0.07, "static: {stations: [1]}", "omit: [warping]\n", False),
+            (0.07, "static: {stations: [1]}", "omit: [wagner_torque]\n", False)):
+            what = "critical_factor: {analysis: st, which: 0}" if "buckling" in analysis else (
+                "displacement: {analysis: st, node: b, component: uy}")
+            scene = self.scene(f"""\
+beamwork: 1
+sections:
+  zed:
+    points: {{a: [-0.07, 0.1], b: [0, 0.1], c: [0, -0.1], d: [{flange}, -0.1]}}
+    walls: [{{from: a, to: b, thickness: 2e-3}}, {{from: b, to: c, thickness: 2e-3}}, {{from: c, to: d, thickness: 2e-3}}]
+    young: 2e11
+    shear_modulus: 8e10
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [1, 0, 0]}}
+members:
+  bar: {{from: a, to: b, section: zed, y: [0, 1, 0]}}
+loads:
+  push: {{force: [-10, 0, 0], on: b}}
+analyses:
+  st: {{{analysis}}}
+quantities:
+  u: {{{what}}}
+{more}""")
+            said = " ".join(self.answered("solve", "--scene", scene).stdout.split())
+            self.assertEqual("not modelled: what the bimoment of section zed does to its torsion" in said, told,
+                             (flange, analysis, more))
+
     def test_no_truth(self):
         """None is stored, none is derived, no verdict is passed; the way to one is told."""
         self.refused(1, "beamwork scene c_column --set omit=none", "truth", "c_column", *WHOLE, silent=False)
