@@ -49,6 +49,7 @@ const element_type element_beamw_consistent = {
     .source = "J; stiffness and modes: reference/ERRATA.md, J 58/62/66, App. A",
     .family = "beamw",
     .abi = ELEMENT_ABI,
+    .limits = LIMIT_HALF_TURN,
     .offers =
         BEAMW_OFFERS | FEATURE_SHEAR | FEATURE_ENGESSER | FEATURE_HARINGX | FEATURE_WAGNER_MOMENTS,
     .shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX,

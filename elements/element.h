@@ -44,9 +44,14 @@ enum element_limit {
                                         another state has the same ones */
     LIMIT_WARPING_RIGID = 1 << 3,    /* warping does not shear: closed cells, which warp by it, are
                                         another model */
-    LIMIT_FLAT_ARC = 1 << 4 /* an element of length l and curvature k at rest has a definite
-                               stiffness while EA l^4 k^2/(E Iz) < 6107: its arc rises by
-                               l^2 k/8, less than 9.7 radii of gyration */
+    LIMIT_FLAT_ARC = 1 << 4,    /* an element of length l and curvature k at rest has a definite
+                                   stiffness while EA l^4 k^2/(E Iz) < 6107: its arc rises by
+                                   l^2 k/8, less than 9.7 radii of gyration */
+    LIMIT_HALF_TURN = 1 << 5,   /* strains follow turns between the ends up to pi: frames do not say
+                                   by how many circles they have turned. Types that declare neither
+                                   turn are held to this one */
+    LIMIT_EIGHTH_TWIST = 1 << 7 /* the strain of torsion is the sine of the twist between the nodes:
+                                   beyond pi/4 its torque falls, and another state has the same */
 };
 
 /* What a type offers in one direction only. `list` and `solve` show it; a scene in which it matters

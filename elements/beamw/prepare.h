@@ -39,7 +39,7 @@ extern const unsigned beamw_prepare_judged[];
 /* In an element_type: what those that beamw_prepare_variant prepares have; and what they offer
  * beside theories of shear. */
 #define BEAMW_VARIANT_TYPE                                                                         \
-    .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN,                           \
+    .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN | LIMIT_EIGHTH_TWIST,      \
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \
     .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
     .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \

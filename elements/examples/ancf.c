@@ -170,7 +170,7 @@ const element_type beamwork_element = {
               "and Wall (2014)",
     .family = "example",
     .offers = FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-    .limits = LIMIT_DOUBLY_SYMMETRIC,
+    .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_HALF_TURN,
     .leaves = LEAVES_FORCE | LEAVES_TANGENT,
     .data_size = data_size,
     .prepare = prepare,

@@ -120,7 +120,7 @@ const element_type beamwork_element = {
     .offers =
         FEATURE_SHEAR | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,
     .shear_theories = SHEAR_HARINGX,
-    .limits = LIMIT_DOUBLY_SYMMETRIC,
+    .limits = LIMIT_DOUBLY_SYMMETRIC | LIMIT_HALF_TURN,
     .leaves = LEAVES_J,
     .data_size = data_size,
     .prepare = prepare,

@@ -4,6 +4,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/turns.h"
 #include "harness/motion/reading.h"
 #include "harness/motion/resultants.h"
 #include "harness/solver/modes.h"
@@ -62,6 +63,13 @@ static const double *rate_at(const analysis_outcome *o, int i)
     return o->kind == SCENE_MOTION ? outcome_motion_of(o)->instant[i].rate : NULL;
 }
 
+static double followed(double value, quantity_result *r)
+{
+    if (isnan(value))
+        quantity_no_value(r, STATUS_NO_VALUE, turns_lost);
+    return value;
+}
+
 /* Value of a quantity of the path at one station; NAN: r may say why. */
 static double extracted(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, int i, quantity_result *r)
@@ -69,8 +77,9 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     const outcome_path *path = outcome_path_of(o);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
-        return kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
-                                    scene_component_of(q)->component);
+        return followed(kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
+                                             scene_component_of(q)->component),
+                        r);
     case SCENE_COMPLIANCE_ENTRY:
         return outcome_compliance_of(o)
             ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
@@ -89,6 +98,7 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_STRESS:
         return force_at(c, q, o, i, r);
     case SCENE_RELATIVE:
+        return followed(reading_of(c->model, q, path->state[i], rate_at(o, i)), r);
     case SCENE_RATE:
     case SCENE_ORIENTATION:
         return reading_of(c->model, q, path->state[i], rate_at(o, i));
@@ -224,8 +234,10 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
 {
     const outcome_motion *m = outcome_motion_of(o);
     const outcome_passing *found = m->passing != NULL ? &m->passing[q - c->scene->quantity] : NULL;
-    const int known = found != NULL && found->known;
-    if (o->status != STATUS_OK && !(known && q->reduction == SCENE_CROSSING)) {
+    const int known = found != NULL && found->known == 1;
+    if (found != NULL && found->known == PASSING_LOST) {
+        quantity_no_value(r, STATUS_NO_VALUE, turns_lost);
+    } else if (o->status != STATUS_OK && !(known && q->reduction == SCENE_CROSSING)) {
         path_ends(c, q, o, r);
     } else if (!known) {
         quantity_no_value(r, STATUS_NO_VALUE,

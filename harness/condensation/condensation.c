@@ -249,7 +249,7 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     TRY(outcome);
     for (int i = 0; i < s->m->discretes; i++) {
         element_part part = {.incompatibility = 0};
-        TRY(discrete_equations(s->m, at, &s->m->discrete[i], path, part.force, part.K, f));
+        discrete_equations(s->m, at, &s->m->discrete[i], path, part.force, part.K);
         assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
     }
     loads_subtract_stiffness(s->m, at, path, &s->K);

@@ -8,6 +8,7 @@
 #include "harness/equations/chunk.h"
 #include "harness/model/discrete.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/turns.h"
 
 static const double *inner_of(const model *m, const model_state *s, int i)
 {
@@ -53,7 +54,9 @@ static void begin_spring(conserving *s, const instant *from, int i)
     node_state x[ELEMENT_MAX_NODES];
     memcpy(of.W, of.spring->spring->stiffness, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.W);
     kinematics_gather(s->of.c->model, from->state, of.el, x);
-    spring_strain(of.el->nodes, x, &(strain_output){.e = of.e});
+    spring_strain(of.el->nodes, x,
+                  turns_of_spring(s->of.c->model, from->state, i - s->of.c->model->elements),
+                  &(strain_output){.e = of.e});
     dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.sigma);
     memcpy(of.sigma + SPRING_STRAINS, of.sigma, SPRING_STRAINS * sizeof *of.sigma);
     s->energy[i] = energy_of_spring(&of);
@@ -127,15 +130,13 @@ static status stress_together(conserving *s, const instant *from, model_state *n
     return STATUS_OK;
 }
 
-static status stress_spring(conserving *s, const instant *from, model_state *now, int i,
-                            scalar_parts *sum, fault *f)
+static void stress_spring(conserving *s, const instant *from, model_state *now, int i,
+                          scalar_parts *sum)
 {
     const deformable of = deformable_at(s, from, now, i);
-    TRY(discrete_check_turn(s->of.c->model, of.spring, of.e, f));
     dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.present);
     memcpy(of.C, of.W, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.C);
     take_energy(s, &of, energy_of_spring(&of), sum);
-    return STATUS_OK;
 }
 
 /* At the begin [J]. */
@@ -163,7 +164,7 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
         i += count;
     }
     for (int i = m->elements; i < deformable_count(s); i++)
-        TRY(stress_spring(s, from, now, i, &sum, f));
+        stress_spring(s, from, now, i, &sum);
     s->denominator = sum.square;
     const int moves = fabs(sum.square) > nothing * fabs(sum.size);
     s->k = moves && iteration > 2 ? sum.lacking / sum.square : 0;

@@ -6,6 +6,7 @@
 #include "harness/conserving/place.h"
 #include "harness/equations/chunk.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/turns.h"
 
 int deformable_count(const conserving *s)
 {
@@ -61,6 +62,21 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
     return of;
 }
 
+static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const instant *from,
+                       const model_state *now, evaluation *v)
+{
+    if (v->of.spring == NULL)
+        return;
+    const int spring = v->of.index - m->elements;
+    const double *first = turns_of_spring(m, from->state, spring),
+                 *last = turns_of_spring(m, now, spring);
+    for (int i = 0; i < 3; i++) {
+        for (int g = 0; g < DEFORMABLE_POINTS; g++)
+            v->turn[g][i] = (1 - at[g]) * first[i] + at[g] * last[i];
+        v->turn[DEFORMABLE_POINTS][i] = last[i];
+    }
+}
+
 /* The step, and the states that strains are asked of. */
 static void place_nodes(const conserving *s, const instant *from, const model_state *now,
                         evaluation *v)
@@ -78,6 +94,7 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     cayley_begin(el->nodes, el->nodes == 1, v->first, dr, c, da, &v->step);
     for (int g = 0; g < DEFORMABLE_POINTS; g++)
         cayley_between(&v->step, at[g], &v->point[g]);
+    place_turn(m, at, from, now, v);
 }
 
 /* At the end (point DEFORMABLE_POINTS): e and J; between: J and H. */
@@ -97,7 +114,7 @@ static void strains_alone(const model *m, int point, evaluation *v)
 {
     strain_output out = wanted(v, point);
     if (v->of.spring != NULL)
-        spring_strain(v->of.el->nodes, nodes_of(v, point), &out);
+        spring_strain(v->of.el->nodes, nodes_of(v, point), v->turn[point], &out);
     else
         m->type->strain(m->kind[v->of.el->kind].data, nodes_of(v, point), &out);
 }

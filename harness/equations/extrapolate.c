@@ -195,6 +195,7 @@ int extrapolate_state(const model *m, int count, const model_state *const at[], 
     for (int v = 0; v < m->vertices; v++)
         if (turns_by_itself(m, v))
             extrapolate_rotation(m, v, count, weight, at, out);
+    memcpy(out->turn, at[count - 1]->turn, 3 * (size_t)m->turns * sizeof *out->turn);
     kinematics_follow(m, out);
     return 1;
 }

@@ -22,7 +22,7 @@ static void evaluate(const model *m, const mesh_discrete *d, const double sigma[
 {
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, &d->el, x);
-    spring_strain(d->el.nodes, x, &(strain_output){.J = J, .s = sigma, .H = H});
+    spring_strain(d->el.nodes, x, NULL, &(strain_output){.J = J, .s = sigma, .H = H});
 }
 
 /* J x */

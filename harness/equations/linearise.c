@@ -200,16 +200,15 @@ static void add_part(model *m, const mesh_element *el, element_part *part, model
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
 }
 
-static status add_discrete(model *m, const model_state *s, model_linearisation *lin, fault *f)
+static void add_discrete(model *m, const model_state *s, model_linearisation *lin)
 {
     for (int i = 0; i < m->discretes; i++) {
         element_part part = {.incompatibility = 0};
-        TRY(discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K, f));
+        discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K);
         add_part(m, &m->discrete[i].el, &part, lin);
         if (lin->K != NULL)
             assemble_discrete(&m->discrete[i].el, part.K, lin->K);
     }
-    return STATUS_OK;
 }
 
 /* Adds up what a slot holds; 0: an element cannot be evaluated. */
@@ -258,7 +257,7 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
     team_relay(together, (m->elements + loop.window - 1) / loop.window, fill_piece, take_piece,
                &loop);
     TRY(loop.outcome);
-    TRY(add_discrete(m, s, lin, f));
+    add_discrete(m, s, lin);
     loads_add(m, s, lin->path, lin->residual);
     if (lin->K != NULL)
         loads_subtract_stiffness(m, s, lin->path, lin->K);

@@ -106,12 +106,12 @@ static void put_load(void *context, int row, int column, double value)
     put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
 }
 
-static status add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
-                           uncondensed *s, fault *f)
+static void add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
+                         uncondensed *s)
 {
     const int n = d->el.columns;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    TRY(discrete_equations(m, state, d, path, force, K, f));
+    discrete_equations(m, state, d, path, force, K);
     for (int a = 0; a < n; a++) {
         const int row = d->el.index[a] < m->free ? d->el.index[a] : NONE;
         if (row != NONE)
@@ -119,7 +119,6 @@ static status add_discrete(model *m, const model_state *state, const mesh_discre
         for (int c = 0; c < n; c++)
             put(m, s, row, d->el.index[c], K[n * a + c]);
     }
-    return STATUS_OK;
 }
 
 status uncondensed_system(model *m, const model_state *state, double path, const double drive[],
@@ -137,7 +136,7 @@ status uncondensed_system(model *m, const model_state *state, double path, const
     }
     loads_stiffness(m, state, path, put_load, &(load_part){m, &s});
     for (int i = 0; i < m->discretes; i++) {
-        TRY(add_discrete(m, state, &m->discrete[i], path, &s, f));
+        add_discrete(m, state, &m->discrete[i], path, &s);
     }
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;

@@ -65,6 +65,7 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->driver_coordinate[d] != NONE)
             to->driver[d] = from->driver[d] + inc[m->driver_coordinate[d]];
+    memcpy(to->turn, from->turn, 3 * (size_t)m->turns * sizeof *to->turn);
     kinematics_follow(m, to);
     to->path = time;
 }

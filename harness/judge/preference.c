@@ -8,7 +8,6 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/features.h"
-#include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 
 /* What speaks against a formulation, weightiest first; the least one is chosen. */

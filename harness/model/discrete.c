@@ -9,6 +9,7 @@
 #include "harness/model/body.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/spring.h"
+#include "harness/model/turns.h"
 
 enum { X = ELEMENT_MAX_COORDINATES };
 
@@ -64,10 +65,11 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
                       spring_state *out)
 {
     node_state x[ELEMENT_MAX_NODES];
+    const double *turn = turns_of_spring(m, s, (int)(d->spring - m->scene->spring));
     kinematics_gather(m, s, &d->el, x);
-    spring_strain(d->el.nodes, x, &(strain_output){.e = out->e, .J = out->J});
+    spring_strain(d->el.nodes, x, turn, &(strain_output){.e = out->e, .J = out->J});
     dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, out->e, out->sigma);
-    spring_strain(d->el.nodes, x, &(strain_output){.s = out->sigma, .H = out->H});
+    spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
 }
 
 /* Force and tangent at the nodes themselves; material: with J^T S J of springs. */
@@ -103,29 +105,10 @@ static void eliminated(const model *m, const model_state *s, const mesh_discrete
     eliminate_forces(m, s, &d->el, force);
 }
 
-status discrete_check_turn(const model *m, const mesh_discrete *d, const double e[], fault *f)
+void discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,
+                        double force[], double K[])
 {
-    const double turn = vec3_norm(e + 3);
-    return turn < SPRING_LARGEST_TURN
-               ? STATUS_OK
-               : fault_set(
-                     f, STATUS_NOT_CONVERGED,
-                     "%s: turned by %.3g rad, %g are the most; put two in series",
-                     scene_called(m->scene, SCENE_SPRINGS, (int)(d->spring - m->scene->spring))
-                         .text,
-                     turn, SPRING_LARGEST_TURN);
-}
-
-status discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,
-                          double force[], double K[], fault *f)
-{
-    if (d->spring != NULL) {
-        spring_state p;
-        spring_at(m, s, d, &p);
-        TRY(discrete_check_turn(m, d, p.e, f));
-    }
     eliminated(m, s, d, path, 1, force, K);
-    return STATUS_OK;
 }
 
 void discrete_inertia(const model *m, const model_state *s, double path, sparse *M, sparse *G)

@@ -8,10 +8,8 @@
 status discrete_build(model *, fault *);
 /* Internal less centrifugal force [7 nodes] and its tangent [7 nodes x 7 nodes] in a state, in
  * model coordinates. */
-/* NOT_CONVERGED: a spring with strains e[6] is turned too far. */
-status discrete_check_turn(const model *, const mesh_discrete *, const double e[], fault *);
-status discrete_equations(const model *, const model_state *, const mesh_discrete *, double path,
-                          double force[], double K[], fault *);
+void discrete_equations(const model *, const model_state *, const mesh_discrete *, double path,
+                        double force[], double K[]);
 /* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
 void discrete_inertia(const model *, const model_state *, double path, sparse *M, sparse *G);
 /* The tangent in two parts, as in stiffness_parts.h: y += its product with x[free + driven], out +=

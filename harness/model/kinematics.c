@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/release.h"
+#include "harness/model/turns.h"
 
 void kinematics_position(const model *m, const model_state *s, int index, double r[3])
 {
@@ -61,6 +63,7 @@ void kinematics_follow(const model *m, model_state *s)
         memcpy(&s->q[4 * i], &s->q[4 * v->body], 4 * sizeof(double));
     }
     release_follow(m, s);
+    turns_follow(m, s);
 }
 
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el, node_state x[])
@@ -132,13 +135,11 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
     if (component < SCENE_RX)
         return s->u[3 * node + component];
     const mesh_vertex *v = &m->vertex[node];
-    double phi[3];
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
         return s->angle[3 * node + component -
                         SCENE_RX]; /* held or driven about a fixed axis: also beyond pi */
-    rotation_log(&s->q[4 * node], phi);
-    return phi[component - SCENE_RX];
+    return turns_of_node(s, node)[component - SCENE_RX];
 }
 
 /* R^T (r - r_from) - (r - r_from)_0 = R^T (u - u_from) - (1 - R^T)(..)_0 */
@@ -147,6 +148,9 @@ double kinematics_relative(const model *m, const model_state *s, int from, int n
     double back[4], q[4], t[3], apart[3], first[3], turned[3];
     rotation_conjugate(&s->q[4 * from], back);
     if (component >= SCENE_RX) {
+        const double *followed = turns_between(m, s, from, node);
+        if (followed != NULL)
+            return followed[component - SCENE_RX];
         rotation_compose(back, &s->q[4 * node], q);
         rotation_log(q, t);
         return t[component - SCENE_RX];
@@ -178,24 +182,62 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-double kinematics_largest_turn(const model *m, const model_state *s, int *index)
+/* Cosine of half the angle that an element is turned by in itself; less than 0: by more than half a
+ * turn, which the signs of quaternions remember. */
+static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
-    double least = 1; /* cosine */
+    double turn = 0, least = 1;
+    for (int k = 0; k + 1 < m->nodes; k++) {
+        const double *p = &s->q[4 * el->vertex[k]], *q = &s->q[4 * el->vertex[k + 1]];
+        least = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+        if (m->nodes > 2)
+            turn += acos(fmax(-1, fmin(1, least)));
+    }
+    if (m->nodes > 2)
+        least = cos(fmin(turn, PI));
+    if (!chords)
+        return least;
+    const double cosine = fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, m->nodes - 1));
+    return fmin(least, sqrt(fmax(0, (1 + cosine) / 2)));
+}
+
+double kinematics_largest_turn(const model *m, const model_state *s, int chords, int *index)
+{
+    double least = 1;
     *index = 0;
     for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
-        const int last = m->nodes - 1;
-        const double *p = &s->q[4 * el->vertex[0]], *q = &s->q[4 * el->vertex[last]];
-        const double w = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] +
-                         p[3] * q[3]; /* cosine of half the turn between the nodes */
-        const double cosine =
-            fmin(2 * w * w - 1, fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, last)));
-        if (!(cosine >= least)) {
-            least = cosine;
+        const double half = half_cosine(m, s, &m->element[i], chords);
+        if (!(half >= least)) {
+            least = half;
             *index = i;
         }
     }
-    return acos(fmax(-1, least));
+    return 2 * acos(fmax(-1, least));
+}
+
+/* About its axis at rest, of one node as seen from the other. */
+static double twist_of(const model *m, const model_state *s, const mesh_element *el)
+{
+    double back[4], q[4];
+    const double *triad = el->triad[0], x[3] = {triad[0], triad[3], triad[6]};
+    rotation_conjugate(&s->q[4 * el->vertex[0]], back);
+    rotation_compose(back, &s->q[4 * el->vertex[m->nodes - 1]], q);
+    const double angle = fabs(2 * atan2(vec3_dot(q + 1, x), q[0]));
+    return angle > PI ? 2 * PI - angle : angle;
+}
+
+double kinematics_largest_twist(const model *m, const model_state *s, int *index)
+{
+    double largest = 0;
+    *index = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const double twist = twist_of(m, s, &m->element[i]);
+        if (!(twist <= largest)) {
+            largest = twist;
+            *index = i;
+        }
+    }
+    return largest;
 }
 
 int kinematics_coordinate(const model *m, int node, int component)

@@ -17,16 +17,19 @@ const double *kinematics_strains(const model_state *); /* [elements x strains] *
 /* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms:
  * what a state keeps is known in this one only. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
-/* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed
- * state. */
+/* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state,
+ * of as many turns as the path has made; not a number: the vector has lost its direction on a full
+ * turn (turns.h). */
 double kinematics_component(const model *, const model_state *, int node, int component);
 /* The same of a node in the axes of another, `from`: how its place has moved there [m], or the
  * rotation vector of its turn against that [rad]. */
 double kinematics_relative(const model *, const model_state *, int from, int node, int component);
 double kinematics_driver_value(const model *, const model_state *, int driver);
-/* Largest angle [rad] that an element's nodes have turned against each other, or against its chord,
- * and that element. */
-double kinematics_largest_turn(const model *, const model_state *, int *element_index);
+/* Largest angle [rad] that an element's nodes have turned against each other, chords: or against
+ * its chord, and that element. Less than two turns are told apart. */
+double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
+/* Likewise, about the element's axis. */
+double kinematics_largest_twist(const model *, const model_state *, int *element_index);
 
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
 int kinematics_coordinate(const model *, int node, int component);

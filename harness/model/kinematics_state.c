@@ -39,17 +39,20 @@ static status block_alloc(size_t size, model_state **out, fault *f)
 status kinematics_nodes_alloc(const model *m, const model_state *from, model_state **out, fault *f)
 {
     const size_t N = (size_t)m->scene->nodes, drivers = (size_t)m->scene->drivers;
-    TRY(block_alloc(10 * N + drivers, out, f));
+    const size_t turns = 3 * (size_t)m->turns;
+    TRY(block_alloc(10 * N + drivers + turns, out, f));
     model_state *s = *out;
     s->path = from->path;
     s->u = s->block;
     s->q = s->u + 3 * N;
     s->angle = s->q + 4 * N;
     s->driver = s->angle + 3 * N;
+    s->turn = s->driver + drivers;
     memcpy(s->u, from->u, 3 * N * sizeof *s->u);
     memcpy(s->q, from->q, 4 * N * sizeof *s->q);
     memcpy(s->angle, from->angle, 3 * N * sizeof *s->angle);
     memcpy(s->driver, from->driver, drivers * sizeof *s->driver);
+    memcpy(s->turn, from->turn, turns * sizeof *s->turn);
     return STATUS_OK;
 }
 
@@ -57,7 +60,8 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
 {
     const size_t V = (size_t)m->vertices, E = (size_t)m->elements;
     TRY(block_alloc(V * 10 + 3 * (size_t)m->releases + (size_t)m->warps +
-                        (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner),
+                        (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner) +
+                        3 * (size_t)m->turns,
                     out, f));
     model_state *s = *out;
     s->u = s->block;
@@ -69,6 +73,7 @@ status kinematics_state_alloc(const model *m, model_state **out, fault *f)
     s->e = s->driver + m->scene->drivers;
     s->sigma = s->e + E * (size_t)m->strains;
     s->inner = s->sigma + E * (size_t)m->strains;
+    s->turn = s->inner + E * (size_t)m->inner;
     for (size_t i = 0; i < V; i++)
         rotation_identity(&s->q[4 * i]);
     if (m->type->rest != NULL)

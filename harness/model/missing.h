@@ -26,4 +26,8 @@ void missing_omit(section *, unsigned omits);
 /* The limit of the type that a section of so many closed cells hits, in words; NULL: none. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
+/* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0:
+ * nothing, 1: so little of it that it is shown and not refused, 2: missing_words says so too. */
+int lacks_of(const scene *, const element_type *, char *words, int size);
+
 #endif

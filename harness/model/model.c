@@ -11,11 +11,11 @@
 #include "harness/model/discrete.h"
 #include "harness/model/features.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/profile.h"
 #include "harness/model/spring.h"
+#include "harness/model/turns.h"
 #include "harness/process/process.h"
 
 static status choose_options(model *m, const double options[], fault *f)
@@ -118,6 +118,7 @@ static status build(model *m, const model_request *request, fault *f)
     TRY(check_memory(m, request->elements, f));
     TRY(mesh_build(m, request->elements, f));
     TRY(discrete_build(m, f));
+    TRY(turns_build(m, f));
     TRY(coordinates_number(m, f));
     TRY(note_means(m, f));
     if (lacks_of(s, type, words, sizeof words))
@@ -186,6 +187,7 @@ void model_free(model *m)
     free(m->kind);
     free(m->warp);
     free(m->discrete);
+    free(m->turn);
     free(m->first_element);
     free(m->driver_coordinate);
     free(m->work);

@@ -31,6 +31,12 @@ typedef struct mesh_release {
     double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
 } mesh_release;
 
+/* What has a rotation vector that is followed: a node's frame against another's, NONE: against the
+ * fixed one. */
+typedef struct mesh_turn {
+    int from, node;
+} mesh_turn;
+
 /* A warping amplitude, shared by the element ends that meet there. */
 typedef struct mesh_warp {
     int coordinate; /* global */
@@ -148,6 +154,8 @@ struct model {
     mesh_warp *warp;
     int discretes, springs; /* springs: the last of them */
     mesh_discrete *discrete;
+    int turns;
+    mesh_turn *turn;        /* [turns] in the order of turns.h */
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
@@ -185,6 +193,7 @@ struct model_state {
     double *warp;   /* [warps] */
     double *driver; /* [drivers] present value */
     double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
+    double *turn;              /* [turns x 3] rotation vectors that have been followed: turns.h */
 };
 
 /* How the frame turns at that path parameter. */

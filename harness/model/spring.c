@@ -11,6 +11,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/model/turns.h"
 
 enum { N = NODE_COORDINATES, SIX = SPRING_STRAINS };
 
@@ -36,19 +37,29 @@ static void coefficient(double x, double *c, double *slope)
         }
         return;
     }
-    const double half = sqrt(x) / 2, cot = cos(half) / sin(half);
+    const double most = 2000, half = sqrt(x) / 2;
+    const double cot = fmax(-most, fmin(most, cos(half) / sin(half)));
     const double g = half * cot, g_x = (cot - half * (1 + cot * cot)) / (8 * half);
     *c = (1 - g) / x;
     *slope = (-g_x - *c) / x;
 }
 
 /* The rotation vector, B, and the symmetric part of what s makes of the second derivatives. */
-static void rotation_part(const double R[9], const double s[3], double theta[3], double B[9],
-                          double second[9])
+static void rotation_part(const double R[9], const double near[3], const double s[3],
+                          double theta[3], double B[9], double second[9])
 {
     double q[4], T[9], TT[9], c, slope;
     rotation_from_matrix(R, q);
-    rotation_log(q, theta);
+    if (near != NULL) {
+        double there[4];
+        rotation_exp(near, there);
+        if (q[0] * there[0] + vec3_dot(q + 1, there + 1) < 0)
+            for (int i = 0; i < 4; i++)
+                q[i] = -q[i];
+        turns_continue(q, near, theta);
+    } else {
+        rotation_log(q, theta);
+    }
     cross_matrix(theta, T);
     mat3_mul(T, T, TT);
     coefficient(vec3_dot(theta, theta), &c, &slope);
@@ -144,7 +155,7 @@ static void second_derivatives(int nodes, const double P[9], const double w[3], 
     add_block(n, q + 3, 3, 1, P, back_half, H);
 }
 
-void spring_strain(int nodes, const node_state x[], strain_output *out)
+void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out)
 {
     const node_state *q = &x[nodes - 1];
     double P[9], relative[9], apart[3], moved[3], w[3], theta[3], B[9], second[9];
@@ -154,7 +165,7 @@ void spring_strain(int nodes, const node_state x[], strain_output *out)
         moved[i] = q->u[i] - (nodes == 1 ? 0 : x[0].u[i]);
         apart[i] = nodes == 1 ? 0 : (q->r[i] - q->u[i]) - (x[0].r[i] - x[0].u[i]);
     }
-    rotation_part(relative, out->s != NULL ? out->s + 3 : NULL, theta, B, second);
+    rotation_part(relative, near, out->s != NULL ? out->s + 3 : NULL, theta, B, second);
     double turned[3], carried[3];
     mat3_transpose_mul_vec(P, apart, turned);
     mat3_transpose_mul_vec(P, moved, carried);

@@ -20,6 +20,7 @@
 #include "harness/scheme/damping.h"
 #include "harness/scheme/kinks.h"
 #include "harness/solver/history.h"
+#include "harness/solver/newton.h"
 
 enum { MAX_HALVINGS = 12 };
 
@@ -139,7 +140,10 @@ static status take_step(motion *w, double target, fault *f)
         double error = 0;
         int grows = 0;
         status outcome = w->scheme->step(w->scheme, &w->now, step, &w->next, &error, &record, f);
-        const int right = outcome == STATUS_OK && allowed(w, step, error);
+        int right = outcome == STATUS_OK && allowed(w, step, error);
+        if (right)
+            outcome = newton_accept(w->c->model, w->now.state, w->next.state, f);
+        right &= outcome == STATUS_OK;
         if (right)
             outcome = watch(w, &grows, f);
         if (right && outcome == STATUS_OK && !grows) {

@@ -5,6 +5,7 @@
 
 #include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/turns.h"
 #include "harness/scheme/damping.h"
 
 static int is_followed(const scene *s, int analysis)
@@ -18,7 +19,8 @@ static int is_followed(const scene *s, int analysis)
 /* Sizes of what is kept of this model. */
 static void measure(const model *m, const instant *now, outcome_end *out)
 {
-    out->states = now->state->size;
+    out->between = (size_t)turns_between_count(m);
+    out->states = now->state->size - 3 * out->between;
     out->coordinates = (size_t)m->free + (size_t)m->driven;
     out->strains = now->strain != NULL ? (size_t)m->elements * (size_t)m->strains : 0;
     out->released = now->ends_known ? instant_ends(m) : 0;
@@ -64,6 +66,7 @@ static status copy(const model *m, int analysis, const instant *now, const resum
             memcpy(to, of[i].of, of[i].count * sizeof *to);
             to += of[i].count;
         }
+    turns_put_between(m, now->state, to);
     return STATUS_OK;
 }
 
@@ -120,6 +123,7 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
             memcpy(of[i].of, from, of[i].count * sizeof *from);
             from += of[i].count;
         }
+    turns_take_between(c->model, (int)e->between, from, now->state);
     now->ends_known = e->released > 0;
     now->state->path = e->path;
     now->time = e->time;

@@ -215,13 +215,21 @@ static status watch_step(watches *s, watched *one, const instant *from, fault *f
     double t[PIECES + 1], value[PIECES + 1];
     if (!(b > a))
         return STATUS_OK;
+    if (one->out->known == PASSING_LOST)
+        return STATUS_OK;
     if (one->q->reduction == SCENE_MEAN) {
         add_mean(s, one, a, b);
+        if (isnan(one->sum))
+            one->out->known = PASSING_LOST;
         return STATUS_OK;
     }
     for (int i = 0; i <= PIECES; i++) {
         t[i] = i == PIECES ? b : a + i * (b - a) / PIECES;
         value[i] = value_at(s, one, t[i]);
+        if (isnan(value[i])) {
+            one->out->known = PASSING_LOST;
+            return STATUS_OK;
+        }
     }
     if (one->q->reduction >= SCENE_CROSSING)
         return watch_level(s, one, from, t, value, f);

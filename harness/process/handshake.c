@@ -15,6 +15,8 @@ typedef struct word_bit {
 static const word_bit limits[] = {{"doubly symmetric", LIMIT_DOUBLY_SYMMETRIC},
                                   {"order dependent", LIMIT_ORDER_DEPENDENT},
                                   {"quarter turn", LIMIT_QUARTER_TURN},
+                                  {"half turn", LIMIT_HALF_TURN},
+                                  {"eighth twist", LIMIT_EIGHTH_TWIST},
                                   {"warping rigid", LIMIT_WARPING_RIGID},
                                   {"flat arc", LIMIT_FLAT_ARC},
                                   {NULL, 0}};

@@ -11,8 +11,8 @@
 #include "harness/truth/checksum.h"
 #include "harness/truth/handles.h"
 
-static const char kind[] = "beamwork-motion-end-1";
-enum { RUN = 3, NUMBERS = 15, MOST_ENDS = 1000 };
+static const char kind[] = "beamwork-motion-end-2";
+enum { RUN = 3, NUMBERS = 16, MOST_ENDS = 1000 };
 
 static void to_numbers(const outcome_end *e, double out[NUMBERS])
 {
@@ -30,7 +30,8 @@ static void to_numbers(const outcome_end *e, double out[NUMBERS])
                                   (double)e->states,
                                   (double)e->coordinates,
                                   (double)e->strains,
-                                  (double)e->released};
+                                  (double)e->released,
+                                  (double)e->between};
     memcpy(out, list, sizeof list);
 }
 
@@ -50,7 +51,8 @@ static void of_numbers(const double in[NUMBERS], outcome_end *e)
                        .states = (size_t)in[11],
                        .coordinates = (size_t)in[12],
                        .strains = (size_t)in[13],
-                       .released = (size_t)in[14]};
+                       .released = (size_t)in[14],
+                       .between = (size_t)in[15]};
 }
 
 static void put_values(record *r, const char *name, size_t count, const double value[])

@@ -2,7 +2,6 @@
 
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
-#include "harness/model/lacks.h"
 #include "harness/model/missing.h"
 #include "harness/study/cell.h"
 #include "harness/study/omission.h"

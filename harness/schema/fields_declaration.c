@@ -31,6 +31,8 @@ static void get_limits(const subject *s, field_value *out)
         {LIMIT_ORDER_DEPENDENT, "exchanging the ends of an element changes the answer, by an error "
                                 "that vanishes with more elements"},
         {LIMIT_QUARTER_TURN, "less than a quarter turn between the ends of an element"},
+        {LIMIT_HALF_TURN, "less than half a turn between the ends of an element"},
+        {LIMIT_EIGHTH_TWIST, "less than an eighth of a turn of twist in an element"},
         {LIMIT_WARPING_RIGID, "warping does not shear: no closed cells that warp"},
         {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 9.7 radii of gyration of "
                          "its section (of a leaf: 2.8 thicknesses)"},

@@ -42,6 +42,12 @@ status newton_direction(newton *, double path, step_record *, fault *);
 /* The state takes dx; *correction: dimensionless size of what changed. */
 status newton_advance(newton *, double path, double *correction, step_record *, fault *);
 
+/* Every state that an analysis accepts is asked here, with the one before it: NOT_CONVERGED names
+ * an element that is turned by more than its formulation can follow, a spring whose rotation vector
+ * has lost its direction, or what is driven too far in one step. A node's vector that has lost its
+ * direction is no number from there on. */
+status newton_accept(const model *, const model_state *from, model_state *, fault *);
+
 /* How an iteration goes on. */
 typedef struct newton_watch {
     int iteration, growing;

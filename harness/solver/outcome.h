@@ -66,8 +66,9 @@ typedef struct outcome_instant {
 } outcome_instant;
 
 /* What a motion passed through, wherever its stations lie, of one quantity. */
+enum { PASSING_LOST = 2 }; /* a turn has lost its direction (harness/model/turns.h) */
 typedef struct outcome_passing {
-    int known;
+    int known;    /* 1, 0: not, or PASSING_LOST */
     double value; /* as extracted, or a time [s], or how often in a second */
     double time;  /* [s] of a largest or least value */
     double error; /* estimate of what reading it between the ends of steps adds to the value */
@@ -91,11 +92,11 @@ typedef struct outcome_end {
     double largest, origin;     /* [J] largest energy so far; that of the begin */
     double stress, contraction; /* of arrival.h */
     int quiet;                  /* steps since what acts was last smooth no longer */
-    size_t states, coordinates, strains, released;
-    double *value; /* [states + 3 coordinates + 2 strains + released]; NULL: there is none. The
+    size_t states, coordinates, strains, released, between;
+    double *value; /* [states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
                       state; rates, their derivatives, and what generalized-alpha has of these;
                       rates of damped strains and their derivatives; rates of released ends as
-                      conserving steps have them */
+                      conserving steps have them; turns of nodes against others (turns.h) */
 } outcome_end;
 /* How many numbers `value` has. */
 size_t outcome_end_values(const outcome_end *);

@@ -83,9 +83,8 @@ typedef struct step_record {
     double path, increment;
     int iterations, rejected,
         negative_pivots; /* rejected: tries of longer steps that failed before this one */
-    int by_eigenvalues;  /* 1: the tangent is not symmetric, and its eigenvalues were followed: ...
-                          */
-    int passed;          /* ... so many have passed zero */
+    int by_eigenvalues;  /* 1: its tangent is not symmetric; its eigenvalues were followed: */
+    int passed;          /* so many have passed zero */
     double residual, correction, incompatibility; /* of the last iteration */
     double remaining; /* what the next one would have changed, as the contraction so far predicts;
                          NAN: not known */

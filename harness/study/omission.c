@@ -7,7 +7,7 @@
 #include "harness/catalogue/formulation.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/features.h"
-#include "harness/model/lacks.h"
+#include "harness/model/missing.h"
 #include "harness/study/cell.h"
 #include "harness/study/expense.h"
 

@@ -15,6 +15,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/spring.h"
+#include "harness/model/turns.h"
 #include "harness/motion/launch.h"
 #include "harness/solver/history.h"
 
@@ -116,7 +117,8 @@ static inline double flight_strain_energy(const flight *f)
         double e[SPRING_STRAINS];
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, &m->discrete[i].el, x);
-        spring_strain(m->discrete[i].el.nodes, x, &(strain_output){.e = e});
+        spring_strain(m->discrete[i].el.nodes, x,
+                      turns_of_spring(m, s, i - (m->discretes - m->springs)), &(strain_output){.e = e});
         sum += dense_quadratic(SPRING_STRAINS, m->discrete[i].spring->stiffness, e) / 2;
     }
     return sum;

@@ -12,13 +12,13 @@
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {
     (void)data;
-    spring_strain(2, x, out);
+    spring_strain(2, x, NULL, out);
 }
 
 static void to_ground(const element_data *data, const node_state x[], strain_output *out)
 {
     (void)data;
-    spring_strain(1, x, out);
+    spring_strain(1, x, NULL, out);
 }
 
 static const element_type spring[2] = {{.name = "to ground", .strain = to_ground},
@@ -76,7 +76,7 @@ static void known(uint64_t *seed)
         x[1].r[i] = x[0].r[i] + 0.31 * x[0].R[3 * i];
         x[1].u[i] = x[1].r[i] - (i == 0 ? 0.31 : 0);
     }
-    spring_strain(2, x, &(strain_output){.e = e});
+    spring_strain(2, x, NULL, &(strain_output){.e = e});
     for (int i = 0; i < SPRING_STRAINS; i++)
         gsl_test(!(fabs(e[i]) < 4e-16), "rigid motion: no deformation %d (%.1e)", i, e[i]);
     const double y[3] = {0.7 * x[0].R[1], 0.7 * x[0].R[4], 0.7 * x[0].R[7]};
@@ -85,7 +85,7 @@ static void known(uint64_t *seed)
         x[1].r[i] += 0.02 * x[0].R[3 * i + 2];
         x[1].u[i] += 0.02 * x[0].R[3 * i + 2];
     }
-    spring_strain(2, x, &(strain_output){.e = e});
+    spring_strain(2, x, NULL, &(strain_output){.e = e});
     gsl_test_rel(e[2], 0.02, 1e-13, "pulled along its z axis");
     gsl_test_rel(e[4], 0.7, 1e-14, "turned about its y axis");
     gsl_test(!(fabs(e[0]) + fabs(e[1]) + fabs(e[3]) + fabs(e[5]) < 1e-15), "and nothing else");

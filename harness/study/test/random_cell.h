@@ -99,6 +99,8 @@ static inline void fill_steps(dice *d, solve_result *s)
                                    .iterations = whole(d, 99),
                                    .rejected = whole(d, 99),
                                    .negative_pivots = whole(d, 99),
+                                   .by_eigenvalues = whole(d, 1),
+                                   .passed = whole(d, 9),
                                    .stability = (step_stability)whole(d, STEP_STABILITIES),
                                    .residual = number(d),
                                    .correction = number(d),
@@ -215,7 +217,7 @@ static inline void random_cell_complete(void)
 {
     gsl_test_int((int)(sizeof(counters) % sizeof(uint64_t)), 0, "counters are filled by words");
     gsl_test_int((int)sizeof(model_size), 8 * (int)sizeof(int), "sizes as filled above");
-    gsl_test_int((int)sizeof(step_record), (int)(7 * sizeof(double) + 8 * sizeof(int)),
+    gsl_test_int((int)sizeof(step_record), (int)(7 * sizeof(double) + 10 * sizeof(int)),
                  "steps as filled above");
     gsl_test_int((int)sizeof(iteration_record), (int)(3 * sizeof(double)),
                  "iterations as filled above");
