@@ -10,6 +10,7 @@
 
 #include "harness/analysis/continuation_impl.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 #include "harness/solver/history.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 5 };
@@ -191,6 +192,20 @@ static int is_pair(const continuation *p, const sought *s)
            p->next.negative >= 0;
 }
 
+/* A node that is held about some axes and free about others: its tangent has no part of the moment
+ * that holds it, so that what passes beside zero may be what passes through it. */
+static int holds_some_turns(const model *m)
+{
+    for (int i = 0; i < m->scene->nodes; i++) {
+        int free = 0;
+        for (int k = 0; k < 3; k++)
+            free += m->scene->node[i].angle[k] == SCENE_FREE;
+        if (free == 1 || free == 2)
+            return 1;
+    }
+    return 0;
+}
+
 /* *s goes on behind the pair, which is no critical point. */
 static status pass_pair(continuation *p, path_goal goal, sought *s, double behind, int *jump,
                         fault *f)
@@ -207,7 +222,7 @@ static status report_critical(continuation *p, path_goal goal, sought *s, int *j
 {
     double behind = 1;
     TRY(locate(p, goal, s, jump, &behind, f));
-    if (*jump && is_pair(p, s))
+    if (*jump && is_pair(p, s) && !holds_some_turns(p->c->model))
         return pass_pair(p, goal, s, behind, jump, f);
     if (*jump)
         return STATUS_OK;

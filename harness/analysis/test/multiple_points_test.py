@@ -162,6 +162,17 @@ class MultiplePoints(ProgramTest):
                 self.assertIsNone(q.get("value"))
                 self.assertRegex(q["reason"], "undecided: between load factors 9.8[67][0-9]* and 9.8[67]")
 
+    def test_held_turn_under_torque(self):
+        """Greenhill's shaft held against its turn at one end, which is free about the others: its point, or no end that is
+        well."""
+        for step in (1.5e-5, 1.5e-6):
+            path = self.folder / "scene.yaml"
+            path.write_text(COLUMN % {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz]", "Iy": 1, "step": step, "to": 1.5e-5,
+                                      "more": ", t: {moment: [0.5, 0, 0], on: b, factor: [1, 1], path: [0, 1]}"})
+            done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
+            first = json.loads(done.stdout)["quantities"][0].get("value")
+            self.assertTrue(first < 9.87 if first is not None else done.returncode == 1, done.stdout)
+
     def test_stability_of_steps(self):
         path = self.folder / "scene.yaml"
         path.write_text(COLUMN % {**CLAMPED, "Iy": 1, "step": 1e-6, "to": 5e-6})
