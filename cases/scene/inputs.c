@@ -94,6 +94,30 @@ static int has_spring(const scene *s, char *who, int size)
     return s->springs > 0 && called(s, SCENE_SPRINGS, 0, who, size);
 }
 
+/* A warping that the ends of two members have as one. */
+static int has_shared_warping(const scene *s, char *who, int size)
+{
+    for (int i = 0; i < 2 * s->members; i++)
+        for (int j = 0; j < i; j++) {
+            const scene_member *a = &s->member[i / 2], *b = &s->member[j / 2];
+            const int one = i % 2 ? a->warp_q : a->warp_p, other = j % 2 ? b->warp_q : b->warp_p;
+            if (one >= 0 && one == other)
+                return called(s, SCENE_MEMBERS, i / 2, who, size);
+        }
+    return 0;
+}
+
+static int has_start(const scene *s, char *who, int size)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION) {
+            const scene_start *b = &s->analysis[i].of.motion.start;
+            if (vec3_norm(b->velocity) > 0 || vec3_norm(b->spin) > 0)
+                return called(s, SCENE_ANALYSES, i, who, size);
+        }
+    return 0;
+}
+
 static int has_drive(const scene *s, char *who, int size)
 {
     return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
@@ -127,11 +151,13 @@ const scene_input scene_inputs[] = {
     {"spring", "uuuuuuuuuuuu", NULL, has_spring},
     {"release", "uuuuuuuuuuuu", NULL, has_release},
     {"warping held", "uuuuuuuuuuuu", NULL, has_held_warping},
+    {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},
     {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
     {"fork", "uuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-----uuu--uu", NULL, has_mass},
     {"inertia of a node", "-----uuu--uu", NULL, has_inertia},
     {"motion of a node", "uuxuu-uu-uuu", no_drive, has_drive},
+    {"velocity at the start", "-----------u", NULL, has_start},
     {"damping", "-----------u", NULL, has_damping},
     {NULL, "", NULL, NULL}};
 

@@ -44,6 +44,20 @@ static scene_load *follow(scene *s, int load)
     return scene_load_at(s, load);
 }
 
+/* A section that warps, twisted by a force beside the axis, which has a potential. */
+static void twist(scene *s)
+{
+    s->section[0].constants.Iw = 5e-9;
+    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* it turns first */
+    scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
+}
+
+/* The base cannot turn about its axis at the tip. */
+static void ended_in_a_fork(scene *s)
+{
+    scene_fork(s, TIP, (const double[]){1, 0, 0}, y_axis);
+}
+
 /* What the base is without, so that the input has something to act on; then the input. */
 static void add(scene *s, const char *name)
 {
@@ -101,6 +115,16 @@ static void add(scene *s, const char *name)
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);
         scene_add_spring(s, MIDDLE, TIP, k);
+    } else if (IS("fork")) {
+        twist(s);
+        ended_in_a_fork(s);
+    } else if (IS("warping held")) {
+        twist(s);
+        scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
+    } else if (IS("warping shared")) {
+        twist(s);
+        scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
+        scene_member_at(s, 0)->warp_q = scene_member_at(s, 1)->warp_p = 0;
     } else if (IS("node that another carries")) {
         const int edge = scene_add_attached(s, TIP, 1, 0.2, 0);
         scene_add_member(s, MIDDLE, edge, s->member[0].section, y_axis);
@@ -115,8 +139,8 @@ static void add(scene *s, const char *name)
     else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
-    else
-        s->name[0] = '\0'; /* structures of their own: other tests have them */
+    else if (!IS("velocity at the start")) /* which is the analysis's */
+        s->name[0] = '\0';
 #undef IS
 }
 
@@ -127,6 +151,10 @@ static void carry(scene *s, const char *name)
         scene_hold_all(s, TIP);
         scene_node_at(s, TIP)->translation[1] = scene_node_at(s, TIP)->angle[2] = SCENE_FREE;
     }
+    if (strcmp(name, "fork") == 0 || strncmp(name, "warping", 7) == 0)
+        twist(s);
+    if (strcmp(name, "warping shared") == 0)
+        scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
     if (strcmp(name, "weight of a body") == 0)
         scene_set_body(s, TIP, (scene_body){.mass = 8});
 }
@@ -168,6 +196,14 @@ static int analyse(scene *s, scene_column column)
     }
 }
 
+/* What the last analysis has of itself. */
+static void begin(scene *s, const char *name, double times)
+{
+    if (strcmp(name, "velocity at the start") == 0 &&
+        s->analysis[s->analyses - 1].kind == SCENE_MOTION)
+        s->analysis[s->analyses - 1].of.motion.start.spin[2] = 0.01 * times;
+}
+
 static void want(scene *s, scene_column column, int analysis)
 {
     switch (column) {
@@ -187,6 +223,8 @@ static void want(scene *s, scene_column column, int analysis)
         for (int i = 0; i < 3; i++)
             scene_add_quantity(s, (const char *[]){"cx", "cy", "cz"}[i], "m/N", analysis,
                                scene_compliance_entry(i, SCENE_UY));
+        scene_add_quantity(s, "turn", "rad/(N m)", analysis,
+                           scene_compliance_entry(SCENE_RX, SCENE_RX));
         break;
     default:
         for (int i = 0; i < 6; i++) {
@@ -226,7 +264,10 @@ static void solve(const char *name, scene_column column, int with, double times,
         s.member[i].strain[0] *= times;
     for (int i = 0; i < s.drivers; i++)
         s.driver[i].value[1] *= times;
-    want(&s, column, analyse(&s, column));
+    const int asked = analyse(&s, column);
+    if (with)
+        begin(&s, name, times);
+    want(&s, column, asked);
     fault f = {""};
     gsl_test(scene_validate(&s, &f) != STATUS_OK, "%s: %s is a scene (%s)",
              scene_column_name[column], name, f.text);
@@ -315,6 +356,8 @@ int main(void)
             scene s;
             base(&s);
             add(&s, in->name);
+            analyse(&s, SCENE_OF_MOTION);
+            begin(&s, in->name, 1);
             const int posed = s.name[0] != '\0';
             gsl_test(posed && !in->stands(&s, NULL, 0), "%s stands in its scene", in->name);
             scene_free(&s);
