@@ -9,6 +9,7 @@
 
 #include "harness/algebra/clock.h"
 #include "harness/judge/reach.h"
+#include "harness/model/missing.h"
 #include "harness/tables/paragraph.h"
 #include "harness/timing/rounds.h"
 
@@ -213,6 +214,22 @@ void contestant_unranked(const contestant *a, const contestant *b)
     }
 }
 
+/* What a contestant in this process leaves out of the scene, in words; "": nothing. */
+static void lacking(const contestant *c, char words[OMIT_WORDS])
+{
+    words[0] = '\0';
+    if (c->program == NULL && c->request.scene != NULL)
+        missing_omit_words(missing_omits(c->request.scene, c->request.formulation), words);
+}
+
+static void show_lacking(char letter, const contestant *c)
+{
+    char words[OMIT_WORDS];
+    lacking(c, words);
+    if (words[0] != '\0')
+        printf("%c: %s not modelled\n", letter, words);
+}
+
 void contestant_show(const contestant *a, const contestant *b, const against *v)
 {
     show_one('A', a, v->a);
@@ -221,6 +238,8 @@ void contestant_show(const contestant *a, const contestant *b, const against *v)
     paragraph_say(stdout, at, 2,
                   "%.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s",
                   v->ratio, v->low, v->high, v->pairs, outcome_of(a, b, v));
+    show_lacking('A', a);
+    show_lacking('B', b);
     contestant_unranked(a, b);
     show_work(a, b);
 }

@@ -28,12 +28,13 @@ void csv_solution(FILE *to, const sweep *s)
 {
     const gathering g = {s, NULL, NULL};
     subjects list = {0};
-    csv_part row = {&record_quantity, gather_cell(&g, 0, 0)};
+    const subject cell = gather_cell(&g, 0, 0);
+    csv_part row[] = {{&record_quantity, cell}, {&record_omission, cell}};
     gather_mesh(&g, &record_quantity, 0, 0, &list);
-    csv_record_head(to, 1, &row);
+    csv_record_head(to, 2, row);
     for (int i = 0; i < list.count; i++) {
-        row.s = list.row[i];
-        write_lines(to, 1, &row, 0);
+        row[0].s = list.row[i];
+        write_lines(to, 2, row, 0);
     }
     gather_free(&list);
 }

@@ -2,7 +2,9 @@
 
 #include <math.h>
 
+#include "cases/scene/omission.h"
 #include "harness/judge/sentence.h"
+#include "harness/model/features.h"
 
 static void escaped(FILE *to, const char *text)
 {
@@ -29,6 +31,15 @@ static void property(FILE *to, const char *name, double value)
 {
     if (isfinite(value))
         fprintf(to, "   <property name=\"%s\" value=\"%.17g\"/>\n", name, value);
+}
+
+static void property_omitted(FILE *to, const point *p)
+{
+    char words[SCENE_OMISSION_WORDS] = "";
+    if (p->status == STATUS_OK)
+        scene_omission_words(features_omitted(&p->scene), words);
+    if (words[0] != '\0')
+        fprintf(to, "   <property name=\"omitted\" value=\"%s\"/>\n", words);
 }
 
 static double seconds_of(const series *one)
@@ -65,6 +76,7 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
     property(to, "error", v->error);
     property(to, "model_error", v->model_error);
     property(to, "tolerance", v->tolerance);
+    property_omitted(to, p);
     fprintf(to, "   </properties>\n");
     if (is_skipped(v)) {
         fprintf(to, "   <skipped message=\"");

@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/omission.h"
 #include "harness/judge/sentence.h"
+#include "harness/model/features.h"
 
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
 
@@ -147,6 +149,33 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
+/* What the scenes leave out, a line for each case and what its points leave out differently. */
+static void write_omitted(FILE *to, const sweep *s)
+{
+    int lines = 0;
+    const char *before = "";
+    char last[SCENE_OMISSION_WORDS] = "";
+    for (int i = 0; i < s->points; i++) {
+        const point *p = &s->point[i];
+        char words[SCENE_OMISSION_WORDS] = "";
+        if (p->status == STATUS_OK)
+            scene_omission_words(features_omitted(&p->scene), words);
+        const int again = strcmp(p->type->name, before) == 0 && strcmp(words, last) == 0;
+        before = p->type->name;
+        snprintf(last, sizeof last, "%s", words);
+        if (words[0] == '\0' || again)
+            continue;
+        if (lines++ == 0)
+            fprintf(to, "\n<details><summary>Omitted by the scenes</summary>\n\n");
+        fprintf(to, "- %s", p->type->name);
+        if (p->text[0] != '\0')
+            fprintf(to, " (%s)", p->text);
+        fprintf(to, ": %s\n", words);
+    }
+    if (lines > 0)
+        fprintf(to, "\n</details>\n");
+}
+
 static const char *words_before(const sweep *s)
 {
     if (s->unfinished == 0)
@@ -183,6 +212,7 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
         fprintf(to, "\n%s\n", sentence);
     write_unexpected(to, s, j);
     write_overview(to, o);
+    write_omitted(to, s);
     fprintf(to, "\n<details><summary>Verdicts by formulation</summary>\n");
     write_formulations(to, s, j);
     fprintf(to, "\n</details>\n");

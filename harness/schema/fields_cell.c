@@ -63,15 +63,6 @@ const record_type record_point = {"point",
                                   "a case with the values of its parameters",
                                   {keys_of_point, fields_of_point}};
 
-static void get_omitted(const subject *s, field_value *out)
-{
-    char words[SCENE_OMISSION_WORDS] = "";
-    if (s->point->status == STATUS_OK)
-        scene_omission_words(features_omitted(&s->point->scene), words);
-    snprintf(out->room, sizeof out->room, "%s", words);
-    out->text = out->room;
-}
-
 static void get_theory(const subject *s, field_value *out)
 {
     const element_type *type = s->series->formulation.type;
@@ -140,7 +131,7 @@ static const schema_field fields_of_cell[] = {
      .get = get_strains},
     {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
     {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
-     .get = get_omitted},
+     .get = fields_keys_omitted},
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
     {"warping", "", FIELD_TEXT, "which ends of members hold it, share it, leave it free",
      .get = get_warping},

@@ -1,5 +1,10 @@
 #include "harness/schema/fields_keys.h"
 
+#include <stdio.h>
+
+#include "cases/scene/omission.h"
+#include "harness/model/features.h"
+
 static void get_elements(const subject *s, field_value *out)
 {
     out->whole = s->series->mesh[s->mesh];
@@ -45,3 +50,19 @@ const cell_result *fields_keys_cell(const subject *s)
 {
     return &s->series->cell[s->mesh];
 }
+
+void fields_keys_omitted(const subject *s, field_value *out)
+{
+    char words[SCENE_OMISSION_WORDS] = "";
+    if (s->point->status == STATUS_OK)
+        scene_omission_words(features_omitted(&s->point->scene), words);
+    snprintf(out->room, sizeof out->room, "%s", words);
+    out->text = out->room;
+}
+
+static const schema_field field_omitted[] = {
+    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
+     .get = fields_keys_omitted},
+    {0}};
+const record_type record_omission = {
+    "omission", "", "what the scene of a value leaves out", {field_omitted}};

@@ -19,5 +19,7 @@ const char *fields_keys_word_of_moments(int convention);
 /* Of the quantity that s->index counts. */
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
+/* What the scene leaves out, in words. */
+void fields_keys_omitted(const subject *s, field_value *out);
 
 #endif

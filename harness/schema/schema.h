@@ -99,6 +99,7 @@ extern const record_type record_point, record_series, record_cell, record_quanti
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
     record_parameter, record_meaning;
 extern const record_type *const record_types[]; /* all of them; ends with NULL */
+extern const record_type record_omission;       /* of a value, in the CSV of a solution only */
 extern const record_type record_truth;          /* of a quantity, in JSON only */
 extern const record_type record_declaration;    /* of a whole run, in HDF5 only */
 

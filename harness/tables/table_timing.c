@@ -73,6 +73,10 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at)
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < meshes_run(&s->series[i], at); k++)
             row(to, s, &s->series[i], first_judged(j, i), k);
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].point == at && s->series[i].missing[0] != '\0')
+            paragraph_say(to, fprintf(to, "  %s: ", s->series[i].formulation.key), 4,
+                          "not timed, %s not modelled", s->series[i].missing);
     for (int i = 0; i < s->seriess; i++) {
         const char *why = reach_unranked(s->series[i].formulation.type);
         if (meshes_run(&s->series[i], at) > 0 && why[0] != '\0')
@@ -141,6 +145,8 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
         if (!every_mesh && strcmp(here->name, "default") != 0)
             continue;
         fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);
+        if (here->status == STATUS_OK)
+            table_omitted(to, &here->scene);
         if (every_mesh)
             rows(to, s, j, p);
         if (every_mesh)

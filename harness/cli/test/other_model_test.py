@@ -133,3 +133,27 @@ class OtherModel(ProgramTest):
         rows = csv.DictReader(io.StringIO(
             self.answered("converge", *deep, "-n", "1,2", "--format", "csv").stdout))
         self.assertEqual({r["omitted"] for r in rows}, {"trapeze, wagner_torque"})
+        one = ("-f", "collocation", "-f", "beamw_vlasov", "-n", "1")
+        rows = csv.DictReader(io.StringIO(
+            self.answered("solve", *deep, *one[:2], "-n", "1", "--format", "csv").stdout))
+        self.assertEqual({r["omitted"] for r in rows}, {"trapeze, wagner_torque"})
+        files = [self.folder / name for name in ("v.json", "j.xml", "m.md")]
+        self.answered("verify", *deep, *one[:4], "--json", files[0], "--junit", files[1],
+                      "--markdown", files[2], code=3)
+        verdicts = json.loads(files[0].read_text())["verdicts"]
+        self.assertEqual({v["omitted"] for v in verdicts}, {"trapeze, wagner_torque"})
+        self.assertEqual(files[1].read_text().count('name="omitted" value="trapeze, wagner_torque"'),
+                         len(verdicts))
+        self.assertIn("\n- leaf: trapeze, wagner_torque\n", files[2].read_text())
+
+    def test_bench(self):
+        """Times rank: another model is not timed beside the others, by name; alone it is marked."""
+        deep = self.scene("0.1", "1", "0")
+        text = self.answered("bench", *deep, "-f", "beamw_vlasov", "-f", "collocation", "-n",
+                             "1").stdout
+        self.assertIn("omitted: trapeze, wagner_torque", text)
+        self.assertIn("beamw_vlasov: not timed, shear not modelled", text)
+        text = self.answered("bench", *deep, "-f", "beamw_vlasov", "--against", "collocation", "-n",
+                             "1").stdout
+        self.assertIn("A: shear not modelled", text)
+        self.assertNotIn("B: shear", text)
