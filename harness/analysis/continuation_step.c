@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/arnoldi.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/loads.h"
+#include "harness/flutter/arnoldi.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/solver/context.h"

@@ -42,7 +42,7 @@ struct evaluation {
     cayley_point point[DEFORMABLE_POINTS];
     node_state first[ELEMENT_MAX_NODES], last[ELEMENT_MAX_NODES];
     double turn[DEFORMABLE_POINTS + 1][3]; /* of a spring: where its vector has come to */
-    double middle[DEFORMABLE_STRAINS]; /* (sigma_n + P'(e))/2 + k W d */
+    double middle[DEFORMABLE_STRAINS];     /* (sigma_n + P'(e))/2 + k W d */
     double D[DEFORMABLE_STRAINS];
     double J[DEFORMABLE_POINTS][DEFORMABLE_STRAINS * ELEMENT_MAX_COORDINATES];
     double H[DEFORMABLE_POINTS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES]; /* middle */

@@ -146,7 +146,7 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
             continue;
         fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);
         if (here->status == STATUS_OK)
-            table_omitted(to, &here->scene);
+            table_omitted(to, here);
         if (every_mesh)
             rows(to, s, j, p);
         if (every_mesh)

@@ -118,7 +118,8 @@ static inline double flight_strain_energy(const flight *f)
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, &m->discrete[i].el, x);
         spring_strain(m->discrete[i].el.nodes, x,
-                      turns_of_spring(m, s, i - (m->discretes - m->springs)), &(strain_output){.e = e});
+                      turns_of_spring(m, s, i - (m->discretes - m->springs)),
+                      &(strain_output){.e = e});
         sum += dense_quadratic(SPRING_STRAINS, m->discrete[i].spring->stiffness, e) / 2;
     }
     return sum;
