@@ -65,11 +65,13 @@ static void read_unit(const fields *f, scene_quantity *q)
     if (unit != NULL && !fields_have(f, "factor")) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
-        else if (strcmp(unit->text, own) != 0)
-            document_mistake(f->b->mistakes, unit, 0,
-                             "unit '%.40s': with the units of this scene the value is in %s; write "
-                             "that, leave it out, or give a factor",
-                             unit->text, own);
+        /* a load factor may have the unit of its load */
+        if (strcmp(unit->text, own) != 0 && (f->b->units.given || strcmp(own, "1") != 0))
+            document_mistake(
+                f->b->mistakes, unit, 0,
+                "unit '%.40s': %sthe value is in %s; write that, leave it out, or give "
+                "a factor",
+                unit->text, f->b->units.given ? "with the units of this scene " : "", own);
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
         document_mistake(f->b->mistakes, unit, 0, "a unit of more than %zu characters; shorten it",

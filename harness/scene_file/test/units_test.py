@@ -166,6 +166,20 @@ class UnitsTest(SceneCase):
                       {**METRES, "YOUNG": 30e9, "SHEAR": 12e9, "WIDTH": 12, "THICK": 2, "LENGTH": 60}):
             self.assertFalse(self.warned(filled(LEAF, **right)), right)
 
+    def test_of_another_kind(self):
+        """A frequency is in Hz, whatever its label says, unless a factor makes it another."""
+        scene = """beamwork: 1
+sections: {s: {rectangle: {width: 0.05, thickness: 0.01}, young: 200e9, shear_modulus: 80e9, density: 7800}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+analyses: {v: {modal: {wanted: 1}}}
+quantities: {f: {frequency: {analysis: v, which: 0}, unit: %s}}
+"""
+        for unit, code in (("Hz", 0), ("rad/s", 2), ("m", 2), ("rad/s, factor: 2*pi", 0)):
+            done = run("solve", "--scene", self.scene(scene % unit), "-n", 1)
+            self.assertEqual(done.returncode, code, (unit, done.stderr))
+            self.assertEqual("the value is in Hz" in done.stderr, code == 2, (unit, done.stderr))
+
     def test_verbs(self):
         """Each that reads the scene says it once."""
         path = self.scene(filled(LEAF, **MILLIMETRES))
