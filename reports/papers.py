@@ -1,4 +1,4 @@
-"""The papers figure by figure (reference/papers.csv), beside what is measured here."""
+"""The papers figure by figure (reference/papers.csv), beside what is measured here, and equation by equation (reference/equations.csv)."""
 import csv
 import functools
 import math
@@ -9,16 +9,17 @@ from reports.site import ROOT, number, percent
 
 NAVIGATION = [("papers.html", "papers")]
 TABLE = ROOT / "reference" / "papers.csv"
-STATUSES = ("reproduced", "partly", "not reproducible", "contradicted")
+EQUATIONS = ROOT / "reference" / "equations.csv"
+STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
 NAMES = {
     "J": "J: thin-walled beam element with shear (Jonker)",
     "N": "N: third-order sheet element (Nijenhuis, Meijaard, Naves, Aarts)",
 }
 
 
-def read():
-    """Rows of the table, in its order."""
-    with open(TABLE, newline="", encoding="utf-8") as table:
+def read(path=TABLE):
+    """Rows of a table, in its order."""
+    with open(path, newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
 
 
@@ -55,9 +56,12 @@ def write(site):
         {**row, "measured": measured(look, site.truths, row), "linked": row["case"] in cases}
         for row in read()
     ]
-    papers = [(title, [r for r in rows if r["paper"] == letter]) for letter, title in NAMES.items()]
+    sets = read(EQUATIONS)
+    papers = [(title, [r for r in rows if r["paper"] == letter],
+               [r for r in sets if r["paper"] == letter]) for letter, title in NAMES.items()]
     site.write(
-        "papers.html", "papers.html", papers=[(title, counts(of), of) for title, of in papers],
+        "papers.html", "papers.html",
+        papers=[(title, counts(of), of, equations) for title, of, equations in papers],
         total=[(status, n) for status, n in counts(rows) if n]
     )
 

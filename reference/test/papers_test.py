@@ -1,60 +1,135 @@
-"""The papers figure by figure: every item has a row, with status, reason and an existing case."""
+"""The papers item by item and equation by equation: every item has a row, every equation a file and a test or a reason."""
+import ast
 import csv
+import fnmatch
 import pathlib
+import re
 import unittest
 
 from reference import pack
 
 REFERENCE = pathlib.Path(__file__).resolve().parents[1]
-STATUSES = ("reproduced", "partly", "not reproducible", "contradicted")
+ROOT = REFERENCE.parent
+STATUSES = ("reproduced", "partly", "not reproducible", "contradicted", "open")
 ITEMS = {
-    ("J", item)
-    for item in (
-        "Table 1",
-        "Table 2",
-        "Table 3",
-        "Table 4",
-        "Fig. 10",
-        "Fig. 11",
-        "Fig. 12",
-        "Fig. 13",
-        "App. A",
-    )
-} | {
-    ("N", item)
-    for item in ("Table 1", "Fig. 5", "Fig. 6", "Fig. 8", "Fig. 10", "Sec. 4.1", "App. A", "App. B")
+    "J": "Table 1|Table 2|Table 3|Table 4|Figs. 1-2, 4-9|Fig. 3|Fig. 10|Fig. 11|Fig. 12|Fig. 13|App. A"
+         "|Eqs. 73, 74|Eqs. 75, 76|Sec. 5|Sec. 5.1|Sec. 5.2|Sec. 6",
+    "N": "Table 1|Figs. 1-4, 7, 9|Fig. 5|Fig. 6|Fig. 8|Fig. 10|Sec. 2.1|Sec. 2.5|Sec. 3.4|Sec. 3.5|Sec. 4"
+         "|Sec. 4.1|Sec. 4.2|Sec. 5|App. A|App. B"
 }
+FIGURES = {"J": 13, "N": 10}
+# Numbers as printed; App. A of J has none.
+EQUATIONS = {
+    "J": {*map(str, range(1, 77)), "App. A"},
+    "N": {*map(str, range(1, 71)), "A1", "B2"}
+}
+RUN = ("elements/test/*_test.c", "cases/test/*_test.c", "harness/*/test/*_test.c",
+       "reference/test/*_test.py", "reports/test/*_test.py", "harness/*/test/*_test.py")
 
 
-def rows():
-    with open(REFERENCE / "papers.csv", newline="", encoding="utf-8") as table:
+def rows(name="papers.csv"):
+    with open(REFERENCE / name, newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
+
+
+def numbers(text):
+    """'1-3,7' as the numbers of the equations, in words."""
+    out = []
+    for part in (p.strip() for p in re.sub(r"^(Figs?\.|Eqs\.) ", "", text).split(",")):
+        first, _, last = part.partition("-")
+        out += map(str, range(int(first), int(last) + 1)) if last else [first]
+    return out
+
+
+def defines(path, name):
+    """Whether a file defines a function: of C by its name at the begin of a line, of Python by its class and name."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        of = ast.parse(text).body
+        for part in name.split("."):
+            found = [n for n in of if isinstance(n, (ast.ClassDef, ast.FunctionDef)) and n.name == part]
+            if not found:
+                return False
+            of = found[0].body
+        return True
+    return bool(re.search(rf"^[a-z][\w \*]*[ \*]{name}\([^;]*?\)\s*\{{", text, re.MULTILINE))
 
 
 class Papers(unittest.TestCase):
     def test_every_item(self):
-        self.assertEqual({(r["paper"], r["item"]) for r in rows()}, ITEMS)
+        for paper, items in ITEMS.items():
+            self.assertEqual({r["item"] for r in rows() if r["paper"] == paper}, set(items.split("|")))
+        self.assertEqual({r["paper"] for r in rows()}, set(ITEMS))
+
+    def test_every_figure(self):
+        for paper, count in FIGURES.items():
+            found = {n for r in rows() if r["paper"] == paper and r["item"].startswith("Fig") for n in numbers(r["item"])}
+            self.assertEqual(found, set(map(str, range(1, count + 1))), paper)
 
     def test_status_and_reason(self):
         for r in rows():
             self.assertIn(r["status"], STATUSES, r)
             self.assertTrue(r["claim"] and (r["why"] or r["status"] == "reproduced"), r)
+            self.assertEqual(r["status"] == "open", r["why"].startswith("missing: "), r)
 
     def test_cases_parameters_and_cells(self):
         defaults = pack.read_defaults(REFERENCE / "defaults.csv")
         for r in rows():
+            self.assertTrue((ROOT / "cases" / (r["case"] + ".c")).is_file(), r)
             pack.parameter_hash(defaults[r["case"]], r["parameters"], f"papers.csv: {r['item']}")
             given = [bool(r[name]) for name in ("formulation", "elements", "quantity")]
             self.assertIn(sum(given), (0, 3), r)
+            if r["formulation"]:
+                self.assertTrue((ROOT / "elements" / (r["formulation"].split(":")[0] + ".c")).is_file(), r)
 
     def test_contradicted_numbers_are_errata(self):
         errata = (REFERENCE / "ERRATA.md").read_text(encoding="utf-8")
         for r in (
             r
             for r in rows()
-            if r["status"] == "contradicted" and r["item"].startswith(("Table", "App"))
+            if r["status"] == "contradicted" and r["item"].startswith(("Table", "App", "Fig. 3"))
         ):
             self.assertIn(f"{r['paper']} {r['item']}", errata, r)
+
+
+class Equations(unittest.TestCase):
+    def test_every_equation_once_a_set_or_a_reason(self):
+        for paper, printed in EQUATIONS.items():
+            of = [r for r in rows("equations.csv") if r["paper"] == paper]
+            used = {n for r in of if r["file"] for n in numbers(r["equations"])}
+            unused = [n for r in of if not r["file"] for n in numbers(r["equations"])]
+            self.assertEqual(used | set(unused), printed, paper)
+            self.assertEqual(used & set(unused), set(), paper)
+            self.assertEqual(len(unused), len(set(unused)), paper)
+        self.assertEqual({r["paper"] for r in rows("equations.csv")}, set(EQUATIONS))
+
+    def test_a_set_has_all_and_a_reason_nothing_else(self):
+        for r in rows("equations.csv"):
+            self.assertTrue(r["what"], r)
+            given = [bool(r[name]) for name in ("file", "name", "test", "by")]
+            self.assertEqual(sum(given), 0 if r["why"] else 4, r)
+
+    def test_files_and_functions(self):
+        for r in (r for r in rows("equations.csv") if r["file"]):
+            self.assertFalse("/test/" in r["file"], r)
+            self.assertTrue(defines(ROOT / r["file"], r["name"]), r)
+
+    def test_tests_run_and_reach_it(self):
+        for r in (r for r in rows("equations.csv") if r["file"]):
+            path, _, name = r["test"].partition("::")
+            self.assertTrue(any(fnmatch.fnmatch(path, pattern) for pattern in RUN), r)
+            self.assertTrue(defines(ROOT / path, name), r)
+            text = (ROOT / path).read_text(encoding="utf-8")
+            self.assertTrue(r["by"] in text, r)
+            if path.endswith(".c"):  # called, not only defined
+                self.assertGreater(len(re.findall(rf"\b{name}\(", text)), 1, r)
+            else:
+                self.assertTrue(name.split(".")[1].startswith("test_"), r)
+
+    def test_what_is_not_defined_is_noticed(self):
+        self.assertFalse(defines(ROOT / "elements/beamw/stiffness.c", "beamw_stiffness"))
+        self.assertFalse(defines(ROOT / "elements/beamw/modified.h", "beamw_modified_printed"))
+        self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
 
 
 if __name__ == "__main__":
