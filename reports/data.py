@@ -116,9 +116,18 @@ def mark(series, declared):
         mesh.cost = math.nan
 
 
+def read_assumptions(group):
+    """{point: [(kind, what is assumed of a section)]}"""
+    found = {}
+    for row in rows(group, "assumptions") if "assumptions" in group else []:
+        found.setdefault(row["point"], []).append((row["kind"], row["text"]))
+    return found
+
+
 def read_points(group, meshes, units, noise):
     series, points = {}, []
     omitted = {row["point"]: row.get("omitted", "") for row in rows(group, "cells")}
+    assumed = read_assumptions(group)
     for row in rows(group, "series"):
         series[of_series(row)] = Series(row["formulation"], row["summary"], row["source"],
                                         row["missing"], [], [], row.get("imported", ""),
@@ -138,7 +147,8 @@ def read_points(group, meshes, units, noise):
         ours, others = [s for s in own if not s.imported], [s for s in own if s.imported]
         points.append(
             Point(row["point"], row["parameters"], ours, units.get(row["point"], {}), others,
-                  noise, omitted=omitted.get(row["point"], "")))
+                  noise, omitted=omitted.get(row["point"], ""),
+                  assumed=assumed.get(row["point"], [])))
     return sorted(points, key=lambda p: (p.name != "default", p.parameters))
 
 

@@ -138,6 +138,7 @@ class Point:
     scene: str = ""  # as a scene file
     meanings: dict = field(default_factory=dict)  # quantity -> what it is, in one line
     omitted: str = ""  # physics that the scene leaves out, in words
+    assumed: list = field(default_factory=list)  # (kind, what is assumed of a section)
 
 
 @dataclass

@@ -47,9 +47,19 @@ typedef enum section_kind {
     SECTION_MATRICES
 } section_kind;
 
+/* Constants of SECTION_CONSTANTS that are zero because a scene says so. */
+typedef enum section_zero {
+    SECTION_ZERO_SHEAR = 1 << 0,    /* D or F */
+    SECTION_ZERO_WARPING = 1 << 1,  /* Iw */
+    SECTION_ZERO_WAGNER_Y = 1 << 2, /* wagner_y */
+    SECTION_ZERO_WAGNER_Z = 1 << 3, /* wagner_z */
+    SECTION_ZERO_WAGNER_TORQUE = 1 << 4
+} section_zero;
+
 /* What a scene says of a section; section_compute turns it into constants. */
 typedef struct section_spec {
     section_kind kind;
+    unsigned zeros;                       /* SECTION_ZERO_... */
     double young, shear_modulus, density; /* [Pa, Pa, kg/m^3] */
     int points, walls;
     int cells; /* that the walls close; a wall that closes another one is refused */

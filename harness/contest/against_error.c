@@ -15,10 +15,12 @@
 #include "harness/judge/reach.h"
 #include "harness/judge/rounding.h"
 #include "harness/judge/sentence.h"
+#include "harness/record/json.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 #include "harness/tables/paragraph.h"
+#include "harness/tables/table.h"
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
@@ -123,6 +125,7 @@ static void show(const duel *d, const bout m[])
 {
     char line[LINE] = "";
     fputs(d->note, stdout);
+    table_omitted(stdout, &d->s.point[0]);
     for (int q = 0; q < d->s.point[0].scene.quantities; q++)
         if (meeting_asks(&d->s, &d->t, q))
             snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s",
@@ -168,6 +171,7 @@ static void show_json(const duel *d, const bout m[])
     json_t *root = json_pack("{s:s,s:s,s:s,s:o,s:o}", "case", d->s.point[0].type->name, "a",
                              d->s.series[0].formulation.key, "b", d->s.series[1].formulation.key,
                              "quantities", names, "comparisons", list);
+    json_add_physics(root, &d->s.point[0]);
     json_dumpf(root, stdout, JSON_INDENT(1));
     putchar('\n');
     json_decref(root);

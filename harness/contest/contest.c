@@ -9,41 +9,48 @@
 #include "harness/command/message.h"
 #include "harness/contest/against_error.h"
 #include "harness/contest/contestant.h"
+#include "harness/record/json.h"
+#include "harness/tables/table.h"
 
-static void show(const command_request *r, const contestant *a, const contestant *b,
+static void show(const command_request *r, const point *p, const contestant *a, const contestant *b,
                  const against *v)
 {
     if (r->format[0] != 'j') {
+        table_omitted(stdout, p);
         contestant_show(a, b, v);
         return;
     }
     json_t *root = contestant_json(a, b, v);
+    json_add_physics(root, p);
     json_dumpf(root, stdout, JSON_INDENT(1));
     putchar('\n');
     json_decref(root);
 }
 
-/* Another build at equal n: both are programs, so that both start alike. */
-static status against_program(command_request *r, const case_type *type, fault *f)
+/* What both are asked for. Its scene is freed by who built it. */
+static point point_of(const command_request *r, const case_type *type, const scene *s)
+{
+    point p = {.type = type, .scene = *s, .status = STATUS_OK};
+    memcpy(p.parameter, r->parameter, sizeof p.parameter);
+    return p;
+}
+
+/* Another build at equal n: both are programs, so that both start alike. The scene is freed by
+ * against_meshes. */
+static status against_program(const command_request *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
     against answer;
-    char note[DEFAULTS_NOTE];
-    if (r->plant > 0 || r->meshes > 1)
-        return fault_set(f, STATUS_REFUSED,
-                         "--plant and a second mesh are for another formulation "
-                         "in the same program");
-    TRY(defaults_fill(r, type, note, f));
-    if (r->format[0] == 't')
-        fputs(note, stdout);
+    TRY(cell_scene(type, r->parameter, NULL, s, f));
     contestant_elsewhere(&a, r, "/proc/self/exe");
     contestant_elsewhere(&b, r, r->against);
     TRY(contestant_compete(&a, &b, &answer, f));
-    show(r, &a, &b, &answer);
+    const point p = point_of(r, type, s);
+    show(r, &p, &a, &b, &answer);
     return STATUS_OK;
 }
 
-/* With the scene of both, which against_meshes frees. */
+/* Another formulation. */
 static status compete(const command_request *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
@@ -55,19 +62,20 @@ static status compete(const command_request *r, const case_type *type, scene *s,
     contestant_here(&b, r, s, &other, r->mesh[r->meshes - 1]);
     b.plant = r->plant;
     TRY(contestant_compete(&a, &b, &answer, f));
-    show(r, &a, &b, &answer);
+    const point p = point_of(r, type, s);
+    show(r, &p, &a, &b, &answer);
     return STATUS_OK;
 }
 
-/* Another formulation at given meshes: A's and B's. */
-static status against_meshes(command_request *r, const case_type *type, fault *f)
+/* At given meshes: A's and B's. */
+static status against_meshes(command_request *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};
     char note[DEFAULTS_NOTE];
     TRY(defaults_fill(r, type, note, f));
     if (r->format[0] == 't')
         fputs(note, stdout);
-    const status outcome = compete(r, type, &s, f);
+    const status outcome = (is_program ? against_program : compete)(r, type, &s, f);
     scene_free(&s);
     return outcome;
 }
@@ -82,14 +90,16 @@ static status against_other(command_request *r, const case_type *type, fault *f)
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
                          "another program is compared at equal n: leave --error and -k away");
-    if (is_program)
-        return against_program(r, type, f);
-    if (r->meshes == 0)
+    if (is_program && (r->plant > 0 || r->meshes > 1))
+        return fault_set(f, STATUS_REFUSED,
+                         "--plant and a second mesh are for another formulation "
+                         "in the same program");
+    if (r->meshes == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
                          "--error and -k find the meshes by themselves: leave -n away");
-    return against_meshes(r, type, f);
+    return against_meshes(r, type, is_program, f);
 }
 
 int contest_run(command_request *r)

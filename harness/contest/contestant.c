@@ -250,8 +250,12 @@ json_t *contestant_json(const contestant *a, const contestant *b, const against 
     for (int i = 0; i < a->counts; i++)
         json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a",
                                               a->count[i], "b", b->count[i]));
-    return json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:o}", "a", a->name, "b", b->name,
-                     "seconds_a", v->a / a->repeats, "seconds_b", v->b / b->repeats, "ratio",
-                     v->ratio, "low", v->low, "high", v->high, "pairs", v->pairs, "outcome",
-                     outcome_of(a, b, v), "work", work);
+    char lacks[2][OMIT_WORDS];
+    lacking(a, lacks[0]);
+    lacking(b, lacks[1]);
+    return json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:s,s:s,s:o}", "a", a->name, "b",
+                     b->name, "seconds_a", v->a / a->repeats, "seconds_b", v->b / b->repeats,
+                     "ratio", v->ratio, "low", v->low, "high", v->high, "pairs", v->pairs,
+                     "outcome", outcome_of(a, b, v), "not_modelled_a", lacks[0], "not_modelled_b",
+                     lacks[1], "work", work);
 }

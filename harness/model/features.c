@@ -139,6 +139,16 @@ unsigned features_omitted(const scene *s)
     return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
 }
 
+/* Physics that a section by its constants says to be zero. */
+static unsigned features_zero(const section_spec *spec)
+{
+    const unsigned zeros = spec->zeros, moments = SECTION_ZERO_WAGNER_Y | SECTION_ZERO_WAGNER_Z;
+    return (zeros & SECTION_ZERO_SHEAR ? FEATURE_SHEAR : 0) |
+           (zeros & SECTION_ZERO_WARPING ? FEATURE_WARPING : 0) |
+           ((zeros & moments) == moments ? FEATURE_WAGNER_MOMENTS : 0) |
+           (zeros & SECTION_ZERO_WAGNER_TORQUE ? FEATURE_WAGNER_TORQUE : 0);
+}
+
 unsigned features_not_given(const scene *s, int section_index)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE,
@@ -150,7 +160,8 @@ unsigned features_not_given(const scene *s, int section_index)
     if (c.matrices) {
         out |= higher;
     } else if (s->section[section_index].kind == SECTION_CONSTANTS) {
-        const unsigned has = needs_of_constants(&c, ~0U);
+        const unsigned has =
+            needs_of_constants(&c, ~0U) | features_zero(&s->section[section_index]);
         const int symmetric = !features_eccentric(&c);
         out = (FEATURE_SHEAR | FEATURE_WARPING | FEATURE_WAGNER_TORQUE |
                (symmetric ? 0 : FEATURE_WAGNER_MOMENTS)) &

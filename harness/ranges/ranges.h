@@ -37,6 +37,7 @@ typedef struct ranges_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
 } ranges_quantity;
 
+enum { RANGES_ASSUMED = 2048 };
 typedef struct ranges {
     ranges_request request;
     double base[CASE_MAX_PARAMETERS];
@@ -49,6 +50,7 @@ typedef struct ranges {
     char left_out[FAULT_TEXT]; /* formulations that run at no point that was looked at, in words */
     char
         omitted[SCENE_OMISSION_WORDS]; /* physics that the scene leaves out, at the first of them */
+    char assumed[RANGES_ASSUMED];      /* of its sections (harness/schema/assumptions.h), there */
     long points_in_batch;              /* but for the last one */
     int batches;
     double point_cost; /* [s] about, of all cells of a point */

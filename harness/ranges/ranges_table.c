@@ -48,6 +48,8 @@ void ranges_table_head(FILE *to, const ranges *r)
         write_axis(to, r, i);
     if (r->omitted[0] != '\0')
         paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->omitted);
+    if (r->assumed[0] != '\0')
+        paragraph_write(to, fprintf(to, "  "), 4, r->assumed);
     if (r->left_out[0] != '\0')
         paragraph_say(to, fprintf(to, "  left out: "), 4, "%s", r->left_out);
 }

@@ -9,6 +9,7 @@
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/ranges/ranges_points.h"
+#include "harness/schema/assumptions.h"
 #include "harness/study/expense.h"
 #include "harness/study/plan.h"
 
@@ -145,6 +146,7 @@ static status judge(ranges *r, const sweep *s, fault *f)
                          s->point[0].reason);
     TRY(check_words(&w, &s->point[known], f));
     scene_omission_words(features_omitted(&s->point[known].scene), r->omitted);
+    assumptions_words(&s->point[known], sizeof r->assumed, r->assumed);
     take_meshes(r, s);
     return keep_running(r, &w, f);
 }

@@ -100,17 +100,20 @@ status json_finish(json_t *root, FILE *to, fault *f)
     return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
 }
 
-/* What the scene leaves out, and the theory of shear in stability that values follow. */
-static void add_physics(json_t *root, const scene *s, const element_type *type)
+void json_add_physics(json_t *root, const point *p)
 {
-    json_t *omitted = json_array();
-    const unsigned features = features_omitted(s);
+    json_t *omitted = json_array(), *assumptions = json_array();
+    const unsigned features = p->status == STATUS_OK ? features_omitted(&p->scene) : 0;
+    subjects list = {0};
     for (const scene_omission *o = scene_omissions; o->word != NULL; o++)
         if (features & o->feature)
             json_array_append_new(omitted, json_string(o->word));
+    gather_assumptions(p, &list);
+    for (int i = 0; i < list.count; i++)
+        json_record_add(assumptions, &record_assumption, &list.row[i], 0);
+    gather_free(&list);
     json_object_set_new(root, "omitted", omitted);
-    json_object_set_new(root, "shear_theory",
-                        json_string(features_theory_words(type, features_theory(s, type))));
+    json_object_set_new(root, record_assumption.table, assumptions);
 }
 
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
@@ -127,7 +130,10 @@ status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
                           parameters = parameters_list(cell.point->type);
     json_object_set_new(root, "options", values_of(&options, chosen->option));
     json_object_set_new(root, "parameters", values_of(&parameters, cell.point->parameter));
-    add_physics(root, &cell.point->scene, chosen->type);
+    json_add_physics(root, cell.point);
+    json_object_set_new(root, "shear_theory",
+                        json_string(features_theory_words(
+                            chosen->type, features_theory(&cell.point->scene, chosen->type))));
     json_object_set_new(root, record_cell.name, json_record(&record_cell, &cell, 0));
     add_quantities(root, &g);
     add_curves(root, &g);
@@ -179,6 +185,19 @@ void json_part_free(json_part *part)
     *part = (json_part){.verdicts = 0};
 }
 
+/* Of all points. */
+static json_t *assumptions_of(const sweep *s)
+{
+    json_t *all = json_array();
+    subjects list = {0};
+    for (int i = 0; i < s->points; i++)
+        gather_assumptions(&s->point[i], &list);
+    for (int i = 0; i < list.count; i++)
+        json_record_add(all, &record_assumption, &list.row[i], KEY_AROUND);
+    gather_free(&list);
+    return all;
+}
+
 /* All but the verdicts. */
 static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
 {
@@ -207,6 +226,7 @@ static json_t *around_verdicts(const sweep *s, const judgement *j, const environ
     json_object_set_new(root, record_verdict.table, json_array());
     json_object_set_new(root, record_agreement.table, agreements);
     json_object_set_new(root, record_coverage.table, coverages);
+    json_object_set_new(root, record_assumption.table, assumptions_of(s));
     return root;
 }
 

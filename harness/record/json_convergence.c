@@ -141,8 +141,10 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
         json_object_set_new(out, record_curve.table, curves_of(s, one));
         json_array_append_new(all, out);
     }
-    return json_finish(json_pack("{s:i,s:o,s:f,s:o,s:o}", "schema_version", SCHEMA_VERSION,
-                                 record_series.table, all, "level", level, "answers",
-                                 answers_of(s, t, level), "sentence", sentence_of(s, t, level)),
-                       to, f);
+    json_t *root = json_pack("{s:i,s:o,s:f,s:o,s:o}", "schema_version", SCHEMA_VERSION,
+                             record_series.table, all, "level", level, "answers",
+                             answers_of(s, t, level), "sentence", sentence_of(s, t, level));
+    if (root != NULL)
+        json_add_physics(root, &s->point[0]);
+    return json_finish(root, to, f);
 }

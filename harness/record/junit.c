@@ -5,6 +5,7 @@
 #include "cases/scene/omission.h"
 #include "harness/judge/sentence.h"
 #include "harness/model/features.h"
+#include "harness/schema/assumptions.h"
 
 static void escaped(FILE *to, const char *text)
 {
@@ -40,6 +41,14 @@ static void property_omitted(FILE *to, const point *p)
         scene_omission_words(features_omitted(&p->scene), words);
     if (words[0] != '\0')
         fprintf(to, "   <property name=\"omitted\" value=\"%s\"/>\n", words);
+    assumption a;
+    for (int i = 0; assumptions_at(p, i, &a); i++) {
+        fputs("   <property name=\"", to);
+        escaped(to, assumptions_kind(a.kind));
+        fputs("\" value=\"", to);
+        escaped(to, a.text);
+        fputs("\"/>\n", to);
+    }
 }
 
 static double seconds_of(const series *one)

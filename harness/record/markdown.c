@@ -6,6 +6,7 @@
 #include "cases/scene/omission.h"
 #include "harness/judge/sentence.h"
 #include "harness/model/features.h"
+#include "harness/schema/assumptions.h"
 
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
 
@@ -176,6 +177,26 @@ static void write_omitted(FILE *to, const sweep *s)
         fprintf(to, "\n</details>\n");
 }
 
+/* What is assumed of their sections. */
+static void write_assumed(FILE *to, const sweep *s)
+{
+    int lines = 0;
+    for (int i = 0; i < s->points; i++) {
+        const point *p = &s->point[i];
+        assumption a;
+        for (int k = 0; assumptions_at(p, k, &a); k++) {
+            if (lines++ == 0)
+                fprintf(to, "\n<details><summary>Assumed of sections</summary>\n\n");
+            fprintf(to, "- %s", p->type->name);
+            if (p->text[0] != '\0')
+                fprintf(to, " (%s)", p->text);
+            fprintf(to, ": %s: %s\n", assumptions_kind(a.kind), a.text);
+        }
+    }
+    if (lines > 0)
+        fprintf(to, "\n</details>\n");
+}
+
 static const char *words_before(const sweep *s)
 {
     if (s->unfinished == 0)
@@ -213,6 +234,7 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     write_unexpected(to, s, j);
     write_overview(to, o);
     write_omitted(to, s);
+    write_assumed(to, s);
     fprintf(to, "\n<details><summary>Verdicts by formulation</summary>\n");
     write_formulations(to, s, j);
     fprintf(to, "\n</details>\n");

@@ -139,7 +139,8 @@ static void put_records(record *r, hid_t at, const gathering *g, const record_ty
         put_points(r, at, of, &list);
     else if (type == &record_scene)
         put_scenes(r, at, &list);
-    else if (!r->bad && (type != &record_motion || list.count > 0)) /* few cases move */
+    else if (!r->bad && ((type != &record_motion && type != &record_assumption) || /* few have */
+                         list.count > 0))
         record_rows_of_type(r, at, type, list.count, list.row);
     if (type == &record_curve)
         put_curves(r, at, &list);

@@ -76,6 +76,14 @@ static void read_tube(const fields *f, section_spec *spec)
     spec->wall_thickness = fields_number(&sizes, "thickness", 1);
 }
 
+static int are_zero(int count, const double value[])
+{
+    int i = 0;
+    while (i < count && value[i] == 0)
+        i++;
+    return i == count;
+}
+
 static void read_constants(const fields *f, section_spec *spec)
 {
     const fields those = fields_below(f, "constants");
@@ -94,6 +102,20 @@ static void read_constants(const fields *f, section_spec *spec)
     c->wagner_torque = fields_number(&those, "wagner_torque", 0);
     fields_vector(&those, "D", 9, c->D);
     fields_vector(&those, "F", 9, c->F);
+    const struct {
+        const char *key;
+        section_zero what;
+        const double *value;
+        int count;
+    } all[] = {{"D", SECTION_ZERO_SHEAR, c->D, 9},
+               {"F", SECTION_ZERO_SHEAR, c->F, 9},
+               {"Iw", SECTION_ZERO_WARPING, &c->Iw, 1},
+               {"wagner_y", SECTION_ZERO_WAGNER_Y, &c->wagner_y, 1},
+               {"wagner_z", SECTION_ZERO_WAGNER_Z, &c->wagner_z, 1},
+               {"wagner_torque", SECTION_ZERO_WAGNER_TORQUE, &c->wagner_torque, 1}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (fields_have(&those, all[i].key) && are_zero(all[i].count, all[i].value))
+            spec->zeros |= all[i].what;
 }
 
 static void read_given(const fields *f, section_spec *spec)

@@ -3,8 +3,16 @@
 
 #include "harness/scene_writer/write_impl.h"
 
-static void write_constants(writer *w, const section *c)
+/* Zero where nothing else is said, and nothing was. */
+static void write_unless_zero(writer *w, const section_spec *spec, section_zero what,
+                              const char *key, double value)
 {
+    write_values_if(w, key, value, spec->zeros & (unsigned)what ? NAN : 0);
+}
+
+static void write_constants(writer *w, const section_spec *spec)
+{
+    const section *c = &spec->constants;
     fputs("constants: {A: ", w->to);
     write_values_number(w, c->A);
     const struct {
@@ -13,15 +21,15 @@ static void write_constants(writer *w, const section *c)
     } needed[] = {{"Iy", c->Iy}, {"Iz", c->Iz}, {"It", c->It}, {"Ip", c->Ip}};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         write_values_if(w, needed[i].key, needed[i].value, NAN);
-    write_values_if(w, "Iw", c->Iw, 0);
+    write_unless_zero(w, spec, SECTION_ZERO_WARPING, "Iw", c->Iw);
     write_values_if(w, "ys", c->ys, 0);
     write_values_if(w, "zs", c->zs, 0);
-    write_values_if(w, "wagner_y", c->wagner_y, 0);
-    write_values_if(w, "wagner_z", c->wagner_z, 0);
-    write_values_if(w, "wagner_torque", c->wagner_torque, 0);
+    write_unless_zero(w, spec, SECTION_ZERO_WAGNER_Y, "wagner_y", c->wagner_y);
+    write_unless_zero(w, spec, SECTION_ZERO_WAGNER_Z, "wagner_z", c->wagner_z);
+    write_unless_zero(w, spec, SECTION_ZERO_WAGNER_TORQUE, "wagner_torque", c->wagner_torque);
     /* which of the two is taken: see section_compute */
     const int by_D = c->F[0] == 0 && c->D[0] != 0;
-    if (write_values_any(9, by_D ? c->D : c->F)) {
+    if (write_values_any(9, by_D ? c->D : c->F) || (spec->zeros & SECTION_ZERO_SHEAR)) {
         fputs(by_D ? ", D: " : ", F: ", w->to);
         write_values_numbers(w, 9, by_D ? c->D : c->F);
     }
@@ -111,7 +119,7 @@ void write_sections(writer *w)
         else if (spec->kind == SECTION_TUBE)
             write_tube(w, spec);
         else
-            write_constants(w, &spec->constants);
+            write_constants(w, spec);
         write_given(w, spec);
         write_values_if(w, "young", spec->young, NAN);
         write_values_if(w, "shear_modulus", spec->shear_modulus, NAN);

@@ -132,6 +132,8 @@ static const schema_field fields_of_cell[] = {
     {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
     {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
      .get = fields_keys_omitted},
+    {"assumed", "", FIELD_TEXT, "of its sections: see the table 'assumptions'",
+     .get = fields_keys_assumed},
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
     {"warping", "", FIELD_TEXT, "which ends of members hold it, share it, leave it free",
      .get = get_warping},

@@ -4,6 +4,7 @@
 
 #include "cases/scene/omission.h"
 #include "harness/model/features.h"
+#include "harness/schema/assumptions.h"
 
 static void get_elements(const subject *s, field_value *out)
 {
@@ -60,9 +61,20 @@ void fields_keys_omitted(const subject *s, field_value *out)
     out->text = out->room;
 }
 
+void fields_keys_assumed(const subject *s, field_value *out)
+{
+    assumptions_words(s->point, sizeof out->room, out->room);
+    out->text = out->room;
+}
+
 static const schema_field field_omitted[] = {
     {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
      .get = fields_keys_omitted},
+    {"assumed", "", FIELD_TEXT, "of its sections: see the table 'assumptions'",
+     .get = fields_keys_assumed},
     {0}};
 const record_type record_omission = {
-    "omission", "", "what the scene of a value leaves out", {field_omitted}};
+    "omission",
+    "",
+    "what the scene of a value leaves out, and what is assumed of it",
+    {field_omitted}};

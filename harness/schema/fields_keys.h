@@ -22,4 +22,7 @@ const cell_result *fields_keys_cell(const subject *s);
 /* What the scene leaves out, in words. */
 void fields_keys_omitted(const subject *s, field_value *out);
 
+/* What is assumed of its sections, in words. */
+void fields_keys_assumed(const subject *s, field_value *out);
+
 #endif

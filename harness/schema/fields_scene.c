@@ -1,9 +1,13 @@
-/* Records of what a case is made of: its scenes, parameters, and what its quantities mean. */
+/* Records of what a case is made of: its scenes, parameters, what its quantities mean,
+ * and what is assumed of its sections. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 
+#include "cases/scene/names.h"
 #include "harness/catalogue/assignment.h"
 #include "harness/scene_writer/meaning.h"
+#include "harness/schema/assumptions.h"
 #include "harness/schema/fields_keys.h"
 
 static const schema_field fields_of_scene[] = {
@@ -73,6 +77,52 @@ static const schema_field fields_of_parameter[] = {
     {0}};
 const record_type record_parameter = {
     "parameter", "parameters", "what can be set of a case", {key_of_case, fields_of_parameter}};
+
+static void get_kind(const subject *s, field_value *out)
+{
+    assumption a = {.kind = ASSUMPTION_KINDS};
+    assumptions_at(s->point, s->index, &a);
+    out->whole = (long)a.kind;
+}
+
+static void get_section(const subject *s, field_value *out)
+{
+    assumption a;
+    const int found = assumptions_at(s->point, s->index, &a);
+    snprintf(out->room, sizeof out->room, "%s",
+             found ? scene_name(&s->point->scene, SCENE_SECTIONS, a.section).text : "");
+    out->text = out->room;
+}
+
+static void get_physics(const subject *s, field_value *out)
+{
+    assumption a = {.physics = ""};
+    assumptions_at(s->point, s->index, &a);
+    snprintf(out->room, sizeof out->room, "%s", a.physics);
+    out->text = out->room;
+}
+
+static void get_assumption(const subject *s, field_value *out)
+{
+    assumption a = {.text = ""};
+    assumptions_at(s->point, s->index, &a);
+    snprintf(out->room, sizeof out->room, "%s", a.text);
+    out->text = out->room;
+}
+
+static const schema_field fields_of_assumption[] = {
+    {"kind", "", FIELD_ENUM,
+     "not known: the numbers of the section do not say it; not modelled: no formulation has it",
+     .get = get_kind, .word = assumptions_kind, .words = ASSUMPTION_KINDS},
+    {"section", "", FIELD_TEXT, "name of the section", .get = get_section},
+    {"physics", "", FIELD_TEXT, "of what, in words of 'omit'; empty: none of these",
+     .get = get_physics},
+    {"text", "", FIELD_TEXT, "what is assumed, in words", .get = get_assumption},
+    {0}};
+const record_type record_assumption = {"assumption",
+                                       "assumptions",
+                                       "what is assumed of a section of a scene of one's own",
+                                       {keys_of_point, fields_of_assumption}};
 
 static void get_meaning(const subject *s, field_value *out)
 {

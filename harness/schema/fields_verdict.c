@@ -110,6 +110,8 @@ static const schema_field fields_of_verdict[] = {
     {"model_error", "1", FIELD_DOUBLE, "of the limit against it", AT(verdict, model_error)},
     {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
      .get = fields_keys_omitted},
+    {"assumed", "", FIELD_TEXT, "of its sections: see the table 'assumptions'",
+     .get = fields_keys_assumed},
     {"reach_10", "1", FIELD_INT, "elements from which on every mesh is within 10 %; 0: none",
      .get = get_reach},
     {"reach_1", "1", FIELD_INT, "the same, 1 %", .offset = 1, .get = get_reach},

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/schema/assumptions.h"
 #include "harness/timing/timing.h"
 
 static void add(subjects *list, const subject *one)
@@ -227,6 +228,13 @@ static void gather_meanings(subject s, subjects *out)
         add(out, &s);
 }
 
+void gather_assumptions(const point *p, subjects *out)
+{
+    assumption a;
+    for (subject s = {.point = p, .record = p}; assumptions_at(p, s.index, &a); s.index++)
+        add(out, &s);
+}
+
 /* Of the first point, or of all. */
 static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
                              subjects *out)
@@ -238,6 +246,8 @@ static void gather_of_points(const gathering *g, const record_type *type, const 
         gather_parameters(points.row[0], out);
     for (int i = 0; i < points.count && type == &record_meaning; i++)
         gather_meanings(points.row[i], out);
+    for (int i = 0; i < points.count && type == &record_assumption; i++)
+        gather_assumptions(points.row[i].point, out);
     gather_free(&points);
 }
 
@@ -286,7 +296,7 @@ void gather_case(const gathering *g, const record_type *type, const case_type *o
 {
     if (type == &record_point || type == &record_scene)
         gather_points(g, of, out);
-    if (type == &record_parameter || type == &record_meaning)
+    if (type == &record_parameter || type == &record_meaning || type == &record_assumption)
         gather_of_points(g, type, of, out);
     if (type == &record_agreement)
         gather_agreements(g, of, out);

@@ -97,7 +97,7 @@ typedef struct record_type {
 extern const record_type record_point, record_series, record_cell, record_quantity, record_curve,
     record_step, record_iteration, record_event, record_motion, record_matrix, record_timing,
     record_verdict, record_agreement, record_coverage, record_import, record_scene,
-    record_parameter, record_meaning;
+    record_parameter, record_meaning, record_assumption;
 extern const record_type *const record_types[]; /* all of them; ends with NULL */
 extern const record_type record_omission;       /* of a value, in the CSV of a solution only */
 extern const record_type record_truth;          /* of a quantity, in JSON only */

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
 #include "cases/scene/omission.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/judge/rounding.h"
 #include "harness/model/features.h"
+#include "harness/schema/assumptions.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 
@@ -65,29 +65,16 @@ static unsigned omitted_by_source(const point *p)
     return omitted;
 }
 
-/* Scenes of one's own: a built-in case has from its source what there is. */
-static void not_given(FILE *to, const point *p)
+static void assumed(FILE *to, const point *p)
 {
-    for (int i = 0; i < p->scene.sections && p->type->file != NULL; i++) {
-        char words[SCENE_OMISSION_WORDS];
-        const scene_words name = scene_name(&p->scene, SCENE_SECTIONS, i);
-        scene_omission_words(features_not_given(&p->scene, i), words);
-        if (words[0] != '\0')
-            paragraph_say(to, fprintf(to, "not known: "), INDENT,
-                          "%s of section %s, whose numbers say nothing of it: taken as zero", words,
-                          name.text);
-        if (features_one_sided(&p->scene, i))
-            paragraph_say(to, fprintf(to, "not modelled: "), INDENT,
-                          "what the bimoment of section %s does to its torsion (int omega r^2 dA, "
-                          "which is not zero there): where warping is restrained, twists to either "
-                          "side differ",
-                          name.text);
-    }
+    assumption a;
+    for (int i = 0; assumptions_at(p, i, &a); i++)
+        paragraph_write(to, fprintf(to, "%s: ", assumptions_kind(a.kind)), INDENT, a.text);
 }
 
 void table_omitted(FILE *to, const point *p)
 {
-    not_given(to, p);
+    assumed(to, p);
     const int whole = case_omits_nothing(p->type, p->parameter);
     char words[SCENE_OMISSION_WORDS];
     scene_omission_words(whole ? omitted_by_source(p) : features_omitted(&p->scene), words);

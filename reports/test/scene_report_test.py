@@ -34,6 +34,21 @@ class SceneReport(ProgramTest):
         self.assertEqual(sum(abs(value / tip - 1) < 1e-3 for value in found), 2, found)
         self.assertIn("<details open><summary>Limits of quantities without a truth", page)
 
+    def test_what_is_assumed(self):
+        """What numbers of a section do not say stands on its page, in the words of the terminal."""
+        scene, results, site = (self.folder / name for name in ("bar.yaml", "bar.h5", "site"))
+        text = re.sub("rectangle: {[^}]*}", "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8, Iw: 0}",
+                      LEAF, count=1)
+        self.assertNotEqual(text, LEAF)
+        scene.write_text(text, encoding="utf-8")
+        done = run("verify", "--scene", scene, "-f", "beamw", "-o", results)
+        self.assertEqual(done.returncode, 3, done)
+        drawn = report(results, site)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        page = (site / "bar.html").read_text(encoding="utf-8")
+        self.assertIn("<p class=\"small\">Not known: shear of section leaf, whose numbers say nothing of it: taken as"
+                      " zero.</p>", page)
+
     def test_motion_without_summary(self):
         """Only what a file must say is there: pages and film say nothing in the place of the rest."""
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))

@@ -1,6 +1,11 @@
 """The parameter `omit` of built-in cases: their sources leave physics out, omit=none has all of it, and what is stored
 of a case does not speak of that."""
+import csv
+import io
+import json
 import re
+
+import h5py
 
 from harness.scene_file.test.scene_case import SceneCase, values
 
@@ -130,6 +135,75 @@ quantities:
             said = " ".join(self.answered("solve", "--scene", scene).stdout.split())
             self.assertEqual("not modelled: what the bimoment of section zed does to its torsion" in said, told,
                              (flange, analysis, more))
+
+    BAR = """\
+beamwork: 1
+parameters: {{load: {{value: 10, unit: N}}}}
+sections:
+  bar: {{constants: {{A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8{more}}}, young: 2e11, shear_modulus: 8e10}}
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [1, 0, 0]}}
+members:
+  bar: {{from: a, to: b, section: bar, y: [0, 1, 0]}}
+loads:
+  push: {{force: [0, load, 0], on: b}}
+analyses:
+  st: {{static: {{stations: [1]}}}}
+quantities:
+  u: {{displacement: {{analysis: st, node: b, component: uy}}, unit: m}}
+omit: [trapeze]
+"""
+
+    def test_assumptions_stand_everywhere(self):
+        """One list: text, CSV, JSON, HDF5, JUnit and Markdown."""
+        scene = ("--scene", self.scene(self.BAR.format(more=", Iw: 0")))
+        physics = "shear, wagner_torque"
+        said = physics + " of section bar, whose numbers say nothing of it: taken as zero"
+        line = "not known: " + said
+        one = {"kind": "not known", "section": "bar", "physics": physics, "text": said}
+        for words in (("solve", ), ("converge", ), ("bench", "-f", "beamw", "-n", 1),
+                      ("bench", "-f", "beamw", "-n", 1, "--against", "sheet_second"),
+                      ("sweep", "--vary", "load=1,2", "-f", "beamw", "-n", 1)):
+            text = " ".join(self.answered(words[0], *scene, *words[1:]).stdout.split())
+            self.assertEqual(text.count(line), 1, words)
+        for words in (("solve", ), ("converge", ), ("bench", "-f", "beamw", "-n", 1, "--against", "sheet_second"),
+                      ("bench", "-f", "beamw", "--against", "sheet_second", "--error", "1%"),
+                      ("bench", "-f", "beamw", "-n", 1, "--against", "build/beamwork")):
+            record = self.record(words[0], *scene, *words[1:])
+            self.assertEqual((record["omitted"], record["assumptions"]), (["trapeze"], [one]), words)
+        for words in (("solve", ), ("converge", "-n", "1,2")):
+            rows = list(csv.DictReader(io.StringIO(
+                self.answered(words[0], *scene, *words[1:], "--format", "csv").stdout)))
+            self.assertEqual({r["assumed"] for r in rows}, {line})
+        files = [self.folder / name for name in ("v.h5", "v.json", "j.xml", "m.md")]
+        self.answered("verify", *scene, "-f", "beamw", "-o", files[0], "--json", files[1], "--junit", files[2],
+                      "--markdown", files[3], code=3)
+        with h5py.File(files[0]) as file:
+            (case, ) = file["cases"].values()
+            (row, ) = case["assumptions"][()]
+            self.assertEqual({name: row[name].decode() for name in ("section", "physics", "text")},
+                             {name: one[name] for name in ("section", "physics", "text")})
+            self.assertEqual({c["assumed"].decode() for c in case["cells"][()]}, {line})
+        (row, ) = json.loads(files[1].read_text())["assumptions"]
+        self.assertLessEqual(one.items(), row.items())
+        self.assertIn(f'name="not known" value="{said}"', files[2].read_text())
+        self.assertIn(line, files[3].read_text())
+
+    def test_zero_that_is_given(self):
+        """What the scene says to be zero is known; it stays so in the scene that is written out."""
+        every = ", ".join("0" for _ in range(9))
+        for more, told in (("", "shear, warping, wagner_torque"), (", Iw: 0", "shear, wagner_torque"),
+                           (", wagner_torque: 0", "shear, warping"), (f", F: [{every}]", "warping, wagner_torque"),
+                           (f", D: [{every}]", "warping, wagner_torque"), (", Iw: 1 - 1, wagner_torque: 0", "shear"),
+                           (", ys: 0.01", "shear, wagner_moments, warping, wagner_torque"),
+                           (", ys: 0.01, wagner_y: 0", "shear, wagner_moments, warping, wagner_torque"),
+                           (", ys: 0.01, wagner_y: 0, wagner_z: 0", "shear, warping, wagner_torque"),
+                           (f", F: [{every}], Iw: 0, wagner_torque: 0", None)):
+            written = self.answered("scene", "--scene", self.scene(self.BAR.format(more=more))).stdout
+            for text in (self.BAR.format(more=more), written):
+                found = [a["physics"] for a in self.record("solve", "--scene", self.scene(text))["assumptions"]]
+                self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
     def test_no_truth(self):
         """None is stored, none is derived, no verdict is passed; the way to one is told."""

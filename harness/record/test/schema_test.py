@@ -15,6 +15,7 @@ from harness.test.program import ROOT, ProgramTest
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")
 OF_THE_RUN = ("declarations",)  # below the root, not below a case
+OF_SOME = ("motion", "assumptions")  # not there where a case has none
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
 
 
@@ -66,7 +67,7 @@ class Schema(ProgramTest):
                 for case in file["cases"].values():
                     for table, fields in self.records.items():
                         if table not in (*JSON_ONLY, *OF_THE_RUN) and \
-                                (table in case or table != "motion"):
+                                (table in case or table not in OF_SOME):
                             own = [f for f in fields if not f["said_around"]]
                             self.check_table(case[table], own)
                 for table in OF_THE_RUN:
@@ -90,9 +91,9 @@ class Schema(ProgramTest):
         """What the other tests walk over is not empty."""
         with h5py.File(self.results) as file:
             for table in self.records:
-                if table not in (*JSON_ONLY, *OF_THE_RUN, "timings", "agreements", "matrices", "imports"):
+                if table not in (*JSON_ONLY, *OF_THE_RUN, "timings", "agreements", "matrices", "imports", "assumptions"):
                     seen = sum(len(case[table]) for case in file["cases"].values()
-                               if table in case or table != "motion")
+                               if table in case or table not in OF_SOME)
                     self.assertGreater(seen, 0, table)
         with h5py.File(self.bench) as file:
             self.assertEqual(len(file["cases/elastica/timings"]), 2)
@@ -216,7 +217,7 @@ class Schema(ProgramTest):
             written = run(verb, "elastica", "-f", "beamw", "-n", "2", "--format", "csv")
             head = next(csv.reader(io.StringIO(written)))
             names = list(dict.fromkeys(name for table in tables for name in self.names(table)))
-            self.assertEqual(head, names + ["omitted"] * (verb == "solve"))
+            self.assertEqual(head, names + ["omitted", "assumed"] * (verb == "solve"))
 
     def test_stress(self):
         arguments = ("stress", "-k", "thin", "-f", "sheet_third")
