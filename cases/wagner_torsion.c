@@ -3,6 +3,7 @@
  * shortening L (b^2 + t^2)/24 (phi/L)^2. */
 #include "cases/case.h"
 
+#include <math.h>
 #include <stddef.h>
 
 enum { ANGLE };
@@ -19,6 +20,7 @@ static status build(const double value[], scene *s, fault *f)
     section_spec spec = section_spec_rectangle(2e11, 8e10, b, t);
     spec.given.Iw = 0;
     spec.given.It = b * t * t * t / 3;
+    spec.given.wagner_torque = pow(b, 5) * t / 1440; /* both of a thin strip */
     const int profile = scene_add_section(s, &spec);
     const double y_axis[3] = {0, 1, 0};
     const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);

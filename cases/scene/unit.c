@@ -50,13 +50,25 @@ static void scale_constants(section *c, double x)
 
 static void scale_section(section_spec *spec, double x)
 {
-    const scaled list[] = {
-        {&spec->young, -2},    {&spec->shear_modulus, -2}, {&spec->density, -4},
-        {&spec->width, 1},     {&spec->height, 1},         {&spec->given.Iw, 6},
-        {&spec->given.ys, 1},  {&spec->given.zs, 1},       {&spec->given.Dy, 2},
-        {&spec->given.Dz, 2},  {&spec->given.Dw, 4},       {&spec->given.Dyz, 2},
-        {&spec->given.Dyw, 3}, {&spec->given.Dzw, 3},      {&spec->given.It, 4},
-        {&spec->given.Ip, 4},  {&spec->diameter, 1},       {&spec->wall_thickness, 1}};
+    const scaled list[] = {{&spec->young, -2},
+                           {&spec->shear_modulus, -2},
+                           {&spec->density, -4},
+                           {&spec->width, 1},
+                           {&spec->height, 1},
+                           {&spec->given.Iw, 6},
+                           {&spec->given.ys, 1},
+                           {&spec->given.zs, 1},
+                           {&spec->given.Dy, 2},
+                           {&spec->given.Dz, 2},
+                           {&spec->given.Dw, 4},
+                           {&spec->given.Dyz, 2},
+                           {&spec->given.Dyw, 3},
+                           {&spec->given.Dzw, 3},
+                           {&spec->given.It, 4},
+                           {&spec->given.Ip, 4},
+                           {&spec->given.wagner_torque, 6},
+                           {&spec->diameter, 1},
+                           {&spec->wall_thickness, 1}};
     SCALE(list, x);
     for (int i = 0; i < spec->points; i++)
         for (int k = 0; k < 2; k++)

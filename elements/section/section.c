@@ -12,9 +12,10 @@
 void section_spec_init(section_spec *spec)
 {
     memset(spec, 0, sizeof *spec);
-    double *given[] = {&spec->given.Iw,  &spec->given.ys, &spec->given.zs,  &spec->given.Dy,
-                       &spec->given.Dz,  &spec->given.Dw, &spec->given.Dyz, &spec->given.Dyw,
-                       &spec->given.Dzw, &spec->given.It, &spec->given.Ip};
+    double *given[] = {&spec->given.Iw,  &spec->given.ys,  &spec->given.zs,
+                       &spec->given.Dy,  &spec->given.Dz,  &spec->given.Dw,
+                       &spec->given.Dyz, &spec->given.Dyw, &spec->given.Dzw,
+                       &spec->given.It,  &spec->given.Ip,  &spec->given.wagner_torque};
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
         *given[i] = NAN;
 }
@@ -89,7 +90,9 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     out->Ip = out->Iy + out->Iz;
     out->It = rectangle_torsion(w, h);
     out->Iw = w * w * w * h * h * h / 144;
-    out->wagner_torque = pow(wide, 5) * thin / 1440;
+    /* 1/8 (int r^4 dA - Ip^2/A), int r^4 dA = wide^5 thin/80 + 2 wide^3 thin^3/144 + wide thin^5/80
+     * (own integration); N Eq. 46 has the first term, of a thin one */
+    out->wagner_torque = (pow(wide, 5) * thin + wide * pow(thin, 5)) / 1440;
     const int theory = s->shear_factor[0] > 0 || s->shear_factor[1] > 0;
     for (int i = 0; i < 2; i++)
         out->F[4 * i] = 1 / ((s->shear_factor[i] > 0 ? s->shear_factor[i] : 5.0 / 6) * out->A);
@@ -174,6 +177,7 @@ static status apply_given(const section_spec *s, section *out, fault *f)
     override(&out->zs, s->given.zs);
     override(&out->It, s->given.It);
     override(&out->Ip, s->given.Ip);
+    override(&out->wagner_torque, s->given.wagner_torque);
     const double diagonal[3] = {s->given.Dy, s->given.Dz, s->given.Dw},
                  off[3] = {s->given.Dyz, s->given.Dyw, s->given.Dzw};
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};

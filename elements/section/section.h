@@ -81,7 +81,7 @@ typedef struct section_spec {
     /* Overrides applied after computing (a printed table's rounded values); NAN: keep what was
      * computed. */
     struct {
-        double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip;
+        double Iw, ys, zs, Dy, Dz, Dw, Dyz, Dyw, Dzw, It, Ip, wagner_torque;
     } given;
 } section_spec;
 

@@ -20,12 +20,18 @@ static const char *given_once(const section_spec *p, const section_spec *q)
     const struct {
         const char *name;
         double p, q;
-    } given[] = {{"Iw", p->given.Iw, q->given.Iw},    {"ys", p->given.ys, q->given.ys},
-                 {"zs", p->given.zs, q->given.zs},    {"Dy", p->given.Dy, q->given.Dy},
-                 {"Dz", p->given.Dz, q->given.Dz},    {"Dw", p->given.Dw, q->given.Dw},
-                 {"Dyz", p->given.Dyz, q->given.Dyz}, {"Dyw", p->given.Dyw, q->given.Dyw},
-                 {"Dzw", p->given.Dzw, q->given.Dzw}, {"It", p->given.It, q->given.It},
-                 {"Ip", p->given.Ip, q->given.Ip}};
+    } given[] = {{"Iw", p->given.Iw, q->given.Iw},
+                 {"ys", p->given.ys, q->given.ys},
+                 {"zs", p->given.zs, q->given.zs},
+                 {"Dy", p->given.Dy, q->given.Dy},
+                 {"Dz", p->given.Dz, q->given.Dz},
+                 {"Dw", p->given.Dw, q->given.Dw},
+                 {"Dyz", p->given.Dyz, q->given.Dyz},
+                 {"Dyw", p->given.Dyw, q->given.Dyw},
+                 {"Dzw", p->given.Dzw, q->given.Dzw},
+                 {"It", p->given.It, q->given.It},
+                 {"Ip", p->given.Ip, q->given.Ip},
+                 {"wagner_torque", p->given.wagner_torque, q->given.wagner_torque}};
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
         if (isnan(given[i].p) != isnan(given[i].q))
             return given[i].name;
@@ -143,12 +149,13 @@ static void blend_given(const section_spec *q, double x, section_spec *out)
     const struct {
         double *p;
         const double *q;
-    } given[] = {{&out->given.Iw, &q->given.Iw},   {&out->given.ys, &q->given.ys},
-                 {&out->given.zs, &q->given.zs},   {&out->given.Dy, &q->given.Dy},
-                 {&out->given.Dz, &q->given.Dz},   {&out->given.Dw, &q->given.Dw},
-                 {&out->given.Dyz, &q->given.Dyz}, {&out->given.Dyw, &q->given.Dyw},
-                 {&out->given.Dzw, &q->given.Dzw}, {&out->given.It, &q->given.It},
-                 {&out->given.Ip, &q->given.Ip}};
+    } given[] = {
+        {&out->given.Iw, &q->given.Iw},   {&out->given.ys, &q->given.ys},
+        {&out->given.zs, &q->given.zs},   {&out->given.Dy, &q->given.Dy},
+        {&out->given.Dz, &q->given.Dz},   {&out->given.Dw, &q->given.Dw},
+        {&out->given.Dyz, &q->given.Dyz}, {&out->given.Dyw, &q->given.Dyw},
+        {&out->given.Dzw, &q->given.Dzw}, {&out->given.It, &q->given.It},
+        {&out->given.Ip, &q->given.Ip},   {&out->given.wagner_torque, &q->given.wagner_torque}};
     for (size_t i = 0; i < sizeof given / sizeof given[0]; i++)
         blend(1, x, given[i].q, given[i].p);
 }

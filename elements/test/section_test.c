@@ -149,22 +149,32 @@ static void torsion_of_a_rectangle(double a, double b)
     gsl_test_rel(rectangle(b, a, 0, 0).It, rectangle(a, b, 0, 0).It, 1e-14, "the sides exchanged");
 }
 
-/* Torque cubic in the twist rate of a thin rectangle: 1/8 of the variance of y^2 over the area, int
- * (y^2 - mean)^2 dA. */
-static void wagner_torque(void)
+/* Torque cubic in the twist rate: 1/8 int (r^2 - mean)^2 dA over the area, whatever its sides; of a
+ * thin one w^5 t/1440 (N Eq. 46), of a square twice that. Where another value is given, that. */
+static void wagner_torque(double width, double height)
 {
-    enum { N = 4 };
-    const double h = 0.1, t = 0.0007;
+    enum { N = 5 };
     double x[N], w[N], mean = 0, variance = 0;
     quadrature_points(N, x, w);
-    for (int i = 0; i < N; i++)
-        mean += w[i] * pow((x[i] - 0.5) * h, 2);
-    for (int i = 0; i < N; i++)
-        variance += w[i] * pow(pow((x[i] - 0.5) * h, 2) - mean, 2);
-    const section wide = rectangle(h, t, 0, 0), high = rectangle(t, h, 0, 0);
-    gsl_test_rel(wide.wagner_torque, variance * h * t / 8, 1e-13,
-                 "cubic torque of a thin rectangle");
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < N * N; i++) {
+            const double y = (x[i / N] - 0.5) * width, z = (x[i % N] - 0.5) * height,
+                         share = w[i / N] * w[i % N], square = y * y + z * z;
+            mean += pass == 0 ? share * square : 0;
+            variance += pass == 0 ? 0 : share * pow(square - mean, 2);
+        }
+    const section wide = rectangle(width, height, 0, 0), high = rectangle(height, width, 0, 0);
+    const double thin = pow(fmax(width, height), 5) * fmin(width, height) / 1440;
+    gsl_test_rel(wide.wagner_torque, variance * width * height / 8, 1e-13,
+                 "cubic torque of %g x %g", width, height);
     gsl_test_rel(high.wagner_torque, wide.wagner_torque, 1e-14, "it knows no side");
+    gsl_test_rel(wide.wagner_torque / thin, 1 + pow(fmin(width / height, height / width), 4), 1e-13,
+                 "beside that of a thin one");
+    section_spec given = sections_steel(SECTION_RECTANGLE);
+    given.width = width;
+    given.height = height;
+    given.given.wagner_torque = 3e-9;
+    gsl_test_rel(sections_computed(&given).wagner_torque, 3e-9, 1e-15, "another one is given");
 }
 
 /* Data that make no sense are refused and named. */
@@ -200,7 +210,9 @@ int main(void)
     gsl_test_rel(rectangle(1, 1, 0, 0).It, 0.14057701495515371559, 1e-15, "of a square");
     torsion_of_a_rectangle(2, 1);
     torsion_of_a_rectangle(0.3, 0.06);
-    wagner_torque();
+    wagner_torque(0.1, 0.0007);
+    wagner_torque(0.1, 0.03);
+    wagner_torque(0.02, 0.02);
     refusals();
     rectangle_is_a_wall(0.1, 0.02);
     rectangle_is_a_wall(0.1, 0.0003);

@@ -139,14 +139,15 @@ unsigned features_omitted(const scene *s)
     return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
 }
 
-/* Physics that a section by its constants says to be zero. */
+/* Physics that a section by its constants says to be zero, if it has none. */
 static unsigned features_zero(const section_spec *spec)
 {
     const unsigned zeros = spec->zeros, moments = SECTION_ZERO_WAGNER_Y | SECTION_ZERO_WAGNER_Z;
+    const int warps = !isnan(spec->given.Iw), torque = !isnan(spec->given.wagner_torque);
     return (zeros & SECTION_ZERO_SHEAR ? FEATURE_SHEAR : 0) |
-           (zeros & SECTION_ZERO_WARPING ? FEATURE_WARPING : 0) |
+           (warps || (zeros & SECTION_ZERO_WARPING) ? FEATURE_WARPING : 0) |
            ((zeros & moments) == moments ? FEATURE_WAGNER_MOMENTS : 0) |
-           (zeros & SECTION_ZERO_WAGNER_TORQUE ? FEATURE_WAGNER_TORQUE : 0);
+           (torque || (zeros & SECTION_ZERO_WAGNER_TORQUE) ? FEATURE_WAGNER_TORQUE : 0);
 }
 
 unsigned features_not_given(const scene *s, int section_index)

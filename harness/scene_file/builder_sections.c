@@ -124,10 +124,12 @@ static void read_given(const fields *f, section_spec *spec)
     const struct {
         const char *key;
         double *value;
-    } all[] = {{"Iw", &spec->given.Iw},   {"ys", &spec->given.ys},   {"zs", &spec->given.zs},
-               {"Dy", &spec->given.Dy},   {"Dz", &spec->given.Dz},   {"Dw", &spec->given.Dw},
-               {"Dyz", &spec->given.Dyz}, {"Dyw", &spec->given.Dyw}, {"Dzw", &spec->given.Dzw},
-               {"It", &spec->given.It},   {"Ip", &spec->given.Ip}};
+    } all[] = {{"Iw", &spec->given.Iw},   {"ys", &spec->given.ys},
+               {"zs", &spec->given.zs},   {"Dy", &spec->given.Dy},
+               {"Dz", &spec->given.Dz},   {"Dw", &spec->given.Dw},
+               {"Dyz", &spec->given.Dyz}, {"Dyw", &spec->given.Dyw},
+               {"Dzw", &spec->given.Dzw}, {"It", &spec->given.It},
+               {"Ip", &spec->given.Ip},   {"wagner_torque", &spec->given.wagner_torque}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         *all[i].value = fields_number(&given, all[i].key, NAN);
 }

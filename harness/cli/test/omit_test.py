@@ -205,6 +205,15 @@ omit: [trapeze]
                 found = [a["physics"] for a in self.record("solve", "--scene", self.scene(text))["assumptions"]]
                 self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
+    def test_torque_of_its_own(self):
+        """Built-in sheets have the torque of a thin strip; what is given as zero is known, and nothing."""
+        self.assertIn("given: {wagner_torque: ", self.answered("scene", "sheet_wagner").stdout)
+        text = self.BAR.format(more="").replace("omit: [trapeze]\n", "")
+        for more, told in ((", given: {wagner_torque: 0}", "shear, warping"), (", given: {Iw: 0}", "shear, wagner_torque"),
+                           (", given: {Iw: 1e-12, wagner_torque: 1e-14}", "shear")):
+            (found, ) = self.record("solve", "--scene", self.scene(text.replace(", young", more + ", young")))["assumptions"]
+            self.assertEqual(set(found["physics"].split(", ")), set(told.split(", ")), more)
+
     def test_no_truth(self):
         """None is stored, none is derived, no verdict is passed; the way to one is told."""
         self.refused(1, "beamwork scene c_column --set omit=none", "truth", "c_column", *WHOLE, silent=False)
