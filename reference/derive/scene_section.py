@@ -2,7 +2,7 @@
 
 A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever the shear centre is
 off the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2 + z^2) dA only with `wagner_moments`.
-Rectangle: EIw = E (w t)^3/144, 1/F = k A with k = 5/6 where it is not given, and then 5/6 of the warping shear too; c = w^5 t/1440.
+Rectangle: EIw = E (w t)^3/144, 1/F = k A with k = 5/6 where it is not given, and then 5/6 of the warping shear too; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
 Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py).
 Ring of radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int (r^2 - Ip/A)^2 dA.
 """
@@ -15,6 +15,7 @@ from reference.derive.scene_text import Refused, number, numbers, only
 from reference.derive.torsion import rectangle_constant
 
 MATERIAL = ("young", "shear_modulus", "density", "given")
+OVERRIDES = ("Iw", "ys", "zs", "It", "Ip", "wagner_torque")
 NAMES = ("A", "Iy", "Iz", "It", "Iw", "Ip", "ys", "zs", "wagner_y", "wagner_z", "wagner_torque")
 RIGIDITIES = ("Dy", "Dz", "Dw", "Dyz", "Dyw", "Dzw")
 PLACES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
@@ -46,7 +47,7 @@ def rectangle(entry, where):
                      Ip=w * h * (w * w + h * h) / 12,
                      It=float(rectangle_constant(wide, thin)),
                      Iw=(w * h) ** 3 / 144,
-                     wagner_torque=wide ** 5 * thin / 1440,
+                     wagner_torque=(wide ** 5 * thin + wide * thin ** 5) / 1440,
                      F=F)
 
 
@@ -114,8 +115,8 @@ def constants_of(entry, where):
         raise Refused(f"{where}: its shape is not within the deriving program")
     out = SHAPES[shape[0]](entry, where)
     given = entry.get("given", {})
-    only(given, where, ("Iw", "ys", "zs", "It", "Ip", *RIGIDITIES))
-    for name in ("Iw", "ys", "zs", "It", "Ip"):
+    only(given, where, (*OVERRIDES, *RIGIDITIES))
+    for name in OVERRIDES:
         if name in given:
             setattr(out, name, number(given[name], where))
     if any(name in given for name in RIGIDITIES):
