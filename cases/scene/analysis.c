@@ -159,6 +159,14 @@ const scene_path *scene_path_of(const scene_analysis *a)
     return NULL;
 }
 
+int scene_origin_of(const scene *s, int analysis)
+{
+    int i = analysis;
+    while (i != SCENE_NONE && s->analysis[i].kind == SCENE_MOTION)
+        i = s->analysis[i].follows;
+    return i;
+}
+
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a)
 {
     if (a->kind == SCENE_CONTINUATION)

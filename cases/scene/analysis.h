@@ -157,6 +157,9 @@ const scene_motion *scene_motion_of(const scene_analysis *a);
 int scene_spreads(const scene_analysis *a);
 /* NULL: the kind has none. */
 const scene_path *scene_path_of(const scene_analysis *a);
+/* What a motion starts from, and the motions before it that it goes on from: a static path, a
+ * continuation, a rotation; SCENE_NONE: the undeformed state. */
+int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
 /* Do the axes turn? */
 int scene_rotates(const scene_analysis *a);

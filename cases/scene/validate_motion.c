@@ -115,7 +115,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     const scene_driver *driver = &s->driver[d];
     const scene_path *path = scene_path_of(&s->analysis[i]);
     const double end = path->value[path->stations - 1];
-    const int follows = s->analysis[i].follows;
+    const int origin = scene_origin_of(s, i);
     double time, at[3];
     int derivative;
     if (driver->value == NULL)
@@ -123,7 +123,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
                          "driver %s: it is unknown, and motions in time take known ones; give its "
                          "values",
                          driver->name);
-    const scene_path *before = follows != SCENE_NONE ? scene_path_of(&s->analysis[follows]) : NULL;
+    const scene_path *before = origin != SCENE_NONE ? scene_path_of(&s->analysis[origin]) : NULL;
     const double starts = before == NULL
                               ? 0
                               : along_table(driver->stations, driver->path, driver->value,

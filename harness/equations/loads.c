@@ -18,11 +18,14 @@ static const double potential = 1e-12;
 void loads_of(model *m, int analysis)
 {
     const scene_analysis *a = &m->scene->analysis[analysis];
-    const scene_path *followed =
-        a->follows != SCENE_NONE ? scene_path_of(&m->scene->analysis[a->follows]) : NULL;
     m->unloaded = 0;
     m->in_time = a->kind == SCENE_MOTION;
-    m->held_path = followed != NULL ? followed->value[followed->stations - 1] : 1;
+    m->held_path = 1;
+}
+
+void loads_hold(model *m, double path)
+{
+    m->held_path = path;
 }
 
 void loads_none(model *m)

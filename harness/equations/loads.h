@@ -5,9 +5,10 @@
 #include "harness/model/model.h"
 
 /* From here on they are those of this analysis: in a motion the path parameter is the time, of
- * which they are functions; what has none stays as at the end of the path that is followed, or
- * whole. */
+ * which they are functions; what has none is whole. */
 void loads_of(model *, int analysis);
+/* Until the next call of loads_of, what has no function of time stays as at `path`. */
+void loads_hold(model *, double path);
 /* Until the next of these calls no load acts and no driver moves: what stays are strains that
  * members have by themselves. */
 void loads_none(model *);

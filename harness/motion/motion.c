@@ -32,6 +32,7 @@ typedef struct motion {
     analysis_context *c;
     const scene_motion *how;
     int analysis, follows;
+    double path;             /* parameter of the state that it starts from; NAN: it has none */
     const outcome_end *from; /* where the motion stopped that this one goes on from; NULL: none */
     carried masses;
     mesh_damping damping;
@@ -237,6 +238,7 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
         return fault_set(f, STATUS_NOT_CONVERGED, "the state that the motion starts from: %s",
                          before->reason);
     kinematics_state_copy(w->c->model, path->state[path->reached - 1], w->now.state);
+    w->path = kinematics_state_path(w->now.state);
     const scene_analysis *of = &w->c->scene->analysis[follows];
     const double speed = of->kind == SCENE_ROTATION ? path->value[path->reached - 1] : 1;
     if (scene_rotating_frame_of(of) != NULL)
@@ -293,12 +295,14 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     motion w;
     memset(&w, 0, sizeof w);
     w.c = c;
+    w.path = NAN;
     w.how = scene_motion_of(&c->scene->analysis[analysis]);
     w.analysis = analysis;
     w.follows = c->scene->analysis[analysis].follows;
     w.out = outcome_motion_in(o);
     status result = solve(&w, f);
-    if (result != STATUS_FAULT && history_add_motion(c->result, analysis, w.out, f) != STATUS_OK)
+    if (result != STATUS_FAULT &&
+        history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     instant_free(&w.now);
     instant_free(&w.next);

@@ -2,20 +2,36 @@
 
 #include "harness/equations/loads.h"
 #include "harness/equations/rotating_frame.h"
+#include "harness/model/kinematics.h"
 
 int context_runs(const analysis_context *c, int analysis)
 {
     return c->options->all_analyses || scene_reads(c->scene, analysis);
 }
 
+/* In a motion loads without a function of time stay as in the state that it starts from. */
+static void hold_loads(const analysis_context *c, int analysis)
+{
+    const int origin = scene_origin_of(c->scene, analysis);
+    if (origin == analysis || origin == SCENE_NONE || !outcome_has_path(&c->outcomes[origin]))
+        return;
+    const outcome_path *path = outcome_path_of(&c->outcomes[origin]);
+    if (path->reached > 0)
+        loads_hold(c->model, kinematics_state_path(path->state[path->reached - 1]));
+}
+
 void context_set_frame(const analysis_context *c, int analysis)
 {
     static const scene_rotating_frame rest = {{0}, {0}};
-    const scene_analysis *a = &c->scene->analysis[analysis];
+    const scene_analysis *own = &c->scene->analysis[analysis],
+                         *a = own->follows == SCENE_NONE || own->kind == SCENE_MOTION
+                                  ? own
+                                  : &c->scene->analysis[own->follows];
     const scene_rotating_frame *frame =
         scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
     rotating_frame_set(c->model, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
     loads_of(c->model, analysis);
+    hold_loads(c, analysis);
 }
 
 status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)

@@ -20,8 +20,8 @@ typedef struct analysis_context {
 
 /* Is the analysis asked for, by what is read from it or by the options? */
 int context_runs(const analysis_context *, int analysis);
-/* From here on the axes of the model turn as those of the analysis do, and the path parameter is
- * what it has. */
+/* From here on the axes of the model turn as those of the analysis do, or of the one whose states
+ * it is about, and the path parameter is what it has. */
 void context_set_frame(const analysis_context *, int analysis);
 /* The numeric factors of K, and into the context whether they exist. */
 status context_factor(analysis_context *, factor *, const sparse *K, fault *);

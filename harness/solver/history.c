@@ -87,13 +87,14 @@ status history_add_event(solve_result *r, const path_event *event, fault *f)
     return memory_append(&r->event, &r->events, event, sizeof *event, "events", f);
 }
 
-status history_add_motion(solve_result *r, int analysis, const outcome_motion *o, fault *f)
+status history_add_motion(solve_result *r, int analysis, double path, const outcome_motion *o,
+                          fault *f)
 {
     motion_record *more = realloc(r->motion, (size_t)(r->motions + o->steps + 1) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the steps of a motion");
     r->motion = more;
     for (int i = 0; i < o->steps; i++)
-        r->motion[r->motions++] = (motion_record){analysis, o->step[i]};
+        r->motion[r->motions++] = (motion_record){analysis, path, o->step[i]};
     return STATUS_OK;
 }

@@ -19,7 +19,9 @@ void history_judge_station(solve_result *, int analysis, double path, step_stabi
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
 /* All steps of a motion. */
-status history_add_motion(solve_result *, int analysis, const outcome_motion *, fault *);
+/* path: parameter of the state that it starts from; NAN: it has none. */
+status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
+                          fault *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
 #endif

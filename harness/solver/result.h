@@ -124,6 +124,7 @@ typedef struct path_event {
 /* Of a motion in time: its begin, and where each of its steps ended. */
 typedef struct motion_record {
     int analysis; /* of the scene */
+    double path;  /* parameter of the state that the motion starts from; NAN: it has none */
     outcome_step at;
 } motion_record;
 

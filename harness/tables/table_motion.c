@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "cases/scene/along_path.h"
+#include "cases/scene/names.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 2 };
@@ -105,25 +106,21 @@ static void momentum_line(FILE *to, const extent *e)
 
 /* A load that the path before the motion ends with at one factor, and the motion begins with at
  * another one. */
-static void jump_lines(FILE *to, const scene *s, int analysis)
+static void jump_lines(FILE *to, const scene *s, double path)
 {
-    const int before = s->analysis[analysis].follows;
-    if (before == SCENE_NONE || s->analysis[before].kind != SCENE_STATIC)
-        return;
-    const scene_path *path = &scene_walk_of(&s->analysis[before])->path;
-    for (int i = 0; i < s->loads; i++) {
+    for (int i = 0; i < s->loads && isfinite(path); i++) {
         const scene_load *load = &s->load[i];
         double value[3];
         if (load->function.pieces == 0)
             continue;
         function_at(&load->function, 0, value);
-        const double held = along_path_factor(load, path->value[path->stations - 1]);
+        const double held = along_path_factor(load, path);
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
             paragraph_say(to, fprintf(to, "load: "), INDENT,
-                          "(%g, %g, %g) is at factor %g where the path ends, at %g where the "
-                          "motion begins: it jumps; one that acts in the motion only has path: "
-                          "[0, 1], factor: [0, 0] beside its function",
-                          load->vector[0], load->vector[1], load->vector[2], held, value[0]);
+                          "%s is at factor %g where the path ends, at %g where the motion begins: "
+                          "it jumps; one that acts in the motion only has path: [0, 1], factor: "
+                          "[0, 0] beside its function",
+                          scene_name(s, SCENE_LOADS, i).text, held, value[0]);
     }
 }
 
@@ -137,7 +134,7 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
         const int analysis = r->motion[e.first].analysis;
         const scene_path *path = &s->analysis[analysis].of.motion.path;
         steps_line(to, &e, path->value[path->stations - 1]);
-        jump_lines(to, s, analysis);
+        jump_lines(to, s, r->motion[e.first].path);
         energy_line(to, &e);
         momentum_line(to, &e);
     }
