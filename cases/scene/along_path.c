@@ -2,6 +2,9 @@
 #include "cases/scene/names.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "elements/math/dense.h"
 
 static double interpolate(int stations, const double at[], const double value[], double path)
 {
@@ -33,6 +36,55 @@ double along_path_rate(const scene_load *load, double path)
 double along_path_value(const scene_driver *d, double path)
 {
     return interpolate(d->stations, d->path, d->value, path);
+}
+
+/* Where something changes along the path; begin > end: nowhere. */
+typedef struct changes {
+    double begin, end;
+    scene_words last; /* what ends there */
+} changes;
+
+static void add_changes(int stations, const double path[], const double value[], scene_words who,
+                        changes *c)
+{
+    for (int i = 1; i < stations; i++) {
+        if (value[i] == value[i - 1])
+            continue;
+        c->begin = fmin(c->begin, path[i - 1]);
+        if (path[i] > c->end)
+            c->last = who;
+        c->end = fmax(c->end, path[i]);
+    }
+}
+
+along_path_words along_path_end(const scene *s)
+{
+    along_path_words out = {""};
+    changes c = {.begin = INFINITY, .end = -INFINITY};
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *load = &s->load[i];
+        if (vec3_norm(load->vector) == 0)
+            continue;
+        if (load->stations == 0)
+            return out;
+        add_changes(load->stations, load->path, load->factor, scene_called(s, SCENE_LOADS, i), &c);
+    }
+    for (int d = 0; d < s->drivers; d++) {
+        const scene_driver *driver = &s->driver[d];
+        if (driver->value == NULL)
+            return out;
+        add_changes(driver->stations, driver->path, driver->value,
+                    scene_called(s, SCENE_DRIVERS, d), &c);
+    }
+    if (c.begin > c.end)
+        snprintf(out.text, sizeof out.text,
+                 "; no load changes along the path: give a load that grows");
+    else
+        snprintf(out.text, sizeof out.text,
+                 "; nothing changes outside path %g to %g, where %s has its last value: give it "
+                 "values further on; a load without path and factor grows with the path",
+                 c.begin, c.end, c.last.text);
+    return out;
 }
 
 /* Of stations between 0 and 1 all lie on the line from the value at 0 to that at 1. */

@@ -11,6 +11,12 @@ double along_path_factor(const scene_load *, double path);
 double along_path_rate(const scene_load *, double path);
 /* Of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
+/* For messages, and empty where loads change however far the path goes: "; nothing changes outside
+ * path 0 to 1 ...". */
+typedef struct along_path_words {
+    char text[256];
+} along_path_words;
+along_path_words along_path_end(const scene *);
 /* REFUSED: something does not change in proportion from path 0 to 1. */
 status along_path_proportional(const scene *, fault *);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/along_path.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
 #include "harness/equations/advance.h"
@@ -117,8 +118,8 @@ status continuation_step_correct(continuation *p, path_goal goal, step_record *r
         const double more = (residual_of(p, goal) - change_of(p, goal, n->dx)) / change;
         if (!isfinite(more))
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "the load does not move the control coordinate at factor %g",
-                             kinematics_state_path(n->state));
+                             "the load does not move the control coordinate at factor %g%s",
+                             kinematics_state_path(n->state), along_path_end(n->c->scene).text);
         double energy = 0;
         for (int k = 0; k < n->free; k++) {
             n->dx[k] += more * p->response[k];

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/along_path.h"
 #include "elements/math/pi.h"
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/modal.h"
@@ -17,6 +18,7 @@
 #include "harness/flutter/flutter.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/newton.h"
@@ -29,6 +31,8 @@ static const double growth =
 static const double halfway = 0.5;    /* part of the way to what is predicted */
 static const double approached = 0.9; /* part of the way to the estimate */
 static const double farthest = 1e3;   /* path at which the search ends, of the path so far */
+static const double alike = 1e-3;     /* estimates one after the other, of the path */
+static const double steepest = 8;     /* rate of a state along the path, of that of the last step */
 static const double wanted_error = 1e-9;
 static const double closest =
     1e-5; /* distance from the estimate, of the path: nearer, round-off decides about stability */
@@ -154,6 +158,8 @@ typedef struct search {
     double predicted; /* from the beginning to the first point, by the rate of K there; INFINITY:
                          none */
     double farthest;  /* path at which the search ends */
+    double rate;      /* distance of the last stable states over that of their paths */
+    int lost;         /* 1: the path does not go on from the last stable state to the one tried */
     eigen_result found;
 } search;
 
@@ -252,13 +258,32 @@ static status tangent_at_path(search *s, double path, fault *f)
                                                  : newton_direction(&s->n, path, &unused, f);
 }
 
-/* The structure at `path`; *stable: it was stable there and has been taken. */
+/* How fast the structure moves from the kept state to Newton's. */
+static double rate_to(const search *s, double path)
+{
+    return metric_distance(s->n.c->model, s->stable, s->n.state) / (path - s->p[0]);
+}
+
+/* The structure at `path`; *stable: it was stable there and has been taken. Beyond a limit point
+ * there is no state near by: Newton fails, or finds one far away, which may be stable. */
 static status go_to(search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
     *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
-    if (outcome != STATUS_OK && outcome != STATUS_SINGULAR) /* singular: at the critical point */
+    s->lost = outcome == STATUS_NOT_CONVERGED;
+    if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost) /* singular: critical */
         return outcome;
+    if (*stable) {
+        const double rate = rate_to(s, path);
+        s->lost = s->rate > 0 && rate > steepest * s->rate;
+        *stable = !s->lost;
+        if (s->lost)
+            (void)fault_set(
+                f, STATUS_NOT_CONVERGED,
+                "the structure jumps near path %g, before which nothing loses stiffness", path);
+        else
+            s->rate = rate;
+    }
     if (*stable)
         return take_state(s, f);
     predictor_forget(&s->guess);
@@ -292,6 +317,8 @@ static status predict(search *s, double step, sparse *A, fault *f)
     kinematics_state_copy(n->c->model, n->state, s->stable);
     if (tangent_at_path(s, s->begin + step, f) != STATUS_OK)
         step = 0;
+    else
+        s->rate = rate_to(s, s->begin + step);
     memcpy(A->value, n->K.value, (size_t)A->column[A->n] * sizeof *A->value);
     kinematics_state_copy(n->c->model, s->stable, n->state);
     predictor_forget(&s->guess);
@@ -337,8 +364,10 @@ static status find_critical(search *s, fault *f)
     const double farthest_path = s->farthest;
     for (int i = 0; i < MAX_STATES && target <= farthest_path; i++) {
         TRY(go_to(s, target, &stable, f));
+        if (s->lost && target - s->p[0] <= closest * fmax(s->size, fabs(target)))
+            return STATUS_NOT_CONVERGED;
         if (!stable) {
-            s->unstable = target;
+            s->unstable = s->lost ? s->unstable : target;
             target = (s->p[0] + target) / 2;
             continue;
         }
@@ -348,12 +377,13 @@ static status find_critical(search *s, fault *f)
         s->change = fabs(s->estimate - last);
         const double left = s->estimate - s->p[0],
                      size = fmax(fabs(s->estimate), s->estimate - s->begin);
-        if (isfinite(s->estimate) &&
-            (s->change <= wanted_error * size || left <= 2 * closest * size))
+        if (isfinite(s->estimate) && (s->change <= wanted_error * size ||
+                                      (left <= 2 * closest * size && s->change <= alike * size)))
             return STATUS_OK;
-        target =
-            fmin(s->p[0] + fmin(approached * left, isfinite(left) ? left - closest * size : left),
-                 limit);
+        target = fmin(
+            s->p[0] + fmax(closest * size,
+                           fmin(approached * left, isfinite(left) ? left - closest * size : left)),
+            limit);
     }
     return isfinite(s->estimate) && target <= farthest_path
                ? fault_set(f, STATUS_NOT_CONVERGED,
@@ -479,6 +509,12 @@ static status run(analysis_context *c, int analysis, search *s, outcome_side *ou
 {
     TRY(start(c, analysis, "critical loads", &s->n, f));
     TRY(search_alloc(c, analysis, s, f));
+    if (!factor_is_symmetric(s->n.factor) &&
+        scene_rotates(&c->scene->analysis[c->scene->analysis[analysis].follows]))
+        return fault_set(f, STATUS_REFUSED,
+                         "critical loads in axes that turn need loads that have a potential: how "
+                         "others make it flutter hangs on Coriolis forces, which are not counted; "
+                         "ask for a motion");
     if (!factor_is_symmetric(s->n.factor))
         return find_without_potential(c, s, out, f);
     TRY(find_critical(s, f));
@@ -489,6 +525,11 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
 {
     search s = {.unstable = INFINITY, .estimate = INFINITY};
     const status result = run(c, analysis, &s, &o->left.spectrum.positive, f);
+    if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {
+        const fault why = *f;
+        (void)fault_set(f, result, "%.*s%s", FAULT_TEXT / 2, why.text,
+                        along_path_end(c->scene).text);
+    }
     search_free(&s);
     return result;
 }
