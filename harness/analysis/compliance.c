@@ -35,7 +35,8 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* What is prescribed at the node exerts on it: force and moment [6]. */
+/* What is prescribed at the node exerts on it: force and moment [6]. The moment of a fork is that
+ * of guides, which turn with the node: it is not of the convention's. */
 static void reaction_of(const analysis_context *c, const scene_compliance *what,
                         const model_state *s, double reaction[6])
 {
@@ -44,6 +45,8 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
     loads_at_node(c->model, s, kinematics_state_path(s), what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
+    if (c->scene->node[what->node].rotation == SCENE_ROTATION_FORK)
+        memset(reaction + 3, 0, 3 * sizeof *reaction);
 }
 
 /* From the tangent about the node; columns of C that nothing asks for, and with them K, are not

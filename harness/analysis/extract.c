@@ -119,7 +119,9 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     case SCENE_ROTATION:
         extract_path(c, q, o, r);
         if (outcome_rotation_of(o)->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
-            quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
+            quantity_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NO_VALUE,
+                              o->status != STATUS_OK ? o->reason
+                                                     : "the mesh has no mode of this kind");
         break;
     }
     if (r->status == STATUS_OK && !isfinite(r->value))
