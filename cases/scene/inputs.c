@@ -40,8 +40,9 @@ static int load_that(const scene *s, int (*is)(const scene_load *), char *who, i
     {                                                                                              \
         return condition;                                                                          \
     }                                                                                              \
-    static int has_##name(const scene *s, char *who, int size)                                     \
+    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
     {                                                                                              \
+        (void)analysis;                                                                            \
         return load_that(s, is_##name, who, size);                                                 \
     }
 LOAD(force, l->kind == SCENE_FORCE && !l->follower && vec3_norm(l->at) == 0)
@@ -57,8 +58,9 @@ LOAD(weight, l->kind == SCENE_WEIGHT)
 LOAD(staying, along_path_factor(l, 0) != 0)
 
 #define MEMBER(name, condition)                                                                    \
-    static int has_##name(const scene *s, char *who, int size)                                     \
+    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
     {                                                                                              \
+        (void)analysis;                                                                            \
         for (int i = 0; i < s->members; i++) {                                                     \
             const scene_member *m = &s->member[i];                                                 \
             if (condition)                                                                         \
@@ -75,8 +77,9 @@ MEMBER(matrices, s->section[m->section].kind == SECTION_MATRICES)
 MEMBER(held_warping, m->warp_p == SCENE_WARP_FIXED || m->warp_q == SCENE_WARP_FIXED)
 
 #define NODE(name, condition)                                                                      \
-    static int has_##name(const scene *s, char *who, int size)                                     \
+    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
     {                                                                                              \
+        (void)analysis;                                                                            \
         for (int i = 0; i < s->nodes; i++) {                                                       \
             const scene_node *n = &s->node[i];                                                     \
             if (condition)                                                                         \
@@ -89,14 +92,16 @@ NODE(inertia, n->body.inertia[0] + n->body.inertia[1] + n->body.inertia[2] > 0)
 NODE(tied, n->attached != SCENE_NONE)
 NODE(fork, n->rotation == SCENE_ROTATION_FORK)
 
-static int has_spring(const scene *s, char *who, int size)
+static int has_spring(const scene *s, int analysis, char *who, int size)
 {
+    (void)analysis;
     return s->springs > 0 && called(s, SCENE_SPRINGS, 0, who, size);
 }
 
 /* A warping that the ends of two members have as one. */
-static int has_shared_warping(const scene *s, char *who, int size)
+static int has_shared_warping(const scene *s, int analysis, char *who, int size)
 {
+    (void)analysis;
     for (int i = 0; i < 2 * s->members; i++)
         for (int j = 0; j < i; j++) {
             const scene_member *a = &s->member[i / 2], *b = &s->member[j / 2];
@@ -107,8 +112,9 @@ static int has_shared_warping(const scene *s, char *who, int size)
     return 0;
 }
 
-static int has_start(const scene *s, char *who, int size)
+static int has_start(const scene *s, int analysis, char *who, int size)
 {
+    (void)analysis;
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION) {
             const scene_start *b = &s->analysis[i].of.motion.start;
@@ -118,9 +124,19 @@ static int has_start(const scene *s, char *who, int size)
     return 0;
 }
 
-static int has_drive(const scene *s, char *who, int size)
+static int has_drive(const scene *s, int analysis, char *who, int size)
 {
+    (void)analysis;
     return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
+}
+
+/* Of the analysis, or of the one whose states it is about. */
+static int has_spin(const scene *s, int analysis, char *who, int size)
+{
+    const int follows = s->analysis[analysis].follows;
+    return scene_rotates(&s->analysis[analysis])
+               ? called(s, SCENE_ANALYSES, analysis, who, size)
+               : follows != SCENE_NONE && has_spin(s, follows, who, size);
 }
 
 static const char *const no_potential = "has no potential: the tangent is not symmetric and "
@@ -128,7 +144,10 @@ static const char *const no_potential = "has no potential: the tangent is not sy
                                         "it about a static path, or for a motion",
                          *const no_drive =
                              "is moved, and a continuation changes loads only; take it away, or "
-                             "ask for a static path";
+                             "ask for a static path",
+                         *const no_spin = "turns, and this analysis does not count the Coriolis "
+                                          "forces on what moves there; ask a rotation of that "
+                                          "omega for its frequencies";
 
 /* Columns: linear, static, continuation, buckling and about a path, modal and about a linear
  * analysis and a path, compliance and about a path, rotation, motion. */
@@ -154,11 +173,12 @@ const scene_input scene_inputs[] = {
     {"warping shared", "uuuuuuuuuuuu", NULL, has_shared_warping},
     {"node that another carries", "uuuuuuuuuuuu", NULL, has_tied},
     {"fork", "uuuuuuuuuuuu", NULL, has_fork},
-    {"mass of a node", "-----uuu--uu", NULL, has_mass},
-    {"inertia of a node", "-----uuu--uu", NULL, has_inertia},
+    {"mass of a node", "-ii-iuuu-iuu", NULL, has_mass},
+    {"inertia of a node", "-ii-iuuu-iuu", NULL, has_inertia},
     {"motion of a node", "uuxuu-uu-uuu", no_drive, has_drive},
     {"velocity at the start", "-----------u", NULL, has_start},
-    {"damping", "-----------u", NULL, has_damping},
+    {"axes that turn", "-uu-u--x-uuu", no_spin, has_spin},
+    {"damping", "----i--i---u", NULL, has_damping},
     {NULL, "", NULL, NULL}};
 
 scene_column scene_column_of(const scene *s, int analysis)
@@ -187,12 +207,24 @@ scene_column scene_column_of(const scene *s, int analysis)
     return SCENE_OF_MOTION;
 }
 
+int scene_inputs_flutter(const scene *s, int analysis)
+{
+    if (s->analysis[analysis].follows == SCENE_NONE)
+        return 0;
+    for (const scene_input *i = scene_inputs; i->name != NULL; i++)
+        if ((i->part[SCENE_OF_BUCKLING] == SCENE_PART_STATE ||
+             i->part[SCENE_OF_BUCKLING] == SCENE_PART_REFUSED) &&
+            i->stands(s, analysis, NULL, 0))
+            return 1;
+    return 0;
+}
+
 status scene_inputs_check(const scene *s, int analysis, fault *f)
 {
     const scene_column column = scene_column_of(s, analysis);
     char who[SCENE_NAME + 32];
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
-        if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, who, sizeof who))
+        if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, analysis, who, sizeof who))
             return fault_set(f, STATUS_REFUSED, "%s (%s) and %s (%s): it %s",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], who, i->name, i->why);

@@ -61,6 +61,26 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
+/* What critical loads and frequencies may be about. */
+static status check_about(const scene *s, const scene_analysis *a, int i, fault *f)
+{
+    const scene_analysis_kind about = s->analysis[a->follows].kind;
+    if (about == SCENE_STATIC || (about == SCENE_LINEAR && a->kind == SCENE_MODAL))
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: %s about a state are about the last one of a static path%s, and %s "
+                     "is a %s analysis; name a static one, or leave about out%s",
+                     scene_called(s, SCENE_ANALYSES, i).text,
+                     a->kind == SCENE_MODAL ? "frequencies" : "critical loads",
+                     a->kind == SCENE_MODAL ? ", or about a linear analysis" : "",
+                     scene_name(s, SCENE_ANALYSES, a->follows).text, scene_analysis_name(about),
+                     about == SCENE_ROTATION && a->kind == SCENE_MODAL
+                         ? ", or ask the rotation for its own frequencies"
+                     : about == SCENE_CONTINUATION && a->kind == SCENE_BUCKLING
+                         ? ", or ask the continuation for its critical points"
+                         : "");
+}
+
 status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
@@ -74,6 +94,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          "%s: it is about a motion, whose forces are not in balance without those "
                          "of inertia; follow a static path",
                          scene_called(s, SCENE_ANALYSES, i).text);
+    if (a->follows != SCENE_NONE && (a->kind == SCENE_BUCKLING || a->kind == SCENE_MODAL))
+        TRY(check_about(s, a, i, f));
     if (scene_path_of(a) != NULL)
         TRY(check_path(s, a, i, f));
     if (scene_rotating_frame_of(a) != NULL)

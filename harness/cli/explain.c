@@ -92,6 +92,7 @@ static int explain_inputs(const char *word)
         putchar('\n');
     }
     printf("  u used   s used, refused in a state whose tangent is not symmetric\n"
+           "  i used in axes that turn, and where the tangent is not symmetric; else no part\n"
            "  - no part: the answer is the same without   x refused by name\n");
     return 1;
 }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "cases/scene/inputs.h"
 #include "elements/math/dense.h"
 #include "elements/section/matrices.h"
 #include "elements/section/walls.h"
@@ -26,7 +27,7 @@ static unsigned needs_of_analyses(const scene *s)
             needs |= FEATURE_LARGE | (scene_rotates(&s->analysis[i]) ? FEATURE_MASS : 0);
             break;
         case SCENE_BUCKLING:
-            needs |= FEATURE_GEOMETRIC;
+            needs |= FEATURE_GEOMETRIC | (scene_inputs_flutter(s, i) ? FEATURE_MASS : 0);
             break;
         case SCENE_MODAL:
             needs |= FEATURE_MASS | (s->analysis[i].follows != SCENE_NONE ? FEATURE_GEOMETRIC : 0);
@@ -56,7 +57,8 @@ static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MODAL || s->analysis[i].kind == SCENE_ROTATION ||
-            scene_rotates(&s->analysis[i]) || scene_spreads(&s->analysis[i]))
+            scene_rotates(&s->analysis[i]) || scene_spreads(&s->analysis[i]) ||
+            (s->analysis[i].kind == SCENE_BUCKLING && scene_inputs_flutter(s, i)))
             return 1;
     return 0;
 }

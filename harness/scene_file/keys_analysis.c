@@ -37,7 +37,8 @@ static const scene_key buckling[] = {
 
 static const scene_key compliance[] = {
     {"node", KEY_NAME, .needed = 1, .summary = "where"},
-    {"about", KEY_NAME, .summary = "static analysis at whose stations", .left_out = "undeformed"},
+    {"about", KEY_NAME, .summary = "static analysis, continuation or rotation at whose stations",
+     .left_out = "undeformed"},
     {"released", KEY_WORDS, .words = COMPONENTS, .summary = "prescribed components that are free",
      .usual = "[]"},
     {"moments", KEY_WORD, .words = "spatial|semitangential|symmetrised",
@@ -105,9 +106,9 @@ static const scene_key in_time[] = {
                 "by alpha and radau",
      .usual = "lumped"},
     {"about", KEY_NAME,
-     .summary =
-         "static analysis or rotation from whose last state, or motion that goes on, with its "
-         "rates and its time",
+     .summary = "static analysis, continuation or rotation from whose last state, or motion that "
+                "goes on, with its "
+                "rates and its time",
      .left_out = "undeformed"},
     {"start", KEY_MAP, .below = start, .summary = "velocities at the begin",
      .left_out = "at rest, or as about has it"},
