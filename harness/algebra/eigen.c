@@ -14,9 +14,6 @@
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 enum { DENSE_AT_LAST_UP_TO = 700 }; /* where the iteration ends early: seconds, and the answer */
 
-/* Of an eigenvalue, in parts of itself: beyond it no digit is worth telling. */
-static const double largest_error = 1e-2;
-
 /* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
 static const double negligible = 1e-9;
 
@@ -203,7 +200,7 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
         const double *x = p->x + (size_t)i * (size_t)p->n;
         if (rounded)
             out->error[i] += p->problem->K_rounding(p->problem->context, x) / p->stiffness[i];
-        if (out->error[i] <= largest_error)
+        if (out->error[i] <= EIGEN_LARGEST_ERROR)
             continue;
         p->mu[i] = NAN;
         if (out->status == STATUS_OK)

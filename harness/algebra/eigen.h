@@ -11,6 +11,9 @@
 
 #include "harness/algebra/sparse.h"
 
+/* Error of a value, in parts of itself, beyond which no digit is worth telling. */
+#define EIGEN_LARGEST_ERROR 1e-2
+
 typedef double eigen_form(void *context, const double x[]);
 typedef void eigen_product(void *context, const double x[], double y[]);
 

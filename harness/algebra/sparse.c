@@ -1,5 +1,6 @@
 #include "harness/algebra/sparse.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,6 +62,20 @@ void sparse_mul(const sparse *a, const double x[], double y[])
     for (int j = 0; j < a->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++)
             y[a->row[k]] += a->value[k] * x[j];
+}
+
+double sparse_rounding(const sparse *a, const double x[], const double y[])
+{
+    double sum = 0;
+    for (int j = 0; j < a->n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            const int i = a->row[k];
+            double terms = fabs(x[i] * y[j]);
+            if (a->symmetric && i != j)
+                terms += fabs(y[i] * x[j]);
+            sum += fabs(a->value[k]) * terms;
+        }
+    return DBL_EPSILON * sum;
 }
 
 struct by_numbers {

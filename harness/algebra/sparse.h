@@ -24,6 +24,9 @@ void sparse_zero(sparse *a);
 /* The first rows and columns of `whole`, whose others are the last in each of them. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
 void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
+/* What rounding of all its terms, each in the same direction, changes in x^T A y, A symmetric, or
+ * skew where the upper triangle is stored. */
+double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
 /* Of a matrix that is stored whole, the upper triangle, and whether that is all there is. */
 typedef struct by_numbers by_numbers;

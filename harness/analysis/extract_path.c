@@ -1,6 +1,7 @@
 #include "harness/analysis/extract_path.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "elements/math/pi.h"
 #include "harness/model/kinematics.h"
@@ -10,24 +11,46 @@
 #include "harness/solver/modes.h"
 #include "harness/solver/quantity.h"
 
-/* [Hz]; NAN: no mode of this kind. */
-static double frequency_of(const scene_quantity *q, const rotation_modes *modes)
+/* A value with its error, in parts of it; NAN with the reason where no digit is left. */
+static double known(const analysis_context *c, double value, double error, const char *what,
+                    quantity_result *r)
 {
-    int order = 0;
-    for (int i = 0; i < modes->count; i++)
-        if (modes->growth[i] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[i]) &&
-            order++ == scene_mode_of(q)->order)
-            return modes->frequency[i] / (2 * PI);
+    char why[FAULT_TEXT];
+    r->rounding = error;
+    if (error <= EIGEN_LARGEST_ERROR)
+        return value;
+    snprintf(why, sizeof why, "%s of %d unknowns is lost in round-off (error %.1e): refine less",
+             what, model_sizes(c->model).free, error);
+    quantity_no_value(r, STATUS_NOT_CONVERGED, why);
     return NAN;
 }
 
-/* [1/s]; NAN: there are no modes. */
-static double growth_of(const rotation_modes *modes)
+/* [Hz]; NAN: no mode of this kind, or lost in round-off. */
+static double frequency_of(const analysis_context *c, const scene_quantity *q,
+                           const rotation_modes *modes, quantity_result *r)
 {
-    double largest = 0;
+    int order = 0;
+    char what[64];
     for (int i = 0; i < modes->count; i++)
-        largest = fmax(largest, modes->growth[i]);
-    return modes->count > 0 ? largest : NAN;
+        if (modes->growth[i] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[i]) &&
+            order++ == scene_mode_of(q)->order) {
+            snprintf(what, sizeof what, "frequency %d in axes that turn", i + 1);
+            return known(c, modes->frequency[i] / (2 * PI), modes->error[i], what, r);
+        }
+    return NAN;
+}
+
+/* [1/s]; NAN: there are no modes, or lost in round-off. */
+static double growth_of(const analysis_context *c, const rotation_modes *modes, quantity_result *r)
+{
+    int largest = 0;
+    for (int i = 1; i < modes->count; i++)
+        if (modes->growth[i] > modes->growth[largest])
+            largest = i;
+    if (modes->count == 0 || modes->growth[largest] == 0)
+        return modes->count > 0 ? 0 : NAN;
+    const double growth = modes->growth[largest], size = hypot(growth, modes->frequency[largest]);
+    return known(c, growth, modes->error[largest] * size / growth, "the rate of growth", r);
 }
 
 /* NULL: not of a motion. */
@@ -88,9 +111,9 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_DRIVER_VALUE:
         return kinematics_driver_value(c->model, path->state[i], scene_driver_of(q));
     case SCENE_FREQUENCY:
-        return modes_at(o, i) != NULL ? frequency_of(q, modes_at(o, i)) : NAN;
+        return modes_at(o, i) != NULL ? frequency_of(c, q, modes_at(o, i), r) : NAN;
     case SCENE_GROWTH:
-        return modes_at(o, i) != NULL ? growth_of(modes_at(o, i)) : NAN;
+        return modes_at(o, i) != NULL ? growth_of(c, modes_at(o, i), r) : NAN;
     case SCENE_FACTOR_AT:
         return kinematics_state_path(path->state[i]);
     case SCENE_REACTION:

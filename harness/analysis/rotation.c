@@ -3,6 +3,7 @@
  * G0). */
 #include "harness/analysis/rotation.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 #include "harness/analysis/static.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/rotating_frame.h"
+#include "harness/equations/stiffness_parts.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
@@ -24,32 +26,37 @@
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 
-/* The tangent's quadratic form, for quotients. */
-typedef struct form {
+/* The tangent of the last linearisation through the strains. */
+typedef struct tangent_parts {
     model *m;
     const model_state *state;
-    const sparse *loads; /* what they add to K */
-    double *x, *y;       /* [free + driven], driven coordinates zero; [free] */
-    int free_count;
-} form;
+    const sparse *geometric;
+    double *x, *y; /* [free + driven], driven coordinates zero */
+    int free_count, all;
+} tangent_parts;
 
-static double tangent_form(void *context, const double mode[])
+static void tangent_product(void *context, const double mode[], double product[])
 {
-    const form *f = context;
-    double energy, added = 0;
-    memcpy(f->x, mode, (size_t)f->free_count * sizeof *f->x);
-    if (rotating_frame_tangent_energy2(f->m, f->state, kinematics_state_path(f->state), f->x,
-                                       &energy) != STATUS_OK)
-        return NAN;
-    sparse_mul(f->loads, mode, f->y);
-    for (int i = 0; i < f->free_count; i++)
-        added += mode[i] * f->y[i];
-    return energy + added;
+    const tangent_parts *t = context;
+    const size_t size = (size_t)t->free_count * sizeof *mode;
+    memcpy(t->x, mode, size);
+    memset(t->y, 0, (size_t)t->all * sizeof *t->y);
+    sparse_mul(t->geometric, t->x, t->y);
+    stiffness_parts_material_product(t->m, t->state, t->x, t->y);
+    memcpy(product, t->y, size);
+}
+
+static double tangent_rounding(void *context, const double mode[])
+{
+    const tangent_parts *t = context;
+    memcpy(t->x, mode, (size_t)t->free_count * sizeof *mode);
+    return stiffness_parts_material_rounding(t->m, t->state, t->x) +
+           sparse_rounding(t->geometric, mode, mode);
 }
 
 /* Matrices on the pattern of the free coordinates, for all stations. */
 typedef struct matrices {
-    sparse K, M, G, loads;
+    sparse K, M, G, geometric; /* the soft part of K: stiffness_parts.h */
     factor *factor;
     double *residual, *x, *y; /* [free + driven] */
 } matrices;
@@ -58,7 +65,7 @@ static status allocate(const analysis_context *c, matrices *a, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
-    sparse *const each[] = {&a->K, &a->M, &a->G, &a->loads};
+    sparse *const each[] = {&a->K, &a->M, &a->G, &a->geometric};
     const sparse *pattern = NULL;
     a->residual = calloc(all, sizeof(double));
     a->x = calloc(all, sizeof(double));
@@ -85,7 +92,7 @@ static void matrices_free(matrices *a)
     sparse_free_values(&a->K);
     sparse_free_values(&a->M);
     sparse_free_values(&a->G);
-    sparse_free_values(&a->loads);
+    sparse_free_values(&a->geometric);
     factor_free(a->factor);
     free(a->residual);
     free(a->x);
@@ -98,7 +105,7 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
     model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
     TRY(linearise_state(c->model, state, &lin, f));
     TRY(rotating_frame_inertia(c->model, state, path, &a->M, &a->G, f));
-    rotating_frame_load_stiffness(c->model, state, path, &a->loads);
+    TRY(stiffness_parts_geometric(c->model, state, &a->geometric, f));
     model_counters(c->model)->factorisations++;
     TRY(context_factor(c, a->factor, &a->K, f));
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);
@@ -114,6 +121,7 @@ static status identify(analysis_context *c, const gyroscopic_result *r, double m
         memcpy(mode + (size_t)i * all, r->mode + (size_t)i * n, n * sizeof *mode);
         out->frequency[i] = r->frequency[i];
         out->growth[i] = r->growth[i];
+        out->error[i] = r->error[i];
     }
     TRY(modes_separate(c->model, c->scene, r->count, r->frequency, all, mode, f));
     for (int i = 0; i < r->count; i++)
@@ -127,13 +135,14 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)size.free + (size_t)size.driven, count = (size_t)r->count;
     double *mode = calloc(count * all + 1, sizeof *mode);
-    out->frequency = calloc(2 * count + 1, sizeof(double));
+    out->frequency = calloc(3 * count + 1, sizeof(double));
     out->shape = calloc(count + 1, sizeof *out->shape);
     status outcome = STATUS_FAULT;
     if (mode == NULL || out->frequency == NULL || out->shape == NULL) {
         fault_set(f, STATUS_FAULT, "out of memory for modes");
     } else {
         out->growth = out->frequency + count;
+        out->error = out->growth + count;
         out->count = r->count;
         out->negative = r->negative;
         out->unproven = r->unproven;
@@ -220,12 +229,15 @@ static status try_modes(analysis_context *c, int analysis, const gyroscopic_prob
 static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
                        rotation_modes *out, fault *f)
 {
-    form about = {c->model, state, &a->loads, a->x, a->y, model_sizes(c->model).free};
+    const model_size size = model_sizes(c->model);
+    tangent_parts about = {c->model, state,     &a->geometric,          a->x,
+                           a->y,     size.free, size.free + size.driven};
     gyroscopic_problem problem = {.K = &a->K,
                                   .M = &a->M,
                                   .G = &a->G,
                                   .K_factor = a->factor,
-                                  .K_energy = tangent_form,
+                                  .K_product = tangent_product,
+                                  .K_rounding = tangent_rounding,
                                   .context = &about};
     int enough = 0;
     for (problem.wanted = modes_wanted(c, analysis); !enough; problem.wanted *= 2) {
@@ -236,11 +248,17 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
     return STATUS_OK;
 }
 
+/* Does a motion grow, beyond what rounding leaves of it? */
+static int grows(const rotation_modes *modes, int i)
+{
+    return modes->growth[i] > modes->error[i] * hypot(modes->growth[i], modes->frequency[i]);
+}
+
 /* The first station where a small motion grows is named in the result. */
 static void note_instability(analysis_context *c, const rotation_modes *modes, double path)
 {
     for (int i = 0; i < modes->count; i++)
-        if (modes->growth[i] > 0 && c->result->reason[0] == '\0')
+        if (grows(modes, i) && c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
                      "unstable at path %g: %s, %s, grows with %.4g 1/s", path,
                      modes_family_name(modes->shape[i].family),
@@ -277,13 +295,16 @@ static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_r
 }
 
 /* Without negative eigenvalues nothing grows. Otherwise the modes decide, where they account for
- * all of them. */
+ * all of them and each is known. */
 static step_stability stability_of(const rotation_modes *modes)
 {
-    for (int i = 0; i < modes->count; i++)
-        if (modes->growth[i] > 0)
+    int known = modes->unproven == 0;
+    for (int i = 0; i < modes->count; i++) {
+        if (grows(modes, i))
             return STEP_GROWS;
-    return modes->negative == 0 ? STEP_STABLE : modes->unproven == 0 ? STEP_HELD : STEP_OPEN;
+        known &= modes->growth[i] == 0 && modes->error[i] <= EIGEN_LARGEST_ERROR;
+    }
+    return modes->negative == 0 ? STEP_STABLE : known ? STEP_HELD : STEP_OPEN;
 }
 
 void rotation_judge_stations(analysis_context *c, int analysis, const analysis_outcome *o)

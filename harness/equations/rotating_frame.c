@@ -78,36 +78,3 @@ void rotating_frame_load_stiffness(const model *m, const model_state *s, double 
     sparse_zero(out);
     loads_subtract_stiffness(m, s, path, out);
 }
-
-status rotating_frame_tangent_energy2(model *m, const model_state *s, double path, const double x[],
-                                      double *energy)
-{
-    enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
-    *energy = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
-        const element_data *data = m->kind[el->kind].data;
-        const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
-        node_state at[ELEMENT_MAX_NODES];
-        double J[E * X], C[E * E], H[X * X], force[X] = {0}, local[X], e[E], own[X];
-        kinematics_gather(m, s, el, at);
-        m->type->strain(data, at, &(strain_output){.J = J, .s = sigma, .H = H});
-        const status outcome =
-            m->type->stress(data, &s->e[(size_t)i * (size_t)m->strains],
-                            &s->inner[(size_t)i * (size_t)m->inner], &(stress_output){.C = C});
-        m->counters.strain_evaluations++;
-        m->counters.stress_evaluations++;
-        dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, force);
-        TRY(outcome);
-        TRY(rotating_frame_add(m, at, i, path, force, H, NULL));
-        kinematics_local(m, s, el, x, local);
-        dense_mul_vec(m->strains, m->coordinates, J, local, e);
-        eliminate_matrix(m, s, el, force, H);
-        for (int k = 0; k < el->columns; k++)
-            own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
-        *energy += dense_quadratic(m->strains, C, e) +
-                   dense_quadratic(el->columns, H, el->plain ? local : own);
-    }
-    *energy += discrete_energy2(m, s, path, x);
-    return STATUS_OK;
-}

@@ -13,10 +13,6 @@ status rotating_frame_inertia(model *, const model_state *, double path, sparse 
  * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the
  * centrifugal forces and their stiffness. */
 void rotating_frame_set(model *, const double omega[3], const double centre[3], int follows_path);
-/* x^T K x of the tangent of a state in equilibrium, but for what loads add to it: from the strains,
- * as above. x[free + driven]. */
-status rotating_frame_tangent_energy2(model *, const model_state *, double path, const double x[],
-                                      double *energy);
 /* What loads on offsets and moments add to K. */
 void rotating_frame_load_stiffness(const model *, const model_state *, double path, sparse *out);
 

@@ -2,6 +2,8 @@
  * digits. */
 #include "harness/equations/stiffness_parts.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -25,6 +27,30 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
         assemble_vector(el, force, y);
     }
     discrete_material_product(m, s, x, y);
+}
+
+/* Strains are off by the rounding of their terms, P'' by that of its entries: errors of all
+ * elements alike, so they add up. */
+double stiffness_parts_material_rounding(const model *m, const model_state *s, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const model_slot w = linearise_slot(m, i);
+        double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS];
+        kinematics_local(m, s, &m->element[i], x, local);
+        dense_mul_vec(m->strains, m->coordinates, w.J, local, e);
+        for (int k = 0; k < m->strains; k++) {
+            double sigma = 0, sigma_terms = 0, terms = 0;
+            for (int j = 0; j < m->strains; j++) {
+                sigma += w.C[k * m->strains + j] * e[j];
+                sigma_terms += fabs(w.C[k * m->strains + j] * e[j]);
+            }
+            for (int j = 0; j < m->coordinates; j++)
+                terms += fabs(w.J[k * m->coordinates + j] * local[j]);
+            sum += DBL_EPSILON * (2 * fabs(sigma) * terms + fabs(e[k]) * sigma_terms);
+        }
+    }
+    return sum + discrete_material_rounding(m, s, x);
 }
 
 status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)

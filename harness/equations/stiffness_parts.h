@@ -10,6 +10,8 @@
  * of offsets and sequences, less the loads' and the rotation's stiffness. */
 void stiffness_parts_material_product(const model *, const model_state *, const double x[],
                                       double y[]);
+/* What rounding may change in x^T of the stiff part. */
+double stiffness_parts_material_rounding(const model *, const model_state *, const double x[]);
 status stiffness_parts_geometric(model *, const model_state *, sparse *G, fault *);
 
 #endif

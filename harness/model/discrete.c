@@ -1,6 +1,8 @@
 #include "harness/model/discrete.h"
 #include "cases/scene/names.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -155,29 +157,21 @@ void discrete_geometric(const model *m, const model_state *s, double path, spars
     }
 }
 
-static double material_energy2(const model *m, const model_state *s, const mesh_discrete *d,
-                               const double x[])
-{
-    double local[X], e[SPRING_STRAINS];
-    spring_state p;
-    spring_at(m, s, d, &p);
-    kinematics_local(m, s, &d->el, x, local);
-    dense_mul_vec(SPRING_STRAINS, NODE_COORDINATES * d->el.nodes, p.J, local, e);
-    return dense_quadratic(SPRING_STRAINS, d->spring->stiffness, e);
-}
-
-double discrete_energy2(const model *m, const model_state *s, double path, const double x[])
+double discrete_material_rounding(const model *m, const model_state *s, const double x[])
 {
     double sum = 0;
-    for (int i = 0; i < m->discretes; i++) {
-        const mesh_element *el = &m->discrete[i].el;
-        double force[X], K[X * X], own[X];
-        eliminated(m, s, &m->discrete[i], path, 0, force, K);
-        for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
-            own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
-        sum += dense_quadratic(NODE_COORDINATES * el->nodes, K, own);
-        if (m->discrete[i].spring != NULL)
-            sum += material_energy2(m, s, &m->discrete[i], x);
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        const mesh_discrete *d = &m->discrete[i];
+        const int n = NODE_COORDINATES * d->el.nodes;
+        double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS];
+        spring_state p;
+        spring_at(m, s, d, &p);
+        kinematics_local(m, s, &d->el, x, local);
+        dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
+        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
+        for (int k = 0; k < SPRING_STRAINS; k++)
+            for (int j = 0; j < n; j++)
+                sum += DBL_EPSILON * 2 * fabs(sigma[k] * p.J[k * n + j] * local[j]);
     }
     return sum;
 }

@@ -16,8 +16,8 @@ void discrete_inertia(const model *, const model_state *, double path, sparse *M
  * the other. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, double path, sparse *out);
-/* x^T K x of all. */
-double discrete_energy2(const model *, const model_state *, double path, const double x[]);
+/* What rounding may change in x^T of the first. */
+double discrete_material_rounding(const model *, const model_state *, const double x[]);
 /* Energy of all springs [J]. */
 double discrete_stored(const model *, const model_state *);
 /* F += what the structure needs on a node's frame to hold them in the state [6: N, N m]. */

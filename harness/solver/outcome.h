@@ -19,9 +19,11 @@ typedef struct outcome_side {
 typedef struct rotation_modes {
     int count;
     double *frequency, *growth; /* [count] [rad/s], [1/s] */
-    mode_shape *shape;          /* [count] */
-    int negative;               /* eigenvalues of the stiffness, and ... */
-    int unproven;               /* ... those of them that the modes do not account for */
+    double *error; /* [count] estimate of what iteration and round-off leave of lambda = growth + i
+                      frequency, in parts of its size */
+    mode_shape *shape; /* [count] */
+    int negative;      /* eigenvalues of the stiffness, and ... */
+    int unproven;      /* ... those of them that the modes do not account for */
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 

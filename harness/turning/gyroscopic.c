@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/turning/estimate.h"
 #include "harness/turning/gyroscopic_count.h"
 #include "harness/turning/gyroscopic_index.h"
 #include "harness/turning/ritz.h"
@@ -30,20 +31,34 @@ typedef struct solver {
     double least;             /* the shift is no smaller */
     double nearest, furthest; /* of the eigenvalues of (K, M) at the start, by size, ... */
     double softest;           /* ... and of (S, M) */
+    int all_known;            /* at the start: all that were looked for */
     const sparse *S;          /* K, or ... */
     sparse shifted;           /* ... this */
     subspace basis;
     ritz pairs;
-    double *re, *im, *work; /* [free] */
-    int found;              /* pairs wanted that have digits */
+    double *re, *im, *work, *product; /* [free] */
+    int found;                        /* pairs wanted that have digits */
 } solver;
 
 void gyroscopic_free(gyroscopic_result *r)
 {
     free(r->frequency);
     free(r->growth);
+    free(r->error);
     free(r->mode);
     memset(r, 0, sizeof *r);
+}
+
+/* y = S x */
+static void basis_product(void *context, const double x[], double y[])
+{
+    const solver *s = context;
+    estimate_stiffness(s->p, x, y);
+    if (s->shift == 0)
+        return;
+    sparse_mul(s->p->M, x, s->product);
+    for (int i = 0; i < s->out->n; i++)
+        y[i] += s->shift * s->product[i];
 }
 
 /* out_re + i out_im = sum_k c_k vector_k, times a complex number, added. */
@@ -132,7 +147,8 @@ static status iterate(solver *s, int wanted, fault *f)
     }
 }
 
-/* The first `count` modes without G go into the basis. */
+/* The first `count` modes without G go into the basis; those too whose value is lost in round-off:
+ * the basis improves them. */
 static status start(solver *s, int count, fault *f)
 {
     eigen_result e = {0};
@@ -140,7 +156,8 @@ static status start(solver *s, int count, fault *f)
         .K = s->S, .A = s->p->M, .K_factor = s->p->K_factor, .sign = 1, .largest = count};
     const status outcome = eigen_solve(&problem, &e, f);
     s->nearest = s->furthest = s->softest = NAN;
-    for (int i = 0; outcome == STATUS_OK && i < e.positive.count; i++) {
+    s->all_known = outcome == STATUS_OK && e.positive.count >= count;
+    for (int i = 0; i < e.positive.count; i++) {
         const double size = fabs(1 / e.positive.mu[i] - s->shift);
         s->nearest = fmin(s->nearest, size);
         s->softest = fmin(s->softest, 1 / e.positive.mu[i]);
@@ -151,7 +168,7 @@ static status start(solver *s, int count, fault *f)
     s->out->factorisations += e.factorisations;
     s->out->dense_operations += e.dense_operations;
     eigen_free(&e);
-    return outcome;
+    return outcome == STATUS_NOT_CONVERGED && isfinite(s->softest) ? STATUS_OK : outcome;
 }
 
 /* Negative eigenvalues of K that the pairs found do not account for. */
@@ -174,11 +191,28 @@ static status prove(solver *s, int last, status counted, int below, int *number)
     return counted == STATUS_FAULT ? counted : STATUS_OK;
 }
 
+/* Part of x^H S x of the pairs found that assembling S has changed: by half of it their frequencies
+ * are others in the matrix, where they are counted. */
+static double departure(solver *s)
+{
+    double largest = 0;
+    for (int i = 0; i < s->found; i++) {
+        clear(s);
+        accumulate(s, s->basis.V, s->pairs.c + (size_t)i * (size_t)s->basis.room, 1);
+        sparse_mul(s->S, s->re, s->work);
+        double sum = dense_dot(s->basis.n, s->re, s->work);
+        sparse_mul(s->S, s->im, s->work);
+        sum += dense_dot(s->basis.n, s->im, s->work);
+        largest = fmax(largest, fabs(sum - 1));
+    }
+    return largest;
+}
+
 /* Frequencies below a gap between those found and the next, less those that are found; equal ones
  * have no gap between them. */
 static status missing(solver *s, int wanted, int *number, fault *f)
 {
-    const double gap = 1e-6; /* relative */
+    const double gap = fmax(1e-6, 4 * departure(s)); /* relative */
     int last = s->found, below = 0;
     *number = 0;
     s->out->unproven = s->out->negative > 0 ? unaccounted(s) : 0;
@@ -259,7 +293,7 @@ static status find_shift(solver *s, fault *f)
 static double shift_after(const solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);
-    const double scale = started == STATUS_OK ? fmin(rate * rate, s->furthest) : rate * rate;
+    const double scale = s->all_known ? fmin(rate * rate, s->furthest) : rate * rate;
     const int nearly = started != STATUS_OK || s->nearest < near_zero * scale;
     if (s->shift > 0 && (started != STATUS_OK || s->softest < near_zero * s->shift))
         return fmax(2 * s->shift, away_from_zero * scale);
@@ -276,26 +310,8 @@ static status begin(solver *s, int count, fault *f)
     if (!(s->least > s->shift))
         return outcome;
     TRY(find_shift(s, f));
-    s->basis.S = s->S;
     s->basis.count = 0;
     return start(s, count, f);
-}
-
-/* The frequency as a quotient of quadratic forms, k - omega^2 m + omega g = 0: its error is the
- * square of the mode's. */
-static double quotient(solver *s, double frequency)
-{
-    const int n = s->basis.n;
-    const double k = s->p->K_energy(s->p->context, s->re) + s->p->K_energy(s->p->context, s->im);
-    double m = 0, g = 0;
-    sparse_mul(s->p->M, s->re, s->work);
-    m += dense_dot(n, s->re, s->work);
-    sparse_mul(s->p->M, s->im, s->work);
-    m += dense_dot(n, s->im, s->work);
-    subspace_skew_mul(s->p->G, s->im, s->work);
-    g = -2 * dense_dot(n, s->re, s->work);
-    const double better = (g + sqrt(g * g + 4 * k * m)) / (2 * m);
-    return isfinite(better) ? better : frequency;
 }
 
 /* The phase that makes the real part as large as it can be. */
@@ -312,28 +328,44 @@ static void turn_phase(const solver *s)
     }
 }
 
+/* Pair i into the result; its vector is in re and im. */
+static void take_pair(solver *s, int i, estimate *e)
+{
+    gyroscopic_result *r = s->out;
+    double complex lambda = s->pairs.lambda[i];
+    const int grows = r->negative > 0 && gyroscopic_index_grows(&s->pairs, &s->basis, s->shift, i);
+    clear(s);
+    accumulate(s, s->basis.V, s->pairs.c + (size_t)i * (size_t)s->basis.room, 1);
+    turn_phase(s);
+    estimate_pair(e, i, s->re, s->im, grows, &lambda, &r->error[i]);
+    r->frequency[i] = cimag(lambda);
+    if (grows)
+        r->growth[i] = creal(lambda);
+    memcpy(r->mode + (size_t)i * (size_t)r->n, s->re, (size_t)r->n * sizeof(double));
+}
+
 static status hand_over(solver *s, fault *f)
 {
     gyroscopic_result *r = s->out;
-    const size_t n = (size_t)r->n;
+    estimate e;
     r->count = s->found;
     r->frequency = calloc((size_t)r->count + 1, sizeof(double));
     r->growth = calloc((size_t)r->count + 1, sizeof(double));
-    r->mode = calloc((size_t)r->count * n + 1, sizeof(double));
-    if (r->frequency == NULL || r->growth == NULL || r->mode == NULL)
+    r->error = calloc((size_t)r->count + 1, sizeof(double));
+    r->mode = calloc((size_t)r->count * (size_t)r->n + 1, sizeof(double));
+    if (r->frequency == NULL || r->growth == NULL || r->error == NULL || r->mode == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %d modes", r->count);
-    for (int i = 0; i < r->count; i++) {
-        const double complex lambda = s->pairs.lambda[i];
-        clear(s);
-        accumulate(s, s->basis.V, s->pairs.c + (size_t)i * (size_t)s->basis.room, 1);
-        turn_phase(s);
-        r->frequency[i] = cimag(lambda);
-        if (r->negative > 0 && gyroscopic_index_grows(&s->pairs, &s->basis, s->shift, i))
-            r->growth[i] = creal(lambda);
-        if (s->shift == 0 && s->p->K_energy != NULL)
-            r->frequency[i] = quotient(s, r->frequency[i]);
-        memcpy(r->mode + (size_t)i * n, s->re, n * sizeof(double));
-    }
+    TRY(estimate_alloc(r->n, &e, f));
+    e.p = s->p;
+    e.basis = &s->basis;
+    e.S_factor = s->p->K_factor;
+    e.pairs = &s->pairs;
+    e.shift = s->shift;
+    e.found = s->found;
+    for (int i = 0; i < r->count; i++)
+        take_pair(s, i, &e);
+    r->solutions += e.solutions;
+    estimate_free(&e);
     return STATUS_OK;
 }
 
@@ -366,7 +398,7 @@ static status solve(solver *s, fault *f)
                          "about fixed axes");
     if (s->out->negative > 0)
         TRY(find_shift(s, f));
-    TRY(subspace_alloc(&s->basis, s->S, p->M, p->G, ROOM_PER_MODE * vectors, f));
+    TRY(subspace_alloc(&s->basis, basis_product, s, p->M, p->G, ROOM_PER_MODE * vectors, f));
     TRY(ritz_alloc(&s->pairs, vectors, &s->basis, f));
     return s->out->n > 0 ? find(s, f) : STATUS_OK;
 }
@@ -374,12 +406,13 @@ static status solve(solver *s, fault *f)
 status gyroscopic_solve(const gyroscopic_problem *p, gyroscopic_result *r, fault *f)
 {
     const size_t n = (size_t)p->K->n;
-    solver s = {.p = p, .out = r, .S = p->K, .re = calloc(3 * n + 1, sizeof(double))};
+    solver s = {.p = p, .out = r, .S = p->K, .re = calloc(4 * n + 1, sizeof(double))};
     memset(r, 0, sizeof *r);
     r->n = (int)n;
     r->negative = factor_count(p->K_factor).negative_pivots;
     s.im = s.re + n;
     s.work = s.im + n;
+    s.product = s.work + n;
     const status outcome = solve(&s, f);
     subspace_free(&s.basis);
     ritz_free(&s.pairs);

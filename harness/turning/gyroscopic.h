@@ -10,7 +10,10 @@
  * the count proves then: gyroscopic_index.h.
  *
  * What has no mass has no frequency, and what has too little beside the rest (frequencies above
- * some 1e4 times those of the heavy parts) may end the search before all wanted modes are found. */
+ * some 1e4 times those of the heavy parts) may end the search before all wanted modes are found.
+ *
+ * Assembling K loses the digits of soft motions.  The basis is orthonormal in K_product, which
+ * keeps them, and so are all residuals; the factors of the matrix only improve vectors by them. */
 #ifndef BEAMWORK_GYROSCOPIC_H
 #define BEAMWORK_GYROSCOPIC_H
 
@@ -18,16 +21,19 @@
 
 typedef struct gyroscopic_problem {
     const sparse *K, *M, *G; /* same symmetric pattern; of G the upper triangle is stored */
-    factor *K_factor;     /* factor_numeric done; its numbers are replaced where K is indefinite */
-    int wanted;           /* number of lowest modes */
-    eigen_form *K_energy; /* x^T K x; NULL: from the matrix */
-    void *context;
+    factor *K_factor; /* factor_numeric done; its numbers are replaced where K is indefinite */
+    int wanted;       /* number of lowest modes */
+    eigen_product
+        *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
+    eigen_form *K_rounding; /* what rounding may change in x^T K x of it; NULL: from the matrix */
+    void *context;          /* of both */
 } gyroscopic_problem;
 
 typedef struct gyroscopic_result {
     int n, count;      /* fewer than wanted when no more exist */
     double *frequency; /* [count] lambda = growth + i frequency [1/s], ascending in size */
     double *growth;    /* [count] zero where K is positive definite */
+    double *error;     /* [count] estimate: lambda is off by error |lambda| */
     double *mode;      /* [count x n] real part, the larger one, of the motion */
     int negative;      /* eigenvalues of K, and ... */
     int unproven;      /* ... those of them that no mode found accounts for: as many directions of

@@ -15,7 +15,8 @@ status ritz_alloc(ritz *r, int room, const subspace *b, fault *f)
     r->room = room;
     r->lambda = calloc((size_t)room + 1, sizeof *r->lambda);
     r->c = calloc((size_t)room * (size_t)b->room + 1, sizeof *r->c);
-    return r->lambda != NULL && r->c != NULL
+    r->left = calloc((size_t)room * (size_t)b->room + 1, sizeof *r->left);
+    return r->lambda != NULL && r->c != NULL && r->left != NULL
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT, "out of memory for %d modes", room);
 }
@@ -24,11 +25,17 @@ void ritz_free(ritz *r)
 {
     free(r->lambda);
     free(r->c);
+    free(r->left);
 }
 
 static double complex *coefficients(const subspace *b, const ritz *r, int i)
 {
     return r->c + (size_t)i * (size_t)b->room;
+}
+
+static double complex *left_coefficients(const subspace *b, const ritz *r, int i)
+{
+    return r->left + (size_t)i * (size_t)b->room;
 }
 
 static void normalise(int k, double complex c[])
@@ -82,7 +89,10 @@ static void take_hermitian(const subspace *b, int found, const double mu[], cons
             break;
         r->lambda[r->count] = I / mu[i];
         memcpy(coefficients(b, r, r->count), z + (size_t)i * (size_t)n, (size_t)k * sizeof *z);
-        normalise(k, coefficients(b, r, r->count++));
+        normalise(k, coefficients(b, r, r->count));
+        memcpy(left_coefficients(b, r, r->count), coefficients(b, r, r->count),
+               (size_t)k * sizeof *z);
+        r->count++;
     }
 }
 
@@ -122,7 +132,7 @@ static int is_first_of_its_kind(double complex lambda)
                                 : cimag(lambda) >= -tiny && creal(lambda) > 0;
 }
 
-/* Puts a pair where its size belongs. */
+/* Puts a pair where its size belongs; c[2 x basis size]: x and w. */
 static void insert(const subspace *b, ritz *r, double complex lambda, const double complex c[])
 {
     int at = r->count;
@@ -134,10 +144,14 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
     for (int i = r->count - 1; i > at; i--) {
         r->lambda[i] = r->lambda[i - 1];
         memcpy(coefficients(b, r, i), coefficients(b, r, i - 1), (size_t)b->room * sizeof *c);
+        memcpy(left_coefficients(b, r, i), left_coefficients(b, r, i - 1),
+               (size_t)b->room * sizeof *c);
     }
     r->lambda[at] = lambda;
     memcpy(coefficients(b, r, at), c, (size_t)b->count * sizeof *c);
+    memcpy(left_coefficients(b, r, at), c + b->count, (size_t)b->count * sizeof *c);
     normalise(b->count, coefficients(b, r, at));
+    normalise(b->count, left_coefficients(b, r, at));
 }
 
 /* nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z with nu = 1/lambda, z = (x, lambda R x), Mp = R^T R and
@@ -158,10 +172,23 @@ static void general_matrices(const subspace *b, double shift, const double R[], 
         B[(k + i) * n + k + i] = 1;
 }
 
-/* The first of each pair of the conjugate eigenvalues beta/(re + i im) [n], whose columns hold the
- * real and the imaginary part; c[k] is work space. */
+/* c[k]: the first half of column i of z[n x n], which has the real part of a pair of conjugate
+ * vectors, the imaginary part beside it. */
+static void take_column(int k, int i, int is_complex, int second, const double *z,
+                        double complex c[])
+{
+    const int n = 2 * k;
+    const double complex imaginary = second ? -I : I;
+    const double *column = z + (size_t)(second ? i - 1 : i) * (size_t)n;
+    for (int j = 0; j < k; j++)
+        c[j] = column[j] + (is_complex ? imaginary * column[n + j] : 0);
+}
+
+/* The first of each pair of the conjugate eigenvalues beta/(re + i im) [n], whose columns of z
+ * (right) and w (left) hold the real and the imaginary part; c[2 k] is work space. */
 static void take_general(const subspace *b, const double re[], const double im[],
-                         const double beta[], const double *z, double complex c[], ritz *r)
+                         const double beta[], const double *z, const double *w, double complex c[],
+                         ritz *r)
 {
     const int k = b->count, n = 2 * k;
     double largest = 0; /* nu */
@@ -170,14 +197,11 @@ static void take_general(const subspace *b, const double re[], const double im[]
             largest = fmax(largest, hypot(re[i], im[i]) / fabs(beta[i]));
     for (int i = 0; i < n; i++) {
         const double complex lambda = beta[i] / (re[i] + I * im[i]);
-        const int second = im[i] < 0;
-        const double complex imaginary = second ? -I : I;
-        const double *column = z + (size_t)(second ? i - 1 : i) * (size_t)n;
         if (!(hypot(re[i], im[i]) > 16 * n * DBL_EPSILON * largest * fabs(beta[i])) ||
             !is_first_of_its_kind(lambda))
             continue;
-        for (int j = 0; j < k; j++)
-            c[j] = column[j] + (im[i] != 0 ? imaginary * column[n + j] : 0);
+        take_column(k, i, im[i] != 0, im[i] < 0, z, c);
+        take_column(k, i, im[i] != 0, im[i] < 0, w, c + k);
         insert(b, r, lambda, c);
     }
 }
@@ -186,21 +210,21 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
 {
     const int k = b->count, n = 2 * k;
     const size_t square = (size_t)n * (size_t)n;
-    double *A = calloc(4 * square + 3 * (size_t)n + 1, sizeof *A), *B = A + square, *z = B + square;
-    double *R = z + square, *re = R + square, *im = re + n, *beta = im + n;
-    double complex *c = calloc((size_t)k + 1, sizeof *c);
+    double *A = calloc(5 * square + 3 * (size_t)n + 1, sizeof *A), *B = A + square, *z = B + square;
+    double *w = z + square, *R = w + square, *re = R + square, *im = re + n, *beta = im + n;
+    double complex *c = calloc(2 * (size_t)k + 1, sizeof *c);
     int info = -1;
     if (A != NULL && c != NULL)
         info = root_of_mass(b, R);
     if (info == 0) {
         general_matrices(b, shift, R, A, B);
-        info = (int)LAPACKE_dggev(LAPACK_COL_MAJOR, 'N', 'V', n, A, n, B, n, re, im, beta, NULL, n,
-                                  z, n);
+        info =
+            (int)LAPACKE_dggev(LAPACK_COL_MAJOR, 'V', 'V', n, A, n, B, n, re, im, beta, w, n, z, n);
     }
     r->count = 0;
     r->size = k;
     if (info == 0)
-        take_general(b, re, im, beta, z, c, r);
+        take_general(b, re, im, beta, z, w, c, r);
     free(A);
     free(c);
     return info == 0 ? STATUS_OK

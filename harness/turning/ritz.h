@@ -12,6 +12,8 @@ typedef struct ritz {
     double complex *lambda; /* [room], ascending in size; one of every lambda, -lambda, conj lambda,
                                -conj lambda */
     double complex *c;      /* [room x basis room] coefficients of x in the basis, of length 1 */
+    double complex *left; /* the same of w, w^H (lambda^2 M + lambda G + K) = 0; with S = K it is x
+                           */
 } ritz;
 
 /* Real part of lambda that is round-off, in parts of |lambda|. */

@@ -6,15 +6,16 @@
 
 #include "elements/math/dense.h"
 
-status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const sparse *G, int room,
-                      fault *f)
+status subspace_alloc(subspace *b, eigen_product *S, void *context, const sparse *M,
+                      const sparse *G, int room, fault *f)
 {
-    const size_t n = (size_t)S->n, most = (size_t)(room < S->n ? room : S->n);
+    const size_t n = (size_t)M->n, most = (size_t)(room < M->n ? room : M->n);
     memset(b, 0, sizeof *b);
     b->S = S;
+    b->context = context;
     b->M = M;
     b->G = G;
-    b->n = S->n;
+    b->n = M->n;
     b->room = (int)most;
     b->V = malloc((most * n + 1) * sizeof(double));
     b->SV = malloc((most * n + 1) * sizeof(double));
@@ -57,7 +58,7 @@ int subspace_add(subspace *b, const double x[])
         return 0;
     double *v = b->V + at, *Sv = b->SV + at;
     memcpy(v, x, n * sizeof *v);
-    sparse_mul(b->S, v, Sv);
+    b->S(b->context, v, Sv);
     const double before = sqrt(fmax(0, dense_dot(b->n, v, Sv)));
     for (int pass = 0; pass < 2; pass++) /* twice is enough */
         for (int i = 0; i < b->count; i++) {
@@ -65,7 +66,7 @@ int subspace_add(subspace *b, const double x[])
             for (size_t k = 0; k < n; k++)
                 v[k] -= c * b->V[(size_t)i * n + k];
         }
-    sparse_mul(b->S, v, Sv);
+    b->S(b->context, v, Sv);
     const double size = sqrt(fmax(0, dense_dot(b->n, v, Sv)));
     if (!(size > negligible * before))
         return 0;

@@ -3,18 +3,19 @@
 #ifndef BEAMWORK_SUBSPACE_H
 #define BEAMWORK_SUBSPACE_H
 
-#include "harness/algebra/sparse.h"
+#include "harness/algebra/eigen.h"
 
 typedef struct subspace {
-    const sparse *S, *M, *G; /* S = K + shift M, positive definite; of G a symmetric pattern stores
-                                the upper triangle */
+    eigen_product *S; /* y = S x, S = K + shift M, positive definite */
+    void *context;
+    const sparse *M, *G; /* of G a symmetric pattern stores the upper triangle */
     int n, count, room;
     double *V, *SV, *MV, *GV; /* [room x n] the basis and its products */
     double *Mp, *Gp;          /* [room x room] V^T M V, V^T G V */
 } subspace;
 
-status subspace_alloc(subspace *b, const sparse *S, const sparse *M, const sparse *G, int room,
-                      fault *f);
+status subspace_alloc(subspace *b, eigen_product *S, void *context, const sparse *M,
+                      const sparse *G, int room, fault *f);
 void subspace_free(subspace *b);
 /* Takes in what x adds to the basis; returns 1 if that was anything and there was room. */
 int subspace_add(subspace *b, const double x[]);

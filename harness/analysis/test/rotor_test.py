@@ -90,15 +90,16 @@ def values(text):
 
 class Rotors(ProgramTest):
 
-    def text(self, scene, formulation, n):
+    def written(self, scene):
         path = self.folder / "scene.yaml"
         path.write_text(scene)
-        return run("solve", "--scene", path, "-f", formulation, "-n", n)
+        return path
+
+    def text(self, scene, formulation, n):
+        return run("solve", "--scene", self.written(scene), "-f", formulation, "-n", n)
 
     def solved(self, scene, formulation, n):
-        path = self.folder / "scene.yaml"
-        path.write_text(scene)
-        return self.record("solve", "--scene", path, "-f", formulation, "-n", n)
+        return self.record("solve", "--scene", self.written(scene), "-f", formulation, "-n", n)
 
     def frequencies(self, scene, formulation, n):
         done = self.text(scene, formulation, n)
@@ -147,15 +148,67 @@ class Rotors(ProgramTest):
             else:
                 self.assertIn("critical point", done.stderr)
 
+    def known(self, scene, formulation, n, exact, within, floor=2e-13):
+        """Values, and that their errors lie within the estimates of round-off, which are no larger than `within`."""
+        done = self.solved(scene, formulation, n)
+        self.assertEqual(len(done["quantities"]), len(exact))
+        for q, right in zip(done["quantities"], exact):
+            self.assertEqual(q["status"], "ok", (formulation, n, q["reason"]))
+            self.assertGreater(q["rounding"], 0)
+            self.assertLess(q["rounding"], within, (formulation, n, q["quantity"]))
+            self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
+
     def test_massless(self):
-        """Three coordinates have a mass; none of the others is a frequency."""
+        """Three coordinates have a mass; none of the others is a frequency. 200e9 leaves the matrix of 32 elements 3 digits
+        of the soft motions, and the frequencies all of theirs."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
-        for young, within in (("20e9", 1e-4), ("200e9", 1e-3)):  # the second leaves K 4 digits with 32 elements
+        for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):
+                first = None
+                for n in (1, 2, 8, 16, 24, 32):
+                    scene = ARM % young
+                    values = [q["value"] for q in self.solved(scene, formulation, n)["quantities"]]
+                    first = first or values
+                    for value, right in zip(first, exact):  # of an arm that does not stretch or bend
+                        self.assertLess(abs(value/right - 1), stretch, (formulation, young))
+                    self.known(scene, formulation, n, first, 1e-10)
+
+    def test_lost(self):
+        """Where the matrix has no digits left that is said, with what to do; no value is shown."""
+        done = self.record("solve", "--scene", self.written(ARM % "200e9"), "-f", "geometrically_exact", "-n", 64, code=1)
+        for q in done["quantities"]:
+            self.assertIsNone(q["value"])
+            self.assertIn("use fewer elements", q["reason"])
+
+    def test_uncertainties(self):
+        """Errors against the closed form lie within the estimates: meshes, speeds on both sides of the critical one. What
+        vanishes there loses the digits that its distance has lost, and the estimate tells how many."""
+        at = critical(0.04)
+        for formulation in ("collocation", "geometrically_exact", "beamw", "sheet_third"):
+            for n in (1, 4, 16, 64):
+                scene = SHAFT % {**DEFAULT, "density": 1e-13}
+                self.known(scene, formulation, n, expected(300, 0.04), 1e-11)
+        for near, within in ((1e-3, 1e-10), (1e-6, 1e-7), (1e-9, 1e-4)):
+            for side in (-1, 1):
                 for n in (1, 8, 32):
-                    done = self.solved(ARM % young, formulation, n)
-                    for q, right in zip(done["quantities"], exact):
-                        self.assertLess(abs(q["value"]/right - 1), within, (formulation, young, n))
+                    omega = at*(1 + side*near)
+                    scene = SHAFT % {**DEFAULT, "density": 1e-13, "omega": omega}
+                    self.known(scene, "collocation", n, expected(omega, 0.04), within)
+
+    def test_growth(self):
+        """Rates of growth between the two critical speeds of an unequal shaft, and their errors."""
+        for flat in (1.001, 1.3):
+            high = math.sqrt(flat)
+            for part, within in ((1 + 1e-6, 1e-7), ((1 + high)/2, 1e-9), (high*(1 - 1e-6), 1e-7)):
+                W = part*FIRST
+                a, b = FIRST**2 - W*W, flat*FIRST**2 - W*W
+                sum_ = a + b + 4*W*W
+                right = math.sqrt(-2*a*b/(sum_ + math.sqrt(sum_**2 - 4*a*b)))
+                scene = JEFFCOTT.replace("f_$n: {for: {n: 0..%(last)d}, frequency: {analysis: r, which: n}, unit: Hz}",
+                                         "g: {growth: {analysis: r}}")
+                for n in (1, 8, 32):
+                    self.known(scene % {**DEFAULT, "flat": flat, "omega": W, "density": 1e-13}, "collocation", n, [right],
+                               within)
 
     def test_indefinite_without_mass(self):
         """Elements that are too long for the force in them are told, with what to do."""

@@ -112,16 +112,36 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     return count;
 }
 
-static inline status gyroscopic_problem_solve(const problem *p, gyroscopic_result *r, fault *f)
+/* y = K x of the problem that is the context. */
+static inline void gyroscopic_problem_product(void *context, const double x[], double y[])
 {
-    sparse K = gyroscopic_problem_upper(p->n, p->K), M = gyroscopic_problem_upper(p->n, p->M),
+    const problem *p = context;
+    for (int i = 0; i < p->n; i++) {
+        y[i] = 0;
+        for (int j = 0; j < p->n; j++)
+            y[i] += p->K[i * p->n + j] * x[j];
+    }
+}
+
+/* With K_of in the matrix and, where there is one, the product and its rounding. */
+static inline status gyroscopic_problem_solve_by(problem *p, const double K_of[],
+                                                 eigen_product *product, eigen_form *rounding,
+                                                 gyroscopic_result *r, fault *f)
+{
+    sparse K = gyroscopic_problem_upper(p->n, K_of), M = gyroscopic_problem_upper(p->n, p->M),
            G = gyroscopic_problem_upper(p->n, p->G);
     factor *factors = NULL;
     status outcome = factor_alloc(&K, &factors, f);
     if (outcome == STATUS_OK)
         outcome = factor_numeric(factors, &K, f);
-    const gyroscopic_problem problem_ = {
-        .K = &K, .M = &M, .G = &G, .K_factor = factors, .wanted = WANTED};
+    const gyroscopic_problem problem_ = {.K = &K,
+                                         .M = &M,
+                                         .G = &G,
+                                         .K_factor = factors,
+                                         .wanted = WANTED,
+                                         .K_product = product,
+                                         .K_rounding = rounding,
+                                         .context = p};
     if (outcome == STATUS_OK)
         outcome = gyroscopic_solve(&problem_, r, f);
     factor_free(factors);
@@ -129,6 +149,12 @@ static inline status gyroscopic_problem_solve(const problem *p, gyroscopic_resul
     matrices_free(&M);
     matrices_free(&G);
     return outcome;
+}
+
+static inline status gyroscopic_problem_solve(const problem *p, gyroscopic_result *r, fault *f)
+{
+    problem copy = *p;
+    return gyroscopic_problem_solve_by(&copy, p->K, NULL, NULL, r, f);
 }
 
 #endif

@@ -15,14 +15,16 @@ static void compare(const problem *p, int definite_, const char *name)
     const int count = gyroscopic_problem_by_lapack(p, expected, &growth);
     gsl_test(gyroscopic_problem_solve(p, &r, &f) != STATUS_OK, "%s: solved (%s)", name, f.text);
     int at = 0;
-    double worst = 0;
+    double worst = 0, uncertain = 0;
     for (int i = 0; i < r.count; i++) {
         largest = fmax(largest, r.growth[i]);
         if (r.growth[i] > 0)
             continue;
         worst = fmax(worst, at < count ? fabs(r.frequency[i] / expected[at] - 1) : INFINITY);
+        uncertain = fmax(uncertain, r.error[i]);
         at++;
     }
+    gsl_test(!(uncertain < 1e-9), "%s: estimates of errors, largest %.1e", name, uncertain);
     gsl_test_int(r.count, count < WANTED && r.negative == 0 ? count : WANTED, "%s: number of modes",
                  name);
     gsl_test(!(worst < 1e-9), "%s: frequencies are those of LAPACK (%.1e)", name, worst);
@@ -171,8 +173,106 @@ static void light_and_massless(void)
         }
 }
 
+/* The matrix has lost digits that the product has: frequencies are those of the product. */
+static void spoilt_matrix(void)
+{
+    static const double noise[] = {1e-8, 1e-5, 1e-3};
+    static const int size[] = {12, 30, 120};
+    for (int softened = 0; softened < 2; softened++)
+        for (size_t k = 0; k < sizeof noise / sizeof noise[0]; k++)
+            for (size_t s = 0; s < sizeof size / sizeof size[0]; s++) {
+                const int n = size[s];
+                problem p;
+                gyroscopic_result r = {0};
+                fault f = {""};
+                uint64_t seed = 11;
+                double *K = malloc((size_t)n * (size_t)n * sizeof *K),
+                       *expected = calloc(2 * (size_t)n, sizeof *expected), growth, worst = 0,
+                       uncertain = 0;
+                gyroscopic_problem_alloc(n, &p);
+                gyroscopic_problem_fill(&p, 3, n / 4, softened ? 1.2 : 0);
+                for (int i = 0; i < n; i++)
+                    for (int j = i; j < n; j++)
+                        K[i * n + j] = K[j * n + i] =
+                            p.K[i * n + j] * (1 + noise[k] * random_number(&seed));
+                const int count = gyroscopic_problem_by_lapack(&p, expected, &growth);
+                gsl_test(gyroscopic_problem_solve_by(&p, K, gyroscopic_problem_product, NULL, &r,
+                                                     &f) != STATUS_OK,
+                         "matrix of %d unknowns spoilt by %g: solved (%s)", n, noise[k], f.text);
+                gsl_test(r.count < WANTED, "matrix of %d unknowns spoilt by %g: %d modes", n,
+                         noise[k], r.count);
+                for (int i = 0, at = 0; i < r.count; i++) {
+                    if (r.growth[i] > 0)
+                        continue;
+                    worst = fmax(worst, at < count ? fabs(r.frequency[i] / expected[at] - 1) : 1);
+                    uncertain = fmax(uncertain, r.error[i]);
+                    at++;
+                }
+                gsl_test(!(worst < 1e-9), "matrix of %d unknowns spoilt by %g: off by %.1e", n,
+                         noise[k], worst);
+                gsl_test(!(uncertain < 1e-9), "matrix of %d unknowns spoilt by %g: estimate %.1e",
+                         n, noise[k], uncertain);
+                gyroscopic_free(&r);
+                free(K);
+                free(expected);
+                free(p.K);
+            }
+}
+
+static const double part_of_rounding = 1e-4;
+
+static double large_rounding(void *context, const double x[])
+{
+    const problem *p = context;
+    double sum = 0;
+    for (int i = 0; i < p->n; i++)
+        for (int j = 0; j < p->n; j++)
+            sum += x[i] * p->K[i * p->n + j] * x[j];
+    return part_of_rounding * sum;
+}
+
+/* What rounding may change in K is in the error of every frequency: without gyroscopic terms half
+ * of it, in parts, and no more than ten times that. */
+static void rounding_is_told(void)
+{
+    static const double strength[] = {0, 2};
+    for (int i = 0; i < 2; i++) {
+        problem p;
+        gyroscopic_result r = {0};
+        fault f = {""};
+        gyroscopic_problem_alloc(30, &p);
+        gyroscopic_problem_fill(&p, strength[i], 0, 0);
+        gsl_test(gyroscopic_problem_solve_by(&p, p.K, gyroscopic_problem_product, large_rounding,
+                                             &r, &f) != STATUS_OK,
+                 "rounding of K: solved (%s)", f.text);
+        for (int k = 0; k < r.count && i == 0; k++)
+            gsl_test(r.error[k] < part_of_rounding / 2 || r.error[k] > 5 * part_of_rounding,
+                     "rounding of K: error %.2e", r.error[k]);
+        for (int k = 0; k < r.count && i == 1; k++) {
+            problem other = p;
+            gyroscopic_result moved = {0};
+            double *K = malloc(900 * sizeof *K);
+            for (int j = 0; j < 900; j++)
+                K[j] = p.K[j] * (1 + part_of_rounding);
+            other.K = K;
+            gsl_test(gyroscopic_problem_solve(&other, &moved, &f) != STATUS_OK,
+                     "a stiffer structure: solved (%s)", f.text);
+            const double change = fabs(moved.frequency[k] / r.frequency[k] - 1);
+            gsl_test(r.error[k] < change || r.error[k] > 10 * change,
+                     "frequency %d: error %.2e, and a change of the stiffness changes it by %.2e",
+                     k, r.error[k], change);
+            gyroscopic_free(&moved);
+            free(K);
+        }
+        gyroscopic_free(&r);
+        free(p.K);
+    }
+}
+
 int main(void)
 {
+    spoilt_matrix();
+    rounding_is_told();
     held_from();
     light_and_massless();
     definite();
