@@ -41,6 +41,10 @@ void subspace_free(subspace *b)
 
 void subspace_skew_mul(const sparse *G, const double x[], double y[])
 {
+    if (!G->symmetric) {
+        sparse_mul(G, x, y);
+        return;
+    }
     memset(y, 0, (size_t)G->n * sizeof *y);
     for (int j = 0; j < G->n; j++)
         for (int k = G->column[j]; k < G->column[j + 1]; k++) {

@@ -210,6 +210,14 @@ class Rotors(ProgramTest):
                     self.known(scene % {**DEFAULT, "flat": flat, "omega": W, "density": 1e-13}, "collocation", n, [right],
                                within)
 
+    def test_moment(self):
+        """Matrices are stored whole where a moment may make them unsymmetric: the gyroscopic one counts once."""
+        for moment in ("0", "1e-9"):
+            scene = SHAFT % {**DEFAULT, "density": 1e-13}
+            scene = scene.replace("analyses:", f"loads: {{turn: {{moment: [0, 0, {moment}], on: disc}}}}\nanalyses:")
+            for n in (1, 8):
+                self.known(scene, "collocation", n, expected(300, 0.04), 1e-11)
+
     def test_indefinite_without_mass(self):
         """Elements that are too long for the force in them are told, with what to do."""
         done = self.text(WIRE, "geometrically_exact", 8)
