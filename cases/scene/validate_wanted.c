@@ -211,6 +211,13 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     const scene_passing *p = &q->passing;
     if (q->reduction < SCENE_LAST || q->reduction >= SCENE_REDUCTIONS)
         return fault_set(f, STATUS_REFUSED, "quantity %s: no such reduction", q->name);
+    const int stations =
+        scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE);
+    if (q->reduction != SCENE_LAST && !stations)
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: %s has one state and no stations; leave at and take out, or "
+                         "ask for a static path",
+                         q->name, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     if (q->reduction > SCENE_CURVE && a->kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: times, crossings and means are those of a motion in time; "

@@ -105,6 +105,35 @@ static void compliance_of_compliance(scene *s)
     scene_add_compliance(s, scene_add_compliance(s, 0, at_tip), at_tip);
 }
 
+static void critical_about_linear(scene *s)
+{
+    scene_add_buckling(s, scene_add_linear(s));
+}
+
+static void critical_about_buckling(scene *s)
+{
+    scene_add_buckling(s, scene_add_buckling(s, SCENE_NONE));
+}
+
+static void frequencies_about_rotation(scene *s)
+{
+    const double end = 1;
+    scene_add_modal(
+        s, scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){.omega = {0, 0, 1}}));
+}
+
+static void station_of_linear(scene *s)
+{
+    scene_set_at(
+        scene_add_quantity(s, "v", "m", scene_add_linear(s), scene_coordinate(TIP, SCENE_UY)), 0.5);
+}
+
+static void largest_of_frequencies(scene *s)
+{
+    scene_add_quantity(s, "f", "Hz", scene_add_modal(s, 0), scene_frequency(0, SCENE_ANY))
+        ->reduction = SCENE_MAX;
+}
+
 static const refusal refusals[] = {
     {follows_itself, "analysis 0: ", "does not come before it"},
     {stations, "analysis 0: ", "must ascend"},
@@ -115,6 +144,11 @@ static const refusal refusals[] = {
     {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},
     {compliance_nowhere, "analysis 1: ", "a compliance needs a node"},
     {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
+    {critical_about_linear, "analysis 2: ", "name a static one, or leave about out"},
+    {critical_about_buckling, "analysis 2: ", "name a static one, or leave about out"},
+    {frequencies_about_rotation, "analysis 2: ", "ask the rotation for its own frequencies"},
+    {station_of_linear, "quantity v: ", "analysis 1 has one state and no stations"},
+    {largest_of_frequencies, "quantity f: ", "analysis 1 has one state and no stations"},
     {two_names, "quantity u: ", "two of that name"},
     {no_analysis, "quantity u: ", "no such analysis"},
     {no_coordinate, "quantity u: ", "no such coordinate"},

@@ -524,6 +524,9 @@ static status run(analysis_context *c, int analysis, search *s, outcome_side *ou
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     search s = {.unstable = INFINITY, .estimate = INFINITY};
+    outcome_side *back = &o->left.spectrum.negative;
+    snprintf(back->reason, sizeof back->reason,
+             "about a state loads are followed along its path only; let them act the other way");
     const status result = run(c, analysis, &s, &o->left.spectrum.positive, f);
     if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {
         const fault why = *f;

@@ -114,7 +114,8 @@ static int is_sheared(unsigned needs)
 /* What the scene calls for when it leaves this out. */
 static unsigned needed_without(const scene *s, unsigned omits)
 {
-    unsigned needs = s->demands | needs_of_analyses(s) | features_of_quantities(s), all = needs;
+    unsigned needs = s->demands | needs_of_analyses(s) | (features_of_quantities(s) & ~omits),
+             all = needs;
     for (int i = 0; i < s->members; i++)
         all |= vec3_norm(s->member[i].strain) > 0 ? FEATURE_CURVATURE : 0;
     for (int i = 0; i < s->sections; i++) {

@@ -53,6 +53,38 @@ class OmitTest(SceneCase):
                     self.assertLessEqual(abs(own[name] - value), 1e-12 * abs(value), (case, name))
             self.assertNotRegex(self.answered("scene", case, *WHOLE).stdout, "(?m)^omit:")
 
+    def test_omitted_whatever_is_asked(self):
+        """A resultant that physics is needed for does not bring back what the scene omits."""
+        text = """beamwork: 1
+sections:
+  i: {i: {depth: 0.1, flange: 0.06, flange_thickness: 3e-3, web_thickness: 2e-3}, young: 210e9, shear_modulus: 81e9}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
+members: {m: {from: a, to: b, section: i, y: [0, 1, 0], warping: free}}
+loads:
+  pull: {force: [10e3, 0, 0], on: b}
+  twist: {moment: [0.1, 0, 0], on: b}
+analyses: {run: {static: {stations: [1]}}}
+quantities:
+  turn: {displacement: {analysis: run, node: b, component: rx}}
+"""
+        asked = "".join(f"  {r}: {{internal: {{analysis: run, member: m, where: 0.4, resultant: {r}}}}}\n"
+                        for r in ("Mx", "Mx_saint_venant", "Mx_warping", "Mx_wagner", "bimoment"))
+        turns = set()
+        for omit in ("none", "trapeze", "wagner_torque", "warping", "all"):
+            for formulation in ("collocation", "beamw_consistent"):
+                alone, both = [self.record("solve", "--scene", self.scene(text + more + f"omit: [{omit}]\n"), "-n", 2,
+                                           "-f", formulation) for more in ("", asked)]
+                mine, parts = values(alone), values(both)
+                self.assertEqual(alone["omitted"], both["omitted"], omit)
+                self.assertEqual(omit in both["omitted"], omit not in ("none", "all"))
+                self.assertAlmostEqual(mine["turn"], parts["turn"], delta=1e-12, msg=omit)
+                self.assertAlmostEqual(sum(parts[f"Mx_{p}"] for p in ("saint_venant", "warping", "wagner")),
+                                       parts["Mx"], delta=1e-9, msg=omit)
+                if omit in ("trapeze", "all"):
+                    self.assertLess(abs(parts["Mx_wagner"]), 1e-6)
+            turns.add(round(mine["turn"], 9))
+        self.assertGreater(len(turns), 1)
+
     def test_more_than_single_switches(self):
         """With it a case has shear, whatever its own switch says."""
         solved = [values(self.record("solve", "moment_buckling", "-n", 4, "-f", "geometrically_exact", *more))
