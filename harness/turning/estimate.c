@@ -120,8 +120,8 @@ static double share(const estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* What the vector misses, in parts of the eigenvalue: of other motions that were found, and of
- * those that were not, of which the first is known. */
+/* Twice what the vector misses, in parts of the eigenvalue: of other motions that were found, and
+ * of those that were not, of which the first is known. */
 static double missed(estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
@@ -138,7 +138,8 @@ static double missed(estimate *e, int i, double complex lambda, double own)
     rest /= own;
     const double next = e->found < e->pairs->count ? cabs(e->pairs->lambda[e->found]) : INFINITY,
                  apart = fmin(1, fabs(next - size) / size);
-    return sum + (rest >= apart * apart ? sqrt(rest) : rest / apart);
+    sum += rest >= apart * apart ? sqrt(rest) : rest / apart;
+    return 2 * sum;
 }
 
 /* What rounding may change in x^H (K + lambda^2 M + lambda G) x. The entries themselves pass

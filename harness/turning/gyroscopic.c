@@ -107,14 +107,14 @@ static double improve(solver *s, int i, int *grown)
     return size;
 }
 
-/* Is the mass of pair i rounding beside the largest? */
-static int is_beyond_digits(const solver *s, int i)
+/* By what part of lambda^2 of pair i rounding moves it, with its mass beside the largest. */
+static double noise(const solver *s, int i)
 {
     const double size = cabs(s->pairs.lambda[i]);
     double mass = 0;
     for (int k = 0; k < s->basis.count; k++)
         mass = fmax(mass, s->basis.Mp[k * s->basis.room + k]);
-    return size * size * mass * DBL_EPSILON > no_digits;
+    return size * size * mass * DBL_EPSILON;
 }
 
 /* Ritz pairs until `wanted` of them are good. Those with too little mass to have digits end the
@@ -130,7 +130,7 @@ static status iterate(solver *s, int wanted, fault *f)
         s->found = count;
         for (int i = 0; i < count; i++) {
             const double size = improve(s, i, &grown);
-            if (size > bearable_residual && s->found == count && is_beyond_digits(s, i))
+            if (size > bearable_residual && s->found == count && noise(s, i) > no_digits)
                 s->found = i;
             worst = fmax(worst, i < s->found ? size : 0);
             beyond = fmax(beyond, size);
@@ -219,7 +219,8 @@ static status missing(solver *s, int wanted, int *number, fault *f)
     if (last == s->pairs.count && last == wanted)
         last--;
     while (last > 0 && last < s->pairs.count &&
-           !(cabs(s->pairs.lambda[last]) > (1 + gap) * cabs(s->pairs.lambda[last - 1])))
+           !(cabs(s->pairs.lambda[last]) >
+             (1 + fmax(gap, fmin(1, 4 * noise(s, last)))) * cabs(s->pairs.lambda[last - 1])))
         last--;
     if (last <= 0)
         return STATUS_OK;

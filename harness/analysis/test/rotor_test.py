@@ -244,7 +244,7 @@ class Rotors(ProgramTest):
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
             right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
-            for n in (1, 8):
+            for n in (1, 2, 4, 8, 16):
                 self.close(self.frequencies(scene, "collocation", n), right, part*FIRST, 2e-9)
             self.assertEqual(self.stability(scene), "stable" if part < 1 else "stable without damping")
 
