@@ -12,6 +12,10 @@
 #include "harness/model/kinematics.h"
 #include "harness/solver/quantity.h"
 
+static const char *const no_frequency =
+    "the mesh has no mode of this kind that can be told from round-off: coordinates without mass, "
+    "or with hardly any beside the heaviest, have none";
+
 static void from_linear(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, quantity_result *r)
 {
@@ -120,8 +124,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         extract_path(c, q, o, r);
         if (outcome_rotation_of(o)->modes != NULL && isnan(r->value) && r->status == STATUS_OK)
             quantity_no_value(r, o->status != STATUS_OK ? o->status : STATUS_NO_VALUE,
-                              o->status != STATUS_OK ? o->reason
-                                                     : "the mesh has no mode of this kind");
+                              o->status != STATUS_OK ? o->reason : no_frequency);
         break;
     }
     if (r->status == STATUS_OK && !isfinite(r->value))

@@ -129,6 +129,15 @@ class Rotors(ProgramTest):
                 found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
                 self.close(found, expected(300, 0.04), 300, 1e-9 + 4e-5*density)
 
+    def test_too_light(self):
+        """Frequencies of the shaft itself, where it is too light for them to have digits: none, and why."""
+        for density in (1e-9, 1e-13):
+            for omega in (0.5*FIRST, 3*FIRST):
+                scene = JEFFCOTT % {**DEFAULT, "density": density, "omega": omega, "last": 3}
+                done = self.record("solve", "--scene", self.written(scene), "-f", "collocation", "-n", 2)
+                self.assertEqual([q["status"] for q in done["quantities"]], ["ok", "ok", "no_value", "no_value"])
+                self.assertIn("told from round-off", done["quantities"][2]["reason"])
+
     def test_speeds(self):
         """Below, next to and above the critical speed; a flat disc and a long one."""
         for polar in (0.04, 0.01):
