@@ -159,6 +159,7 @@ const element_type element_collocation = {
     .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. "
               "Mech. Eng. 49 (1985)",
     EXACT_TYPE,
+    .limits = LIMIT_HALF_TURN,
     .options = {options},
     .order = order,
     .strains = strains,

@@ -1,5 +1,6 @@
 /* The geometrically exact beam (Reissner, Simo) with warping, as general codes offer it: two or
  * three nodes, reduced integration, strains at the integration points. */
+#include <math.h>
 #include <string.h>
 
 #include "elements/exact/alone.h"
@@ -11,10 +12,18 @@
 
 enum { OPTION_NODES };
 
+/* Compliance of a plane across an element, which an axial force N takes for more than it is where N
+ * times it is 1: the section's shear [1/N], which is the beam's, and the bending that stands in the
+ * place of shear, l^2/12EI or l^2/60EI (stiffness.h), which is the mesh's. */
+typedef struct across {
+    double shear, bending;
+} across;
+
 struct element_data {
     exact_gauss gauss;
     lumped_mass mass;
     int nodes;
+    across plane[2]; /* y, z */
 };
 
 static const parameter_type options[] = {
@@ -39,12 +48,30 @@ static size_t data_size(const element_request *request)
     return sizeof(element_data);
 }
 
+static void set_across(const element_request *r, int nodes, across plane[2])
+{
+    const section *c = r->section;
+    const double square = r->length * r->length,
+                 EI[2] = {c->matrices ? c->stiffness[35] : c->young * c->Iz,
+                          c->matrices ? c->stiffness[28] : c->young * c->Iy};
+    const int sheared = r->features & FEATURE_SHEAR && c->F[0] > 0 && c->F[4] > 0;
+    for (int i = 0; i < 2; i++) {
+        plane[i].shear = c->matrices                   ? 1 / c->stiffness[7 * (1 + i)]
+                         : r->features & FEATURE_SHEAR ? c->F[4 * i] / c->shear_modulus
+                                                       : 0;
+        plane[i].bending = nodes == 2               ? square / (12 * EI[i])
+                           : c->matrices || sheared ? 0
+                                                    : square / (60 * EI[i]);
+    }
+}
+
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
     const int count = nodes(request->options);
     TRY(exact_stiffness_prepare(request, count, &out->gauss.stiffness, f));
     out->mass = lumped_of(request->section, request->features, request->length);
     out->nodes = count;
+    set_across(request, count, out->plane);
     exact_strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
                          count == 2 ? EXACT_MEASURE_ANGLE : EXACT_MEASURE_QUARTER,
                          &out->gauss.line);
@@ -80,6 +107,19 @@ static void geometric(const element_data *d, const double sigma[], double G[])
     exact_stiffness_geometric(&d->gauss.stiffness, sigma, G);
 }
 
+static double tension(const element_data *d, const double sigma[])
+{
+    const int points = d->nodes - 1;
+    double most = 0;
+    for (int g = 0; g < points; g++)
+        for (int i = 0; i < 2; i++) {
+            const double N = points * sigma[6 * g], left = 1 - N * d->plane[i].shear;
+            if (N > 0 && left > 0)
+                most = fmax(most, N * d->plane[i].bending / left);
+        }
+    return sqrt(most);
+}
+
 static status inertia(const element_data *d, const node_state x[],
                       const element_rotating_frame *frame, inertia_output *out)
 {
@@ -93,6 +133,7 @@ const element_type element_geometrically_exact = {
               "(1985); interpolation of "
               "rotations ours",
     EXACT_TYPE,
+    .limits = LIMIT_HALF_TURN | LIMIT_TENSION,
     .options = {options},
     .nodes = nodes,
     .strains = strains,
@@ -105,4 +146,5 @@ const element_type element_geometrically_exact = {
     .strain_many = strain_many,
     .stress_many = stress_many,
     .inertia = inertia,
+    .tension = tension,
 };

@@ -26,8 +26,7 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
 
 /* In an element_type: what geometrically exact beams with warping are and offer. */
 #define EXACT_TYPE                                                                                 \
-    .family = "reissner", .abi = ELEMENT_ABI, .limits = LIMIT_HALF_TURN,                           \
-    .shear_theories = SHEAR_HARINGX,                                                               \
+    .family = "reissner", .abi = ELEMENT_ABI, .shear_theories = SHEAR_HARINGX,                     \
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |              \
               FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE | FEATURE_HARINGX |                   \
               FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_CURVATURE | FEATURE_MASS |               \

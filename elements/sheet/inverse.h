@@ -20,6 +20,7 @@ static const int sheet_inverse_curved[SHEET_INVERSE_CURVED] = {SHEET_LOCAL_U, SH
 typedef struct sheet_inverse_data {
     sheet_base_data base;
     sheet_potential potential;
+    double bending; /* L^2/EIz [1/N] */
     double scale[SHEET_STRAINS];
     double X[SHEET_INVERSE_CURVED][SHEET_STRAINS * SHEET_STRAINS];
     /* Of the potential with N Eq. 52 where the element is free of stress: it is less these. */

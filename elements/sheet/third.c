@@ -1,5 +1,6 @@
 #include "elements/sheet/third.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
@@ -84,9 +85,22 @@ status sheet_third_prepare(const element_request *request, int printed, element_
             f, STATUS_REFUSED,
             "initial shear strain %g along the thickness: N Eq. 50 knows none; leave it out",
             request->strain[1]);
+    out->bending =
+        request->length * request->length / (request->section->young * request->section->Iz);
     partial_inverse(request->length, sheet_fields_warp(request), out);
     TRY(sheet_coefficients_prepare(request, printed, &out->potential, f));
     return set_rest(request, out, f);
+}
+
+/* Bent to u = psi (x - x^2) L, psi at one end and -psi at the other, M_z = M~z + u F deviates from
+ * what is linear along the element: with f = F L^2/EIz the energy EIz/(2 L) (4 + f/3 - f^2/180)
+ * psi^2 is positive up to f = 30 + sqrt(1620).  The other bending, psi at both ends, goes to f =
+ * 185. */
+double sheet_third_tension(const element_data *data, const double sigma[])
+{
+    const sheet_inverse_data *d = sheet_inverse_of(data);
+    const double most = 30 + sqrt(1620);
+    return sigma[0] > 0 ? sqrt(sigma[0] * d->bending / most) : 0;
 }
 
 /* At e = 0 along the strain v whose stress is sigma: x' = (dx/de) v, (dx/de)' = X v, C' by the

@@ -18,12 +18,14 @@ void sheet_third_equations_many(int count, const element_data *const data[], con
                                 const double *const e[], const double *const inner[],
                                 const double *const s[], equations_output out[], status outcome[]);
 void sheet_third_geometric(const element_data *d, const double sigma[], double G[]);
+double sheet_third_tension(const element_data *d, const double sigma[]);
 
 /* In an element_type. */
 #define SHEET_THIRD_TYPE                                                                           \
-    SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR, .limits = SHEET_BASE_LIMITS | LIMIT_FLAT_ARC,       \
-        .lacks = LACKS_SHEAR_Y, .lacks_by = "N Eq. 50", .data_size = sheet_third_data_size,        \
-        .stress = sheet_third_stress, .stress_many = sheet_third_stress_many,                      \
-        .equations_many = sheet_third_equations_many, .geometric = sheet_third_geometric
+    SHEET_BASE_TYPE, SHEET_BASE_WITHOUT_SHEAR,                                                     \
+        .limits = SHEET_BASE_LIMITS | LIMIT_FLAT_ARC | LIMIT_TENSION, .lacks = LACKS_SHEAR_Y,      \
+        .lacks_by = "N Eq. 50", .data_size = sheet_third_data_size, .stress = sheet_third_stress,  \
+        .stress_many = sheet_third_stress_many, .equations_many = sheet_third_equations_many,      \
+        .geometric = sheet_third_geometric, .tension = sheet_third_tension
 
 #endif

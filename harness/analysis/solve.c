@@ -21,6 +21,7 @@
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/linear_system.h"
+#include "harness/solver/newton.h"
 #include "harness/solver/singular.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
@@ -71,7 +72,8 @@ static int has_negative(const solve_result *r, int from)
 static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
-        (o->status == STATUS_OK && !has_negative(c->result, first_step)))
+        (o->status == STATUS_OK && !has_negative(c->result, first_step)) ||
+        newton_judge_rest(c->model, NULL) != STATUS_OK) /* which is said already */
         return o->status;
     fault why = {""};
     linear_system s = {0};
@@ -97,6 +99,8 @@ static void run_analyses(analysis_context *c)
         c->singular = 0;
         const int first_step = c->result->steps;
         o->status = scene_inputs_check(c->scene, i, &f);
+        if (o->status == STATUS_OK)
+            o->status = newton_judge_rest(c->model, &f);
         if (o->status == STATUS_OK)
             o->status = run(c, i, o, &f);
         history_judge_steps(c->result, c->scene, i, first_step);

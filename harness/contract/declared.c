@@ -43,6 +43,8 @@ static void words(const element_type *t, claim *one)
                 "lacks: LACKS_SHEAR_Y is for types that offer shear; leave it out");
     claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
                 "offers: FEATURE_ROTARY_INERTIA goes with FEATURE_MASS");
+    claims_asks(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
+                "tension: it goes with LIMIT_TENSION; give both or leave both out");
     claims_asks(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
                 "spreads: it goes with 'inertia' and FEATURE_MASS; give them or leave it out");
 }

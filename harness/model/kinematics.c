@@ -226,6 +226,23 @@ static double twist_of(const model *m, const model_state *s, const mesh_element 
     return angle > PI ? 2 * PI - angle : angle;
 }
 
+double kinematics_largest_rise(const model *m, int *index)
+{
+    double largest = 0;
+    *index = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_kind *k = &m->kind[m->element[i].kind];
+        const section *c = &m->section[k->section];
+        const double square = c->matrices ? c->stiffness[35] / c->stiffness[0] : c->Iz / c->A,
+                     rise = k->length * k->length * fabs(k->curvature[2]) / 8 / sqrt(square);
+        if (rise > largest) {
+            largest = rise;
+            *index = i;
+        }
+    }
+    return largest;
+}
+
 double kinematics_largest_twist(const model *m, const model_state *s, int *index)
 {
     double largest = 0;

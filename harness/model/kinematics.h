@@ -30,6 +30,8 @@ double kinematics_driver_value(const model *, const model_state *, int driver);
 double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
 /* Likewise, about the element's axis. */
 double kinematics_largest_twist(const model *, const model_state *, int *element_index);
+/* Rise of the arc of an element at rest, by its curvature about z, in radii of gyration. */
+double kinematics_largest_rise(const model *, int *element_index);
 
 /* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
 int kinematics_coordinate(const model *, int node, int component);

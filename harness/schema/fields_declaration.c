@@ -32,10 +32,12 @@ static void get_limits(const subject *s, field_value *out)
                                 "that vanishes with more elements"},
         {LIMIT_QUARTER_TURN, "less than a quarter turn between the ends of an element"},
         {LIMIT_HALF_TURN, "less than half a turn between the ends of an element"},
+        {LIMIT_TENSION, "no element that is too long for the axial force in it, which its "
+                        "stiffness across it does not bear"},
         {LIMIT_EIGHTH_TWIST, "less than an eighth of a turn of twist in an element"},
         {LIMIT_WARPING_RIGID, "warping does not shear: no closed cells that warp"},
-        {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 9.7 radii of gyration of "
-                         "its section (of a leaf: 2.8 thicknesses)"},
+        {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 2 radii of gyration of "
+                         "its section (of a leaf: 0.58 thicknesses)"},
     };
     size_t used = 0;
     out->room[0] = '\0';

@@ -39,13 +39,10 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     return counts.negative_pivots > 0
                ? fault_set(f, STATUS_NOT_CONVERGED,
                            "%s: %d negative pivot%s of the stiffness at rest, where nothing is "
-                           "loaded: elements move against their forces%s; use more elements or "
+                           "loaded: elements move against their forces; use more elements or "
                            "another formulation",
                            model_formulation(c->model), counts.negative_pivots,
-                           counts.negative_pivots > 1 ? "s" : "",
-                           model_limits(c->model) & LIMIT_FLAT_ARC
-                               ? ", as where their arcs rise by 9.7 radii of gyration"
-                               : "")
+                           counts.negative_pivots > 1 ? "s" : "")
                : STATUS_OK;
 }
 

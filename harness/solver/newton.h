@@ -42,6 +42,8 @@ status newton_direction(newton *, double path, step_record *, fault *);
 /* The state takes dx; *correction: dimensionless size of what changed. */
 status newton_advance(newton *, double path, double *correction, step_record *, fault *);
 
+/* What the formulation does not follow of the structure at rest: arcs of its elements. */
+status newton_judge_rest(const model *m, fault *f);
 /* Every state that an analysis accepts is asked here, with the one before it: NOT_CONVERGED names
  * an element that is turned by more than its formulation can follow, a spring whose rotation vector
  * has lost its direction, or what is driven too far in one step. A node's vector that has lost its

@@ -43,6 +43,47 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
                      quarter ? "quarter" : "half", m->type->name, s->path);
 }
 
+/* Elements longer than the axial force in them allows. */
+static status judge_tension(const model *m, const model_state *s, fault *f)
+{
+    int worst = 0;
+    double most = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const double by = m->type->tension(m->kind[m->element[i].kind].data,
+                                           s->sigma + (size_t)i * (size_t)m->strains);
+        worst = by > most ? i : worst;
+        most = fmax(most, by);
+    }
+    if (most < 1)
+        return STATUS_OK;
+    const int member = m->element[worst].member, first = m->first_element[member],
+              count = m->first_element[member + 1] - first;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "element %d of %d of %s is too long for the axial force in it, by a factor of "
+                     "%.4g, at path %g: %s loses its stiffness across it; use %.0f elements (for "
+                     "four times the force twice as many) or another formulation",
+                     worst - first + 1, count, scene_called(m->scene, SCENE_MEMBERS, member).text,
+                     most, s->path, m->type->name, floor(count * most) + 1);
+}
+
+status newton_judge_rest(const model *m, fault *f)
+{
+    const double most = 2;
+    int index;
+    if (!(m->type->limits & LIMIT_FLAT_ARC))
+        return STATUS_OK;
+    const double rise = kinematics_largest_rise(m, &index);
+    if (rise < most)
+        return STATUS_OK;
+    const int member = m->element[index].member, first = m->first_element[member],
+              count = m->first_element[member + 1] - first;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "the arc of element %d of %d of %s rises by %.3g radii of gyration of its "
+                     "section, and %s is right below %g: use %.0f elements or another formulation",
+                     index - first + 1, count, scene_called(m->scene, SCENE_MEMBERS, member).text,
+                     rise, m->type->name, most, floor(count * sqrt(rise / most)) + 1);
+}
+
 /* Near a full turn, with a moment across the turn: that knows no bounds there. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
@@ -106,6 +147,8 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
     TRY(judge_elements(m, s, f));
     if (m->type->limits & LIMIT_EIGHTH_TWIST)
         TRY(judge_twist(m, s, f));
+    if (m->type->limits & LIMIT_TENSION)
+        TRY(judge_tension(m, s, f));
     TRY(judge_springs(m, from, s, f));
     TRY(judge_steps(m, from, s, f));
     turns_lose(m, from, s);

@@ -132,7 +132,7 @@ static void rests(const point *p, const formulation *chosen, int elements)
         worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
         /* Elements whose arcs rise beyond their declared limit are refused by name. */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
-            strstr(f.text, "stiffness at rest") != NULL)
+            strstr(f.text, "radii of gyration") != NULL)
             worst = 0;
         result_free(&r);
     }
