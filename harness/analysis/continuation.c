@@ -83,6 +83,8 @@ static status accept(continuation *p, step_record *record, fault *f)
     record->increment = p->here.factor - before.factor;
     record->negative_pivots = p->here.symmetric ? p->here.negative : -1;
     judge(p, &before, record);
+    if (!p->here.symmetric && scene_has_mass(p->c->scene))
+        TRY(flutter_judge_state(&p->judge, p->c, p->n.state, record, f));
     model_counters(p->c->model)->steps++;
     TRY(add_point(p, f));
     return history_add_step(p->c->result, record, f);
@@ -118,11 +120,8 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     t->doubt = continuation_sound_doubt(p, last_resort, &t->swing);
     int jump = 0, hidden = 0;
     p->doubtful = 0;
-    const int changes = p->here.negative != p->next.negative ||
-                        p->here.determinant != p->next.determinant ||
-                        (p->here.rate < 0) != (p->next.rate < 0);
     if (t->doubt == NULL)
-        TRY(continuation_critical_within(p, goal, changes, &hidden, f));
+        TRY(continuation_critical_within(p, goal, &hidden, f));
     if (last_resort && hidden) {
         p->doubtful = 1;
         hidden = 0;

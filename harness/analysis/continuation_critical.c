@@ -13,7 +13,7 @@
 #include "harness/model/model_impl.h"
 #include "harness/solver/history.h"
 
-enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 5 };
+enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */
 static const double closeness = 1e-10;      /* of a trial, relative to the step */
 static const double near = 1e-3;            /* of a vanishing eigenvalue, beside those before */
@@ -261,31 +261,22 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Is the part of the step, which becomes the trial point, another than its ends: in pivots, or in
- * where the load goes? */
-static status look_at(continuation *p, path_goal goal, double part, int *differs, double *least,
-                      fault *f)
+/* The part of the step becomes the trial point; its first one, or the next. Two corrections are
+ * near enough to a state that is looked at only. */
+static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
-    const sought s = {0, 0, p->here.negative};
-    bound trial = {part, NAN};
-    int before = 0;
-    TRY(try_at(p, goal, &s, &trial, &before, f));
-    *differs = !before || (p->trial.rate < 0) != (p->here.rate < 0);
-    *least = least_of(p, &p->trial);
-    return STATUS_OK;
-}
-
-/* Do all eigenvalues next to zero change less than `clear` of the least one? */
-static int is_quiet(const path_point *a, const path_point *b, double clear)
-{
-    if (a->nearest == 0 || a->nearest != b->nearest)
-        return 0;
-    const double most = clear * fmin(cabs(a->mu[0]), cabs(b->mu[0]));
-    for (int i = 0; i < a->nearest; i++)
-        if (fabs(cabs(a->mu[i]) - cabs(b->mu[i])) > most ||
-            (creal(a->mu[i]) < 0) != (creal(b->mu[i]) < 0))
-            return 0;
-    return 1;
+    const path_goal to = part_of(p, goal, part);
+    if (first)
+        continuation_step_go_back(p);
+    for (int i = 0; i < CORRECTIONS; i++) {
+        step_record record = {0};
+        const status corrected = first && i == 0 ? continuation_step_correct(p, to, &record, f)
+                                                 : continuation_step_go_on(p, to, &record, f);
+        history_drop_step(p->c->result, &record);
+        TRY(corrected);
+    }
+    step_record unused = {0};
+    return continuation_step_look(p, p->moved, &p->trial, &unused, f);
 }
 
 /* Does a parabola through three values at equal distances, of one sign, come to zero between
@@ -300,45 +291,42 @@ static int dips(const double value[3])
                touches * fmax(fabs(value[0]), fabs(value[2]));
 }
 
-static int is_between(int a, int b, int c)
+/* Does what a critical point changes go back on the way from a to b, where the step ends at c? */
+static int goes_back(const path_point *a, const path_point *b, const path_point *c)
 {
-    return (a <= b && b <= c) || (a >= b && b >= c);
+    const int of_rate = (a->rate < 0) == (c->rate < 0) && (b->rate < 0) != (c->rate < 0);
+    if (a->negative < 0 || b->negative < 0 || c->negative < 0)
+        return of_rate || (a->determinant == c->determinant && b->determinant != c->determinant);
+    return of_rate || b->negative < (a->negative < c->negative ? a : c)->negative ||
+           b->negative > (a->negative > c->negative ? a : c)->negative;
 }
 
-/* The middle, and the rest where a parabola through the least eigenvalues is not clear of zero. */
-static status look_within(continuation *p, path_goal goal, int changes, int *hidden, fault *f)
+/* At every sixth: a loss of stability that lasts as long has one of these within. */
+static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
-    const double clear = 0.5; /* of the least one: what it may change by from the ends */
-    const double a = p->here.least, b = p->next.least;
-    double value[PARTS + 1] = {a, [PARTS] = b}, middle;
-    TRY(look_at(p, goal, 0.5, hidden, &middle, f));
-    *hidden &= !changes;
-    const double least = fmin(fmin(fabs(a), fabs(b)), fabs(middle));
-    const int near_ends = fabs(middle - a) < clear * least && fabs(middle - b) < clear * least;
-    if (!changes && near_ends &&
-        (p->trial.symmetric ||
-         (is_quiet(&p->here, &p->trial, clear) && is_quiet(&p->trial, &p->next, clear))))
-        return STATUS_OK;
-    int last = p->here.negative;
+    double value[PARTS + 1] = {p->here.least, [PARTS] = p->next.least};
+    path_point last = p->here;
     for (int i = 1; i < PARTS && !*hidden; i++) {
-        TRY(look_at(p, goal, (double)i / PARTS, hidden, &value[i], f));
-        *hidden = changes ? !is_between(last, p->trial.negative, p->next.negative) : *hidden;
-        last = p->trial.negative;
+        TRY(look_at(p, goal, (double)i / PARTS, i == 1, f));
+        value[i] = p->trial.least;
+        *hidden = goes_back(&last, &p->trial, &p->next);
+        last = p->trial;
     }
-    for (int i = 0; i + 2 <= PARTS && !p->trial.symmetric; i++)
-        *hidden |= dips(value + i);
+    for (int i = 0; i + 2 <= PARTS && !*hidden && !p->next.symmetric; i++)
+        *hidden = dips(value + i);
     return STATUS_OK;
 }
 
-status continuation_critical_within(continuation *p, path_goal goal, int changes, int *hidden,
-                                    fault *f)
+status continuation_critical_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
     *hidden = 0;
-    if (!p->asks_critical || (changes && p->next.symmetric))
+    if (!p->asks_critical)
         return STATUS_OK;
-    p->next.least = least_of(p, &p->next);
+    const arrival before = p->n.arrival;
     kinematics_state_copy(p->c->model, p->n.state, p->end);
-    const status outcome = look_within(p, goal, changes, hidden, f);
+    p->n.arrival.criterion = INFINITY; /* one correction at a time */
+    const status outcome = look_within(p, goal, hidden, f);
+    p->n.arrival = before;
     kinematics_state_copy(p->c->model, p->end, p->n.state);
     p->looked = 0;
     *hidden |= outcome == STATUS_SINGULAR;

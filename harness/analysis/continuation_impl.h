@@ -11,9 +11,8 @@
 
 #include <complex.h>
 
-#include "harness/solver/newton.h"
-
-enum { PATH_NEAREST = 6 };
+#include "harness/flutter/judge.h"
+#include "harness/flutter/left.h"
 
 /* A point of the path. */
 typedef struct path_point {
@@ -21,13 +20,13 @@ typedef struct path_point {
     double rate;            /* dfactor/ds with s in the model's metric */
     double *tangent;        /* [free + driven] dx/ds */
     int symmetric;
-    int negative;    /* negative pivots of K, or what continuation_step counts in their
-                        place; -1: not known */
+    int negative; /* negative pivots of K, or what left_count counts in their place; -1: not known
+                   */
     int determinant; /* sign of det K */
     double least;    /* eigenvalue of K of least size, its real part where K is not
                         symmetric; NAN: not asked for */
     int nearest;
-    double complex mu[PATH_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
+    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
                                         K is not symmetric */
 } path_point;
 
@@ -46,12 +45,13 @@ typedef struct continuation {
     int asks_critical;  /* 1: a quantity asks for critical points */
     int keeps_states;   /* 1: the outcome keeps the state of every point */
     newton n;           /* n.backup: state at the start of the step */
-    model_state *end;   /* of the step, while a critical point inside it is looked for */
-    double *weight;     /* [free + driven] the metric */
-    double *load;       /* [free + driven] f' */
-    double *response;   /* [free + driven] K^-1 f' */
-    double *moved;      /* [free + driven] sum of the increments of the step */
-    double *mode;       /* [free + driven] null vector */
+    flutter_judge judge;
+    model_state *end; /* of the step, while a critical point inside it is looked for */
+    double *weight;   /* [free + driven] the metric */
+    double *load;     /* [free + driven] f' */
+    double *response; /* [free + driven] K^-1 f' */
+    double *moved;    /* [free + driven] sum of the increments of the step */
+    double *mode;     /* [free + driven] null vector */
     path_point here, next, trial;
     int first;    /* negative pivots at the begin */
     int narrow;   /* 1: where something changes was told as near as can be */
@@ -67,6 +67,8 @@ double continuation_step_dot(const continuation *, const double a[],
                              const double b[]); /* in the metric */
 /* Newton to the goal from n.backup = the state of `here`; the arc is measured along its tangent. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
+/* The same from the present state, to which the last one led. */
+status continuation_step_go_on(continuation *, path_goal, step_record *, fault *);
 /* Factors K in the present state and fills the point; its tangent goes the way of along[free +
  * driven] (NULL: to a larger load). */
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
@@ -97,7 +99,7 @@ status continuation_sound_report_jump(continuation *, const rival *, double from
  * a critical point, which is another branch. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* Where critical points are asked for: *hidden 1 when something changes within the step and back,
- * as far as that lasts a fifth of it. changes 1: its ends differ. */
-status continuation_critical_within(continuation *, path_goal, int changes, int *hidden, fault *);
+ * as far as that lasts a fifth of it. */
+status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 #endif

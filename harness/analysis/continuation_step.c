@@ -9,7 +9,6 @@
 #include "harness/analysis/continuation_impl.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/loads.h"
-#include "harness/flutter/arnoldi.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/solver/context.h"
@@ -46,6 +45,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
 void continuation_step_free(continuation *p)
 {
     newton_free(&p->n);
+    flutter_judge_free(&p->judge);
     kinematics_state_free(p->end);
     free(p->weight);
     free(p->load);
@@ -108,9 +108,14 @@ static double change_of(const continuation *p, path_goal goal, const double dx[]
 
 status continuation_step_correct(continuation *p, path_goal goal, step_record *record, fault *f)
 {
+    memset(p->moved, 0, (size_t)p->n.all * sizeof *p->moved);
+    return continuation_step_go_on(p, goal, record, f);
+}
+
+status continuation_step_go_on(continuation *p, path_goal goal, step_record *record, fault *f)
+{
     newton *n = &p->n;
     newton_watch watch = newton_watch_start;
-    memset(p->moved, 0, (size_t)n->all * sizeof *p->moved);
     for (int done = 0; !done;) {
         double correction = 0;
         TRY(directions(p, record, f));
@@ -135,76 +140,18 @@ status continuation_step_correct(continuation *p, path_goal goal, step_record *r
     return STATUS_OK;
 }
 
-/* Where a tangent is not symmetric it has no inertia: what counts instead are the eigenvalues next
- * to zero of D^-1 K, D the metric, and which of them lie left of the imaginary axis.  That number
- * changes where one passes zero, which is a critical point, and where a pair passes the axis beside
- * zero, which is none; pairs that meet on the axis do not change it, nor does rounding that makes a
- * pair of a double value.  A symmetric K has as many of them as negative pivots. */
-enum {
-    FEWEST = 6,
-    MOST = 48,
-    SPARE = 3
-}; /* eigenvalues that are looked at; beyond the last on the left */
-/* Of an eigenvalue beside those looked at: its sign may be. */
-static const double rounding = 1e-6;
-
-/* y = D^1/2 K^-1 D^1/2 x */
-static void apply(void *context, const double x[], double y[])
-{
-    const continuation *p = context;
-    for (int k = 0; k < p->n.free; k++)
-        y[k] = sqrt(p->weight[k]) * x[k];
-    factor_solve(p->n.factor, y);
-    for (int k = 0; k < p->n.free; k++)
-        y[k] *= sqrt(p->weight[k]);
-}
-
-/* How many lie on the left; 0 for *sure: others may, beyond those that were looked at. */
-static int left_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
-{
-    int left = 0;
-    for (int i = 0; i < r->count; i++)
-        left += creal(r->theta[i]) < 0;
-    const double least = cabs(r->theta[0]), last = cabs(r->theta[r->count - 1]);
-    const int parity = left % 2 == 0 ? 1 : -1;
-    *sure = (left <= wanted - SPARE || r->count < wanted) &&
-            (parity == determinant || last < rounding * least);
-    return left;
-}
-
-static void take(const arnoldi_result *r, path_point *out)
-{
-    out->nearest = r->count < PATH_NEAREST ? r->count : PATH_NEAREST;
-    for (int i = 0; i < out->nearest; i++)
-        out->mu[i] = 1 / r->theta[i];
-    out->least = creal(out->mu[0]);
-}
-
+/* Of a tangent that is not symmetric, which has no inertia. */
 static status index_of(continuation *p, path_point *out, fault *f)
 {
-    for (int wanted = FEWEST;; wanted *= 2) {
-        arnoldi_result r = {0};
-        const int n = p->n.free;
-        const arnoldi_problem of = {n, wanted < n ? wanted : n, apply, p};
-        fault why = {""};
-        int sure = 0;
-        const status outcome = arnoldi_solve(&of, &r, &why);
-        model_counters(p->c->model)->solutions += r.applied;
-        out->nearest = 0;
-        if (outcome == STATUS_OK && r.count > 0) {
-            out->negative = left_of(&r, of.wanted, out->determinant, &sure);
-            take(&r, out);
-        }
-        arnoldi_free(&r);
-        if (outcome == STATUS_FAULT)
-            return fault_set(f, outcome, "%s", why.text);
-        if (sure)
-            return STATUS_OK;
-        if (outcome != STATUS_OK || wanted >= n || wanted >= MOST) {
-            out->negative = -1;
-            return STATUS_OK;
-        }
-    }
+    left_of_axis left;
+    TRY(left_count(p->n.factor, p->n.free, p->weight, &left, f));
+    model_counters(p->c->model)->solutions += left.solutions;
+    out->negative = left.count;
+    out->nearest = left.nearest;
+    for (int i = 0; i < left.nearest; i++)
+        out->mu[i] = left.mu[i];
+    out->least = left.nearest > 0 ? creal(left.mu[0]) : NAN;
+    return STATUS_OK;
 }
 
 /* The point from response = K^-1 f'. */

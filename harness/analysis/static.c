@@ -9,6 +9,7 @@
 
 #include "harness/analysis/compliance_walk.h"
 #include "harness/analysis/extract_path.h"
+#include "harness/flutter/judge.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
@@ -17,7 +18,15 @@
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-status static_walk(newton *n, double target, double *increment, fault *f)
+/* Where there are no pivots that tell whether what a step led to is stable. */
+static status judge_state(newton *n, flutter_judge *judge, step_record *record, fault *f)
+{
+    if (judge == NULL || record->negative_pivots >= 0)
+        return STATUS_OK;
+    return flutter_judge_state(judge, n->c, n->state, record, f);
+}
+
+static status walk_to(newton *n, double target, flutter_judge *judge, double *increment, fault *f)
 {
     counters *count = model_counters(n->c->model);
     const double least = *increment / (1 << MAX_HALVINGS);
@@ -32,6 +41,7 @@ status static_walk(newton *n, double target, double *increment, fault *f)
             predictor_guess(n->c->model, n->predictor, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         if (outcome == STATUS_OK) {
+            TRY(judge_state(n, judge, &record, f));
             TRY(history_add_step(n->c->result, &record, f));
             count->steps++;
             count->negative_pivots = record.negative_pivots > count->negative_pivots
@@ -61,6 +71,11 @@ status static_walk(newton *n, double target, double *increment, fault *f)
     return STATUS_OK;
 }
 
+status static_walk(newton *n, double target, double *increment, fault *f)
+{
+    return walk_to(n, target, NULL, increment, f);
+}
+
 /* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the
  * same. */
 static status sample(newton *n, double path, fault *f)
@@ -72,7 +87,8 @@ static status sample(newton *n, double path, fault *f)
 }
 
 /* Steps to every station, whose states are kept: none is shorter than before without need. */
-static status walk(newton *n, int analysis, compliance_walk *on_the_way, outcome_path *o, fault *f)
+static status walk(newton *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
+                   outcome_path *o, fault *f)
 {
     analysis_context *c = n->c;
     const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
@@ -83,7 +99,7 @@ static status walk(newton *n, int analysis, compliance_walk *on_the_way, outcome
     for (int i = 0; i < a->path.stations; i++) {
         const double from = i > 0 ? a->path.value[i - 1] : 0;
         increment = fmax(increment, (a->path.value[i] - from) / steps);
-        TRY(static_walk(n, a->path.value[i], &increment, f));
+        TRY(walk_to(n, a->path.value[i], judge, &increment, f));
         if (c->options->newton != SOLVE_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);
         TRY(compliance_walk_take(on_the_way, n, i, f));
@@ -95,7 +111,7 @@ static status walk(newton *n, int analysis, compliance_walk *on_the_way, outcome
 
 /* With what static_analysis frees. */
 static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
-                    compliance_walk **on_the_way, outcome_path *o, fault *f)
+                    flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
     const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
     TRY(newton_alloc(c, 1, n, f));
@@ -105,7 +121,7 @@ static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
     if (c->options->sample > 0)
         return sample(n, a->path.value[0], f);
     TRY(compliance_walk_begin(n, analysis, on_the_way, f));
-    return walk(n, analysis, *on_the_way, o, f);
+    return walk(n, analysis, judge, *on_the_way, o, f);
 }
 
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -113,7 +129,12 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     newton n;
     predictor t = {0};
     compliance_walk *on_the_way = NULL;
-    const status result = solve(c, analysis, &n, &t, &on_the_way, outcome_walk(o), f);
+    flutter_judge judge = {0};
+    const scene_analysis *a = &c->scene->analysis[analysis];
+    const int looks = c->options->looks && a->kind != SCENE_ROTATION && !scene_rotates(a);
+    const status result =
+        solve(c, analysis, &n, &t, looks ? &judge : NULL, &on_the_way, outcome_walk(o), f);
+    flutter_judge_free(&judge);
     compliance_walk_end(on_the_way);
     predictor_free(&t);
     newton_free(&n);

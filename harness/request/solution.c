@@ -63,6 +63,7 @@ status solution_run(const solution_request *r, sweep *s, fault *f)
     request.solve.keep_ends = r->keep_ends;
     /* what is drawn, written or gone on from is asked for */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
+    request.solve.looks = 1;
     request.solve.restarts = r->restarts;
     request.solve.restart = r->restart;
     return cell_run(&request, &s->series[0].cell[0], f);

@@ -40,9 +40,11 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
     const int massive = scene_has_mass(s);
-    if (one->passed > 0 && (!massive || one->passed % 2 != 0))
+    if (one->by_eigenvalues && one->passed > 0 && (!massive || one->passed % 2 != 0))
         return STEP_UNSTABLE;
-    return massive || one->passed < 0 ? STEP_OPEN : STEP_NO_DIVERGENCE;
+    if (massive || !one->by_eigenvalues || one->passed < 0)
+        return one->judged;
+    return STEP_NO_DIVERGENCE;
 }
 
 void history_judge_steps(solve_result *r, const scene *s, int analysis, int first)
@@ -51,9 +53,7 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
     for (int i = first; i < r->steps; i++) {
         step_record *one = &r->step[i];
         one->analysis = analysis;
-        one->stability = STEP_OPEN;
-        if (one->by_eigenvalues)
-            one->stability = without_symmetry(s, one);
+        one->stability = without_symmetry(s, one);
         if (a->kind == SCENE_MOTION || one->negative_pivots < 0)
             continue;
         if (one->negative_pivots == 0)

@@ -35,6 +35,7 @@ typedef struct solve_options {
     int restarts;
     const outcome_end *restart; /* [restarts] where those stopped that motions go on from */
     int all_analyses;           /* 1: those that no quantity reads run, too */
+    int looks;       /* 1: static paths are judged where pivots do not, and within their steps */
     int values_only; /* 1: what only curves and matrices show at a station is not computed */
 } solve_options;
 
@@ -68,8 +69,8 @@ typedef enum step_stability {
     STEP_NO_DIVERGENCE, /* no symmetric tangent and no mass: no eigenvalue has passed zero */
     STEP_STABLE,
     STEP_UNSTABLE,
-    STEP_GROWS, /* in axes that turn: a small motion grows, by an odd number of negative pivots (det
-                   K < 0) or by a mode that was found */
+    STEP_GROWS, /* in axes that turn, or without a symmetric tangent: a small motion grows, by an
+                   odd number of negative eigenvalues (det K < 0) or by a mode that was found */
     STEP_HELD,  /* in axes that turn: held by gyroscopic forces alone, no motion grows without
                    damping; one that turns with the structure makes it grow */
     STEP_STABILITIES
@@ -82,9 +83,10 @@ typedef struct step_record {
     step_stability stability; /* where it ended */
     double path, increment;
     int iterations, rejected,
-        negative_pivots; /* rejected: tries of longer steps that failed before this one */
-    int by_eigenvalues;  /* 1: its tangent is not symmetric; its eigenvalues were followed: */
-    int passed;          /* so many have passed zero */
+        negative_pivots;   /* rejected: tries of longer steps that failed before this one */
+    int by_eigenvalues;    /* 1: its tangent is not symmetric; its eigenvalues were followed: */
+    int passed;            /* so many have passed zero */
+    step_stability judged; /* by the frequencies of small motions; STEP_OPEN: not asked or known */
     double residual, correction, incompatibility; /* of the last iteration */
     double remaining; /* what the next one would have changed, as the contraction so far predicts;
                          NAN: not known */

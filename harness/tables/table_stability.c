@@ -55,7 +55,8 @@ static void words_of_path(const solve_result *r, int analysis, char text[WORDS])
         if (r->step[i].analysis == analysis) {
             begin = begin < 0 ? i : begin;
             last = i;
-            told |= r->step[i].stability != STEP_STABLE && r->step[i].negative_pivots > 0;
+            told |= r->step[i].stability != STEP_STABLE &&
+                    (r->step[i].negative_pivots > 0 || r->step[i].stability != STEP_OPEN);
         }
     for (int i = begin; told && i >= 0 && i <= last; runs++) {
         int end = i;

@@ -48,6 +48,19 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
+# A stiff cantilever bent in its plane while a thrust comes and goes, which it bears or buckles under
+# across that plane.
+PASSING = """beamwork: 1
+sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1000, It: 1000}, young: 1, shear_modulus: 1}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+loads: {p: {force: [0, 1, 0], on: b}, q: {force: [-5, 0, 0], on: b, factor: %(factor)s, path: %(path)s}}
+analyses: {path: {continuation: {control: {node: b, component: uy}, by: coordinate, to: [0.01],
+                                 step: %(step)r, step_max: %(step)r}}}
+quantities:
+  P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
+"""
 FOLLOWED = COLUMN.replace("{p: {force: [-1, 0, 0], on: b}%(more)s}",
                           "{p: {force: [%(fixed)r, 0, 0], on: b}, "
                           "f: {force: [%(eta)r, 0, 0], on: b, follower: true}}") \
@@ -140,15 +153,36 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """No mass: no divergence up to the first point; with one frequencies would tell."""
+        """No mass: no divergence up to the first point; with one frequencies tell."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
-                              (1e-9, ["undecided"] * 6)):
+                              (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"
             path.write_text((FOLLOWED % {"Iy": 1, "fixed": -0.8, "eta": -0.2, "to": 6e-6,
                                          "step": 1e-6})
                             .replace("young: 1,", "young: 1, density: %r," % density))
             done = run("solve", "--scene", path, "-f", "collocation", "-n", 8, "--format", "json")
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
+
+    def test_frequencies_judge_what_the_determinant_does_not(self):
+        """Beck's column: the determinant never changes its sign, flutter begins at 20.05."""
+        path = self.folder / "scene.yaml"
+        for density, said in ((0, ["no divergence"] * 6), (1e-9, ["stable"] * 4 + ["unstable: grows"] * 2)):
+            path.write_text((FOLLOWED % {"Iy": 2, "fixed": 0.0, "eta": -1.0, "to": 3e-5, "step": 5e-6})
+                            .replace("young: 1,", "young: 1, density: %r," % density))
+            done = run("solve", "--scene", path, "-f", "geometrically_exact", "-n", 8, "--format", "json")
+            self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
+
+    def test_passing_thrust(self):
+        """A loss that lasts a fifth of the step is found wherever it is, and two of them."""
+        for middle in (0.21, 0.25, 0.28, 0.33, 0.42, 0.5, 0.58, 0.67, 0.75, 0.79):
+            found = self.points(n=4, scene=PASSING, factor=[0, 0, 1, 0, 0], step=0.01,
+                                path=[0] + [30 * (middle + away) for away in (-0.2, 0, 0.2)] + [40])
+            self.near([found[1] - found[0], found[0] + found[1]], (30 * 0.202, 60 * middle), 5e-3, middle)
+            self.assertEqual(found[2:], [None, None])
+        path = [0] + [30 * part for part in (0.05, 0.25, 0.45, 0.55, 0.75, 0.95)] + [40]
+        fine, whole = [self.points(n=4, scene=PASSING, factor=[0, 0, 1, 0, 0, 1, 0, 0], path=path, step=step)
+                       for step in (5e-4, 0.01)]
+        self.near(whole, fine, 1e-7)
 
     def test_what_is_undecided_is_said(self):
         """One half follows: an eigenvalue touches zero at pi^2."""
