@@ -21,6 +21,12 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     r->rounding = side->error != NULL ? side->error[i] : 0;
 }
 
+static void take_meaning(const outcome_spectrum *from, quantity_result *r)
+{
+    if (r->status == STATUS_OK)
+        memcpy(r->meaning, from->meaning, sizeof r->meaning);
+}
+
 void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *o,
                                quantity_result *r)
 {
@@ -31,6 +37,7 @@ void extract_spectrum_buckling(const scene_quantity *q, const analysis_outcome *
     char why[FAULT_TEXT];
     if (load->order < side->count) {
         take_eigenvalue(q, side, load->order, 1, r);
+        take_meaning(found, r);
         return;
     }
     if (side->status != STATUS_OK)
@@ -72,6 +79,7 @@ void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
     int found = -1;
     if (q->what.kind == SCENE_GROWTH) {
         r->value = quantity_scaled(q, outcome_spectrum_of(o)->growth);
+        take_meaning(outcome_spectrum_of(o), r);
         return;
     }
     double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
@@ -86,4 +94,5 @@ void extract_spectrum_modal(const analysis_context *c, const scene_quantity *q,
         quantity_no_value(r, side->status, side->reason);
     else
         quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
+    take_meaning(outcome_spectrum_of(o), r);
 }

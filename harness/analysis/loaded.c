@@ -86,6 +86,7 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton 
         outcome = fault_set(f, STATUS_REFUSED, "nothing has a mass: there are no frequencies");
     if (outcome == STATUS_OK)
         outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
+    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, of.damped));
     const flutter_kind kind = outcome == STATUS_OK ? flutter_of(&of, &r, &mode) : FLUTTER_NONE;
     if (kind != FLUTTER_NONE) {
         out->growth = r.growth[mode];
@@ -113,6 +114,7 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
     TRY(assemble_pattern(c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, M, f));
     TRY(rotating_frame_inertia(c->model, n->state, 0, M, NULL, f));
+    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, 0));
     const sparse *upper = factor_upper(n->factor);
     const eigen_problem p = {.K = upper != NULL ? upper : &n->K,
                              .A = M,
@@ -478,7 +480,8 @@ static status hand_over(search *s, outcome_side *out, fault *f)
 }
 
 /* Where the loads have no potential: the first load, and what it is. */
-static status find_without_potential(analysis_context *c, search *s, outcome_side *out, fault *f)
+static status find_without_potential(analysis_context *c, search *s, outcome_spectrum *found,
+                                     fault *f)
 {
     flutter_point first;
     char how[64] = "";
@@ -492,11 +495,14 @@ static status find_without_potential(analysis_context *c, search *s, outcome_sid
     }
     value[0] = first.path;
     error[0] = first.error;
+    outcome_side *out = &found->positive;
     *out = (outcome_side){.count = 1, .value = value, .mode = first.mode, .error = error};
     snprintf(out->reason, sizeof out->reason,
              "of loads without a potential the first critical load alone is looked for");
     if (first.frequency > 0)
         snprintf(how, sizeof how, " at %.6g Hz", first.frequency / (2 * PI));
+    snprintf(found->meaning, sizeof found->meaning, "%s%s%s", first.what, how,
+             first.massless ? "; without a mass flutter was not looked for" : "");
     if (c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
                  "stability is lost at path %.6g: %s%s%s", first.path, first.what, how,
@@ -505,7 +511,7 @@ static status find_without_potential(analysis_context *c, search *s, outcome_sid
 }
 
 /* With what loaded_buckling frees. */
-static status run(analysis_context *c, int analysis, search *s, outcome_side *out, fault *f)
+static status run(analysis_context *c, int analysis, search *s, outcome_spectrum *out, fault *f)
 {
     TRY(start(c, analysis, "critical loads", &s->n, f));
     TRY(search_alloc(c, analysis, s, f));
@@ -518,7 +524,7 @@ static status run(analysis_context *c, int analysis, search *s, outcome_side *ou
     if (!factor_is_symmetric(s->n.factor))
         return find_without_potential(c, s, out, f);
     TRY(find_critical(s, f));
-    return hand_over(s, out, f);
+    return hand_over(s, &out->positive, f);
 }
 
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -527,7 +533,7 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     outcome_side *back = &o->left.spectrum.negative;
     snprintf(back->reason, sizeof back->reason,
              "about a state loads are followed along its path only; let them act the other way");
-    const status result = run(c, analysis, &s, &o->left.spectrum.positive, f);
+    const status result = run(c, analysis, &s, &o->left.spectrum, f);
     if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {
         const fault why = *f;
         (void)fault_set(f, result, "%.*s%s", FAULT_TEXT / 2, why.text,

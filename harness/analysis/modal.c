@@ -4,6 +4,7 @@
 #include "harness/analysis/modal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/rotating_frame.h"
+#include "harness/flutter/flutter.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
 #include "harness/solver/quadratic_forms.h"
@@ -201,6 +203,8 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
     modal_forms about = {0};
     const status result = solve(c, analysis, &s, &about, &e, f);
     keep(&about, &e.positive, o);
+    snprintf(o->left.spectrum.meaning, sizeof o->left.spectrum.meaning, "%s",
+             flutter_damping(c->scene, 0));
     if (about.prestressed && c->scene->analysis[analysis].follows == SCENE_NONE) {
         o->left.spectrum.strained = about.of.load_x;
         about.of.load_x = NULL;

@@ -9,7 +9,7 @@
 
 #include "harness/analysis/compliance_walk.h"
 #include "harness/analysis/extract_path.h"
-#include "harness/flutter/judge.h"
+#include "harness/flutter/within.h"
 #include "harness/model/kinematics.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
@@ -18,12 +18,30 @@
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 
-/* Where there are no pivots that tell whether what a step led to is stable. */
-static status judge_state(newton *n, flutter_judge *judge, step_record *record, fault *f)
+/* Whether what a step led to is stable, where pivots do not tell. *found: path within the step at
+ * which stability is another than at its ends, or INFINITY; last_resort: the step cannot be
+ * shorter. */
+static status judge_step(newton *n, flutter_judge *judge, int last_resort, step_record *record,
+                         double *found, fault *f)
 {
-    if (judge == NULL || record->negative_pivots >= 0)
+    *found = INFINITY;
+    if (judge == NULL)
         return STATUS_OK;
-    return flutter_judge_state(judge, n->c, n->state, record, f);
+    if (!last_resort)
+        TRY(within_step(judge, n->c, n->backup, n->state, found, f));
+    return record->negative_pivots >= 0 || isfinite(*found)
+               ? STATUS_OK
+               : flutter_judge_state(judge, n->c, n->state, record, f);
+}
+
+/* The step is walked again in shorter ones. */
+static void take_back(newton *n, const step_record *record)
+{
+    history_drop_step(n->c->result, record);
+    kinematics_state_copy(n->c->model, n->backup, n->state);
+    if (n->predictor != NULL)
+        predictor_forget(n->predictor);
+    model_counters(n->c->model)->rejected_steps++;
 }
 
 static status walk_to(newton *n, double target, flutter_judge *judge, double *increment, fault *f)
@@ -40,8 +58,16 @@ static status walk_to(newton *n, double target, flutter_judge *judge, double *in
         if (n->predictor != NULL)
             predictor_guess(n->c->model, n->predictor, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
+        double found = INFINITY;
+        if (outcome == STATUS_OK)
+            TRY(judge_step(n, judge, to - from <= least, &record, &found, f));
+        if (isfinite(found)) {
+            take_back(n, &record);
+            rejected++;
+            *increment = found - from;
+            continue;
+        }
         if (outcome == STATUS_OK) {
-            TRY(judge_state(n, judge, &record, f));
             TRY(history_add_step(n->c->result, &record, f));
             count->steps++;
             count->negative_pivots = record.negative_pivots > count->negative_pivots
@@ -55,16 +81,15 @@ static status walk_to(newton *n, double target, flutter_judge *judge, double *in
             rejected = 0;
             continue;
         }
-        history_drop_step(n->c->result, &record);
         /* Shorter steps meet the same matrix, but for the stiffness of the loads. */
         const int hopeless =
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
-        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least || hopeless)
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least ||
+            hopeless) {
+            history_drop_step(n->c->result, &record);
             return outcome;
-        kinematics_state_copy(n->c->model, n->backup, n->state);
-        if (n->predictor != NULL)
-            predictor_forget(n->predictor);
-        count->rejected_steps++;
+        }
+        take_back(n, &record);
         rejected++;
         *increment = (to - from) / 2;
     }

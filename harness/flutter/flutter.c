@@ -69,6 +69,11 @@ void flutter_take(unsymmetric_result *from, outcome_side *to)
     from->frequency = from->mode = from->error = NULL;
 }
 
+const char *flutter_damping(const scene *s, int damped)
+{
+    return !damping_acts(s) ? "" : damped ? "with the members' damping" : "undamped";
+}
+
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
     flutter_kind kind = FLUTTER_NONE;

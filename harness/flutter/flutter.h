@@ -24,6 +24,9 @@ status flutter_motions(const newton *, flutter_system *, int wanted, int estimat
                        unsymmetric_result *, fault *);
 /* Frequencies, modes and errors become those of an outcome; what has no digits is NAN there. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
+/* What the motions are of: "", "undamped" where members are damped and damped is 0, or "with the
+ * members' damping". */
+const char *flutter_damping(const scene *, int damped);
 /* What grows fastest, *mode of them. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
 /* "flutter, undamped", "divergence", "flutter, growth with the members' damping" */

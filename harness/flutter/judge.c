@@ -11,7 +11,7 @@ enum { MOTIONS = 8 };                  /* least ones that are looked at */
 static const double most_error = 1e-2; /* beyond it nothing is known of a motion */
 static const double real_part = 1e-6;  /* beside which an imaginary one is rounding */
 
-static status begin(flutter_judge *j, analysis_context *c, fault *f)
+status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
 {
     if (j->begun)
         return STATUS_OK;
@@ -58,17 +58,18 @@ static status count_passed(flutter_judge *j, step_record *record, fault *f)
     return STATUS_OK;
 }
 
-static status judge(flutter_judge *j, analysis_context *c, const model_state *state,
-                    step_record *record, fault *f)
+status flutter_judge_here(flutter_judge *j, step_record *record, fault *f)
 {
-    step_record unused = {0};
+    step_record at = {0};
     fault why = {""};
-    TRY(begin(j, c, f));
-    kinematics_state_copy(c->model, state, j->n.state);
-    const status factored = newton_direction(&j->n, kinematics_state_path(state), &unused, &why);
+    const status factored = newton_direction(&j->n, kinematics_state_path(j->n.state), &at, &why);
+    record->negative_pivots = -1;
     if (factored == STATUS_FAULT)
         return fault_set(f, factored, "%s", why.text);
     if (factored != STATUS_OK) /* singular: nothing is decided */
+        return STATUS_OK;
+    record->negative_pivots = at.negative_pivots;
+    if (at.negative_pivots >= 0)
         return STATUS_OK;
     if (j->of.M.value == NULL)
         TRY(flutter_system_alloc(&j->n, &j->of, f));
@@ -81,7 +82,11 @@ status flutter_judge_state(flutter_judge *j, analysis_context *c, const model_st
                            step_record *record, fault *f)
 {
     const counters work = *model_counters(c->model);
-    const status outcome = judge(j, c, state, record, f);
+    const int singular = c->singular;
+    TRY(flutter_judge_begin(j, c, f));
+    kinematics_state_copy(c->model, state, j->n.state);
+    const status outcome = flutter_judge_here(j, record, f);
+    c->singular = singular;
     *model_counters(c->model) = work;
     return outcome;
 }

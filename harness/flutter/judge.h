@@ -16,6 +16,10 @@ typedef struct flutter_judge {
  * counted as work. */
 status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
                            fault *);
+/* The same of the state that j->n has; negative_pivots of the record become those of the state, -1:
+ * not symmetric, or singular. */
+status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
+status flutter_judge_here(flutter_judge *, step_record *, fault *);
 void flutter_judge_free(flutter_judge *);
 
 #endif

@@ -55,6 +55,10 @@ static const schema_field fields_of_quantity[] = {
      .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
+    {"meaning", "", FIELD_TEXT,
+     "of a frequency, whether with the members' damping; of a critical load of loads without a "
+     "potential, how stability is lost",
+     VALUE(meaning)},
     {"not_modelled", "", FIELD_TEXT, "physics that the formulation leaves out where that matters",
      .get = get_not_modelled},
     {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},

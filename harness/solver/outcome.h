@@ -27,9 +27,12 @@ typedef struct rotation_modes {
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 
+enum { OUTCOME_MEANING = 128 };
 /* Buckling, modal; what was found stays where the analysis failed. */
 typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are positive */
+    char meaning[OUTCOME_MEANING];   /* with or without the damping of members, or how stability is
+                                        lost; "": nothing is damped, and loads have a potential */
     double growth;    /* [1/s] of modes about a state without potential, the largest; 0: stable */
     double *strained; /* [free + driven] displacements by initial strains alone, about which modes
                          of the structure without loads are; NULL: there are none */

@@ -51,7 +51,8 @@ typedef struct quantity_result {
     double rounding; /* critical loads, frequencies: estimate of |error| by round-off; of a motion
                         what reading it between its steps adds; in parts of the value; else 0 */
     curve curve;     /* of SCENE_CURVE, else 0 points */
-    char reason[FAULT_TEXT]; /* why there is no value */
+    char reason[FAULT_TEXT];       /* why there is no value */
+    char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */
 } quantity_result;
 
 /* All dimensionless.  Quadratic convergence: each correction is about the square of the one

@@ -60,6 +60,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     fprintf(to, " %-*s", UNIT, q->unit);
     table_percent(to, row != NULL ? verdict_error(q, v->value, row->value) : NAN);
     fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");
+    fprintf(to, "%s%s", v->meaning[0] != '\0' ? ", " : "", v->meaning);
     const int passed = scene_is_passed(q, p->scene.analysis[q->analysis].kind);
     if (passed && (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN))
         fprintf(to, ", at %.6g s", v->x);

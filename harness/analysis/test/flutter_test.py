@@ -98,6 +98,31 @@ class Flutter(ProgramTest):
         _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, status=1)
         self.assertRegex(said, "no critical load from path 0 to .* nothing has a mass, so that flutter was not looked for")
 
+    def test_with_damping_or_without(self):
+        """Frequencies about symmetric states are those without damping, and say so; others are damped."""
+        one = self.folder / "scene.yaml"
+        said = {}
+        for follows in ("", ", follower: true"):
+            for eta in (0, 1e-2):
+                one.write_text((COLUMN % {**DEFAULT, "load": "force: [-1, 0, 0], on: tip" + follows, "member": f", damping: {eta}",
+                                          "quantities": CRITICAL + "\n" + MOTIONS + "\n  w: {frequency: {analysis: w, which: 0}}"})
+                               .replace("v: {modal: {about: st}}", "v: {modal: {about: st}}, w: {modal: {}}"))
+                done = run("solve", "--scene", one, "-f", "geometrically_exact", "-n", 8, "--format", "json")
+                rows = json.loads(done.stdout)["quantities"]
+                said[follows, eta] = [row["meaning"] for row in rows]
+                if eta > 0:
+                    self.assertEqual(rows[4]["value"], undamped, follows)
+                    self.assertRegex(run("solve", "--scene", one, "-f", "geometrically_exact", "-n", 8).stdout,
+                                     r"\nw  .*, undamped\n")
+                undamped = rows[4]["value"]
+        self.assertEqual(said["", 0], [""] * 5)
+        self.assertEqual(said["", 1e-2], [""] + ["undamped"] * 4)
+        flutter = r"flutter, undamped at 1\.75", "flutter, growth with the members' damping at 0\\.859"
+        self.assertRegex(said[", follower: true", 0][0], flutter[0])
+        self.assertRegex(said[", follower: true", 1e-2][0], flutter[1])
+        self.assertEqual(said[", follower: true", 0][1:], [""] * 4)
+        self.assertEqual(said[", follower: true", 1e-2][1:], ["with the members' damping"] * 3 + ["undamped"])
+
     def test_growth(self):
         """Sum and product of the squares go on through flutter, where the frequencies are one."""
         sums = []

@@ -184,6 +184,20 @@ class MultiplePoints(ProgramTest):
                        for step in (5e-4, 0.01)]
         self.near(whole, fine, 1e-7)
 
+    def test_static_paths_are_looked_into(self):
+        """The same thrust on a static path of one station: steps end where it is unstable."""
+        path = self.folder / "scene.yaml"
+        for more, well in (("", "stable"), (", z: {moment: [1e-3, 0, 0], on: b}", "no divergence")):
+            for middle in (0.21, 0.3, 0.5, 0.66, 0.79):
+                text = PASSING % {"factor": [0, 0, 1, 0, 0], "path": [0, middle - 0.2, middle, middle + 0.2, 1], "step": 1}
+                text = text[:text.index("analyses:")].replace("[0, 1, 0], on: b}", "[0, 30, 0], on: b}" + more)
+                path.write_text(text + "analyses: {st: {static: {stations: [1]}}}\n"
+                                "quantities: {u: {displacement: {analysis: st, node: b, component: uy}}}\n")
+                done = run("solve", "--scene", path, "-f", "collocation", "-n", 4, "--format", "json")
+                said = [step["stability"] for step in json.loads(done.stdout)["steps"]]
+                self.assertIn("unstable (1)", said, (more, middle))
+                self.assertEqual(said[-1], well, (more, middle))
+
     def test_what_is_undecided_is_said(self):
         """One half follows: an eigenvalue touches zero at pi^2."""
         path = self.folder / "scene.yaml"
