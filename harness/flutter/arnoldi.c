@@ -188,7 +188,7 @@ static int changed(solver *s)
 /* Vectors until the pairs wanted have converged, or there are no more of use. */
 static status iterate(solver *s, int vectors, fault *f)
 {
-    for (double best = INFINITY, worst;; vectors = MORE) {
+    for (double best = INFINITY, worst;; vectors = s->count / 3 > MORE ? s->count / 3 : MORE) {
         int grown = 0;
         while (grown < vectors && grow(s))
             grown++;

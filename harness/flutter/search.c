@@ -16,9 +16,10 @@ static const double wanted_change = 0.15, largest_change = 0.5; /* of a square o
 static const double quickest = 10;                              /* a step by that before it */
 static const double farthest =
     1e3; /* of the path of the state followed, unless its loads are small */
-static const double farther = 100; /* of the path that doubles a square at the first rate */
-static const double rough = 1e-2;  /* bracket that interpolation begins in, of the path */
-static const double closer = 0.1;  /* part of the way that is left */
+static const double farther = 100;    /* of the path that doubles a square at the first rate */
+static const double rough = 1e-2;     /* bracket that interpolation begins in, of the path */
+static const double near_lost = 1e-2; /* of the path: nearer to where there is no state */
+static const double closer = 0.1;     /* part of the way that is left */
 static const double closest = 1e-5, wanted_error = 1e-10; /* of the path */
 static const double near_divergence = 1e-4;               /* where Newton still converges */
 static const double alike = 1e-10; /* squares of a double value, relative difference squared */
@@ -68,8 +69,9 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
                                                      : rate * rate;
 }
 
-/* The station at `path`, walked to from the kept state; STATUS_SINGULAR: the tangent is. */
-static status look(search *s, double path, station *out, fault *f)
+/* The station at `path`, walked to from the kept state; STATUS_SINGULAR: the tangent is. surely 1:
+ * what is not more than rounding does not grow. */
+static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton *n = s->n;
     step_record unused = {0};
@@ -81,7 +83,7 @@ static status look(search *s, double path, station *out, fault *f)
     if (increment != 0)
         TRY(s->walk(n, path, &increment, f));
     TRY(newton_direction(n, path, &unused, f));
-    status outcome = flutter_motions(n, &s->of, s->of.damped ? WATCHED : MOTIONS, 0, &r, f);
+    status outcome = flutter_motions(n, &s->of, s->of.damped ? WATCHED : MOTIONS, surely, &r, f);
     if (outcome == STATUS_OK)
         describe(s, &r, out);
     if (outcome == STATUS_OK && out->kind != FLUTTER_NONE) {
@@ -91,6 +93,11 @@ static status look(search *s, double path, station *out, fault *f)
         unsymmetric_free(&r);
     }
     return outcome;
+}
+
+static status look(search *s, double path, station *out, fault *f)
+{
+    return look_closely(s, path, 0, out, f);
 }
 
 static void keep(search *s, const station *at)
@@ -161,11 +168,29 @@ static status look_between(search *s, station a, station b, station c, int i, fa
     return STATUS_OK;
 }
 
+/* The search ends behind `last`. */
+static status is_lost(const search *s, const char *why, fault *f)
+{
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "no critical load from path 0 to %g; from there on %s", s->last.path, why);
+}
+
+/* Is what grows at `next` more than rounding? */
+static status confirm(search *s, fault *f)
+{
+    station again;
+    TRY(look_closely(s, s->next.path, 1, &again, f));
+    return again.kind != FLUTTER_NONE
+               ? STATUS_OK
+               : is_lost(s, "what grows is lost in round-off of the tangent", f);
+}
+
 /* From the kept state, which is that of `last`, to the first unstable station: s->next. */
 static status walk(search *s, fault *f)
 {
     double step = first_step * s->size, end = farthest * s->size;
     const double lowest = s->last.count > 0 ? s->last.square[0] : 0;
+    double failed = INFINITY; /* least path at which there is no station */
     int stations = 0;
     for (int looks = 0; looks < MAX_STATIONS; looks++) {
         const double path = s->last.path + step;
@@ -176,6 +201,9 @@ static status walk(search *s, fault *f)
             return outcome;
         const double changed = outcome == STATUS_OK ? change(&s->last, &s->next, lowest) : INFINITY;
         if (outcome != STATUS_OK || (s->next.kind == FLUTTER_NONE && changed > largest_change)) {
+            failed = outcome != STATUS_OK ? fmin(failed, path) : failed;
+            if (failed - s->last.path < near_lost * failed)
+                return is_lost(s, f->text, f);
             if (step < 1e-6 * fmax(fabs(path), 1e-9 * s->size))
                 return outcome != STATUS_OK ? outcome
                                             : fault_set(f, STATUS_NOT_CONVERGED,
@@ -184,7 +212,9 @@ static status walk(search *s, fault *f)
             continue;
         }
         if (s->next.kind != FLUTTER_NONE)
-            return STATUS_OK;
+            return confirm(s, f);
+        if (s->next.count < s->last.count)
+            return is_lost(s, "slow motions are lost in round-off of the tangent", f);
         const station c = s->next;
         for (int i = 0; stations > 0 && !s->of.massless && !s->of.damped && i + 1 < WATCHED + 2 &&
                         i + 1 < c.count;
@@ -195,7 +225,7 @@ static status walk(search *s, fault *f)
                 keep(s, &s->last);
             }
             if (s->next.kind != FLUTTER_NONE)
-                return STATUS_OK;
+                return confirm(s, f);
         }
         if (kinematics_state_path(s->n->state) != path)
             TRY(look(s, path, &s->next, f));
