@@ -197,17 +197,26 @@ static int power_of(const scene *s, const scene_quantity *q)
     return 0;
 }
 
+/* Are its stations coordinates [m]: those of a continuation, or of what is about one? */
+static int stations_are_lengths(const scene *s, const scene_quantity *q)
+{
+    if (q->analysis < 0 || q->analysis >= s->analyses)
+        return 0;
+    const scene_analysis *a = &s->analysis[q->analysis];
+    if (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE)
+        a = &s->analysis[a->follows];
+    return a->kind == SCENE_CONTINUATION;
+}
+
 static void scale_quantity(const scene *s, scene_quantity *q, double x)
 {
     const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
     q->factor *= times ? 1 : pow(x, -power_of(s, q));
     q->passing.level *= pow(x, power_of(s, q));
-    if (q->analysis >= 0 && q->analysis < s->analyses &&
-        s->analysis[q->analysis].kind == SCENE_CONTINUATION)
+    if (stations_are_lengths(s, q)) {
         q->at *= x;
-    if (q->reduction == SCENE_CURVE && q->analysis >= 0 && q->analysis < s->analyses &&
-        s->analysis[q->analysis].kind == SCENE_CONTINUATION)
-        q->x.factor /= x;
+        q->x.factor /= q->reduction == SCENE_CURVE ? x : 1;
+    }
 }
 
 status scene_change_unit(scene *s, double x, fault *f)

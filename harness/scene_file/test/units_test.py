@@ -85,6 +85,24 @@ quantities:
   u: {displacement: {analysis: run, node: b, component: uy}}
 """
 
+CONTINUED = """beamwork: 1
+UNITS
+sections: {s: {rectangle: {width: WIDTH, thickness: THICK}, young: YOUNG, shear_modulus: SHEAR}}
+nodes:
+  a: {at: [0, 0, 0], hold: all}
+  b: {at: [LENGTH, 0, 0]}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0], warping: fixed}}
+loads: {p: {force: [-1, 0.2, 0], on: b}}
+analyses:
+  path: {continuation: {control: {node: b, component: uy}, to: [NEAR, FAR], step: NEAR}}
+  supple: {compliance: {node: b, about: path}}
+quantities:
+  P: {factor_at: {analysis: path, at: NEAR}}
+  u: {displacement: {analysis: path, node: b, component: ux, at: NEAR}}
+  C: {compliance: {analysis: supple, row: uy, column: uy, at: NEAR}}
+  line: {compliance: {analysis: supple, row: uy, column: uy, take: curve}}
+"""
+
 LEAF = """beamwork: 1
 sections: {leaf: {rectangle: {width: WIDTH, thickness: THICK}, young: YOUNG, shear_modulus: SHEAR}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [LENGTH, 0, 0]}}
@@ -135,6 +153,19 @@ class UnitsTest(SceneCase):
         found = values(self.solved(filled(MOTION, UNITS="units: mm, N, MPa", **MILLIMETRES)))
         for name in exact:
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
+
+    def test_continued(self):
+        """Stations of a continuation are lengths, also of a compliance about it."""
+        si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
+                  for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
+        exact, found = values(si), values(mm)
+        for name, power in {"P": 0, "u": 1, "C": 1}.items():
+            self.assertAlmostEqual(found[name]*1e-3**power/exact[name], 1, delta=1e-7, msg=name)
+        for i, x in enumerate((1, 4)):
+            here, there = si["curves"][0], mm["curves"][0]
+            self.assertAlmostEqual(here["curve_x"][i], 1e-3*x, delta=1e-12)
+            self.assertAlmostEqual(there["curve_x"][i], x, delta=1e-9)
+            self.assertAlmostEqual(there["curve_value"][i]*1e-3/here["curve_value"][i], 1, delta=1e-7)
 
     def test_leaf(self):
         """The tip moves by 3.0448 mm."""
