@@ -219,10 +219,25 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
+/* What is sought along a path: a linear solution would take it for zero. */
+static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
+{
+    for (int d = 0; d < s->drivers; d++)
+        if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
+            (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
+            return fault_set(f, STATUS_REFUSED,
+                             "%s (%s) and motion %s: its value is unknown, and this analysis seeks "
+                             "none; ask for a static path",
+                             scene_called(s, SCENE_ANALYSES, analysis).text,
+                             scene_column_name[column], s->driver[d].name);
+    return STATUS_OK;
+}
+
 status scene_inputs_check(const scene *s, int analysis, fault *f)
 {
     const scene_column column = scene_column_of(s, analysis);
     char who[SCENE_NAME + 32];
+    TRY(check_unknown(s, analysis, column, f));
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
         if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, analysis, who, sizeof who))
             return fault_set(f, STATUS_REFUSED, "%s (%s) and %s (%s): it %s",

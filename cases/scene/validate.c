@@ -123,6 +123,15 @@ static int is_used(const scene *s, int driver)
     return 0;
 }
 
+/* Does the node move in the component of a condition as the known driver says, but for it? */
+static int is_conditioned(const scene *s, const scene_driver *d)
+{
+    const scene_node *n = &s->node[d->condition_node];
+    const int k = d->condition_component;
+    return k >= 0 && k < 6 &&
+           (k < SCENE_RX ? n->translation[k] : n->angle[k - SCENE_RX]) == d->condition_driver;
+}
+
 static status check_driver(const scene *s, int i, fault *f)
 {
     const scene_driver *d = &s->driver[i];
@@ -138,6 +147,12 @@ static status check_driver(const scene *s, int i, fault *f)
                              "driver %s: its value is unknown and no condition fixes it; name a "
                              "node and a driver with known values",
                              d->name);
+        if (!is_conditioned(s, d))
+            return fault_set(f, STATUS_REFUSED,
+                             "driver %s: %s does not drive the coordinate of its condition at %s; "
+                             "drive it there, too",
+                             d->name, s->driver[d->condition_driver].name,
+                             scene_called(s, SCENE_NODES, d->condition_node).text);
         return STATUS_OK;
     }
     for (int k = 0; k < d->stations; k++) {

@@ -3,6 +3,7 @@
  * accepted. */
 #include <math.h>
 
+#include "cases/scene/inputs.h"
 #include "cases/test/refuse.h"
 
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
@@ -112,6 +113,11 @@ static void unknown_driver(scene *s)
     scene_drive(s, TIP, SCENE_UZ, scene_add_unknown_driver(s, "sought", TIP, SCENE_UY, SCENE_NONE));
 }
 
+static void condition_not_driven(scene *s)
+{
+    scene_drive(s, TIP, SCENE_UZ, scene_add_unknown_driver(s, "sought", TIP, SCENE_UX, 0));
+}
+
 static void condition_nowhere(scene *s)
 {
     scene_drive(s, TIP, SCENE_UZ, scene_add_unknown_driver(s, "sought", 9, SCENE_UY, 0));
@@ -172,6 +178,7 @@ static const refusal refusals[] = {
     {damping, "member 0: ", "a damping of -0.001 s"},
     {idle_driver, "driver push: ", "it moves nothing"},
     {unknown_driver, "driver sought: ", "no condition fixes it"},
+    {condition_not_driven, "driver sought: ", "does not drive the coordinate of its condition"},
     {condition_nowhere, "driver sought: ", "no condition fixes it"},
     {value_of_driver, "driver push: ", "station 1 is not a number"},
     {path_of_driver, "driver push: ", "must ascend"},
@@ -197,8 +204,25 @@ static void says_that_memory_ran_out(void)
     scene_free(&s);
 }
 
+/* Only a path finds what is unknown. */
+static void says_what_is_sought_along_paths(void)
+{
+    scene s;
+    fault f = {""};
+    refuse_sound(&s);
+    scene_drive(&s, TIP, SCENE_UZ, scene_add_unknown_driver(&s, "sought", TIP, SCENE_UY, 0));
+    gsl_test_int((int)scene_inputs_check(&s, 0, &f), STATUS_OK, "sought along a path: %s", f.text);
+    const int other[] = {scene_add_linear(&s), scene_add_buckling(&s, SCENE_NONE)};
+    for (int i = 0; i < 2; i++)
+        gsl_test(scene_inputs_check(&s, other[i], &f) != STATUS_REFUSED ||
+                     strstr(f.text, "motion sought") == NULL,
+                 "an unknown motion in analysis %d: %s", other[i], f.text);
+    scene_free(&s);
+}
+
 int main(void)
 {
+    says_what_is_sought_along_paths();
     refuse_all(sizeof refusals / sizeof refusals[0], refusals);
     says_that_memory_ran_out();
     return gsl_test_summary();
