@@ -33,6 +33,21 @@ quantities: {P: {critical_factor: {analysis: b}}}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia, warping]
 """
 
+# Ziegler's double pendulum, as good as rigid: springs of 1 N m, masses of 2 and 1 kg: 7/2 - sqrt 2.
+ZIEGLER = """beamwork: 1
+plane: xy
+sections: {s: {constants: {A: 1e7, Iy: %(EI)r, Iz: %(EI)r, It: 1e5}, young: 1, shear_modulus: 1}}
+nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry]}, b: {at: [1, 0, 0], mass: 2}, c: {at: [1, 0, 0]},
+        d: {at: [2, 0, 0], mass: 1}}
+members: {ab: {from: a, to: b, section: s, y: [0, 1, 0]}, cd: {from: c, to: d, section: s, y: [0, 1, 0]}}
+springs: {base: {to: a, stiffness: [0, 0, 0, 0, 0, 1]},
+          joint: {from: b, to: c, stiffness: [1e7, 1e7, 1e7, 1e5, 1e5, 1]}}
+loads: {p: {force: [-1, 0, 0], on: d, follower: true}}
+analyses: {st: {static: {stations: [1]}}, b: {buckling: {about: st}}}
+quantities: {P: {critical_factor: {analysis: b}}}
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia, warping]
+"""
+
 
 def tip_force(size):
     return f"force: [{-size!r}, 0, 0], on: tip, follower: true"
@@ -86,6 +101,13 @@ class Flutter(ProgramTest):
     def test_pflueger(self):
         for mass, exact in ((0.1, 17.59528), (0.5, 16.06156), (1, 16.21213), (5, 17.56257)):
             self.assertLess(abs(self.critical(tip_force(1), tip=f", mass: {mass}")/exact - 1), 2e-5, mass)
+
+    def test_ziegler(self):
+        """What the bars bend is of the order of 1/EI."""
+        for EI, part in ((1e4, 1e-4), (1e5, 1e-5)):
+            for formulation in FORMULATIONS[:2]:
+                found = self.values(ZIEGLER % {"EI": EI}, 1, formulation)[0][0]
+                self.assertLess(abs(found/(3.5 - math.sqrt(2)) - 1), part, (EI, formulation))
 
     def test_damped(self):
         for eta, load in ((1e-2, 10.966), (1e-3, 10.9391)):
