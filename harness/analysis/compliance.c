@@ -11,6 +11,7 @@
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 #include "harness/solver/context.h"
 #include "harness/solver/convention.h"
 #include "harness/solver/tangent.h"
@@ -58,11 +59,14 @@ static status matrices_of(analysis_context *c, const scene_compliance *what, dou
     tangent_movable(c->model, t, &motions);
     tangent_prescribed(t, reaction + 3);
     const unsigned turns = motions.components & 0x38, held = 0x3f & ~motions.components;
-    if (turns && convention_changes(what->moments, reaction + 3))
+    const scene_moments own = coordinates_held_turn(c->model, what->node) == NONE
+                                  ? SCENE_MOMENTS_SEMITANGENTIAL
+                                  : SCENE_MOMENTS_SPATIAL;
+    if (turns && convention_changes(own, what->moments, reaction + 3))
         wanted = 0x3f;
     TRY(tangent_compliance(c, t, wanted, motions.components, out->C, f));
     if (motions.count > 0 && (wanted | held) == 0x3f)
-        return convention_apply(what->moments, &motions, reaction + 3, out->C, out->K, f);
+        return convention_apply(own, what->moments, &motions, reaction + 3, out->C, out->K, f);
     forget_columns(wanted | held, out->C);
     forget_columns(0, out->K);
     return STATUS_OK;

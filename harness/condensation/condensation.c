@@ -253,6 +253,7 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
         assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
     }
     loads_subtract_stiffness(s->m, at, path, &s->K);
+    linearise_add_held_moments(s->m, at, path, &s->K);
     return STATUS_OK;
 }
 

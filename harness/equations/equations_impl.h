@@ -37,4 +37,16 @@ void loads_subtract_stiffness(const model *m, const model_state *s, double path,
 /* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
 status loads_have_potential(const model *m, const model_state *s, double path, fault *f);
 
+/* linearise_node.c: the moment [N m] about its axis that a node held about one axis alone takes
+ * from its support in a state (sigma: as internal.h has it); 0: rounding. */
+double linearise_held_moment(model *m, const model_state *s, const double sigma[], double path,
+                             int node, int axis);
+/* Elements and loads give the derivatives of work in the exponential chart of a node's turn. Where
+ * a node is held about one axis, equilibrium is that of the moments about the two others, which
+ * that moment R about the axis h makes differ: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
+ * order. */
+void linearise_add_held_moments(model *m, const model_state *s, double path, sparse *K);
+/* REFUSED: such a moment, which has no potential either. */
+status linearise_held_have_potential(model *m, const double sigma[], double path, fault *f);
+
 #endif

@@ -125,8 +125,10 @@ status linear_geometric_stiffness(model *m, const double sigma[], double path, s
                                   fault *f)
 {
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
-    if (out->symmetric)
+    if (out->symmetric) {
         TRY(loads_have_potential(m, m->rest, path, f));
+        TRY(linearise_held_have_potential(m, sigma, path, f));
+    }
     sparse_zero(out);
     ahead_strains(m, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++) {

@@ -259,8 +259,10 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
     TRY(loop.outcome);
     add_discrete(m, s, lin);
     loads_add(m, s, lin->path, lin->residual);
-    if (lin->K != NULL)
+    if (lin->K != NULL) {
         loads_subtract_stiffness(m, s, lin->path, lin->K);
+        linearise_add_held_moments(m, s, lin->path, lin->K);
+    }
     phases_lap(&m->phases, PHASE_ASSEMBLY);
     return STATUS_OK;
 }

@@ -1,11 +1,14 @@
 /* Forces of some of the elements: on a node, on coordinates. */
+#include <math.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/linear_springs.h"
 #include "harness/equations/linearise.h"
+#include "harness/equations/loads.h"
 #include "harness/model/discrete.h"
 
 void linearise_node_force(model *m, const model_state *s, const double sigma[], int node,
@@ -39,6 +42,49 @@ void linearise_node_force(model *m, const model_state *s, const double sigma[], 
     discrete_node_force(m, s, node, F);
     if (sigma != NULL)
         linear_springs_node_force(m, &sigma[(size_t)m->elements * (size_t)m->strains], node, F);
+}
+
+/* Of what the moments at a node are made of; less is rounding. */
+static const double least_moment = 1e-12;
+
+double linearise_held_moment(model *m, const model_state *s, const double sigma[], double path,
+                             int node, int axis)
+{
+    double F[6], load[6];
+    linearise_node_force(m, s, sigma, node, F);
+    loads_at_node(m, s, path, node, load);
+    const double moment = F[3 + axis] - load[3 + axis],
+                 size = vec3_norm(F + 3) + vec3_norm(load + 3) +
+                        m->size * (vec3_norm(F) + vec3_norm(load));
+    return fabs(moment) > least_moment * size ? moment : 0;
+}
+
+void linearise_add_held_moments(model *m, const model_state *s, double path, sparse *K)
+{
+    for (int node = 0; node < m->scene->nodes; node++) {
+        const int h = coordinates_held_turn(m, node);
+        if (h == NONE)
+            continue;
+        const int *coordinate = m->vertex[node].coordinate + SCENE_RX, i = coordinate[(h + 1) % 3],
+                  j = coordinate[(h + 2) % 3];
+        const double half = linearise_held_moment(m, s, NULL, path, node, h) / 2;
+        assemble_subtract(K, i, j, -half);
+        assemble_subtract(K, j, i, half);
+    }
+}
+
+status linearise_held_have_potential(model *m, const double sigma[], double path, fault *f)
+{
+    static const char *const turn[] = {"rx", "ry", "rz"};
+    for (int node = 0; node < m->scene->nodes; node++) {
+        const int h = coordinates_held_turn(m, node);
+        if (h != NONE && linearise_held_moment(m, m->rest, sigma, path, node, h) != 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "the moment that holds %s of %s, which turns freely about two axes "
+                             "across it, has no potential: hold one of them, or follow a path",
+                             turn[h], scene_called(m->scene, SCENE_NODES, node).text);
+    }
+    return STATUS_OK;
 }
 
 void linearise_add_internal(model *m, const model_state *s, int elements, const int element[],

@@ -80,5 +80,6 @@ status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, faul
     TRY(outcome);
     discrete_geometric(m, s, s->path, G);
     loads_subtract_stiffness(m, s, s->path, G);
+    linearise_add_held_moments(m, s, s->path, G);
     return STATUS_OK;
 }

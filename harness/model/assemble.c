@@ -7,11 +7,13 @@
 #include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
 
-/* Tangents of dead moments about fixed axes and of loads that follow are stored whole: whether they
- * are symmetric is a matter of the state. */
+/* Tangents of dead moments about fixed axes, be they loads or reactions, and of loads that follow
+ * are stored whole: whether they are symmetric is a matter of the state. */
 int assemble_symmetric(const model *m)
 {
     int whole = 0;
+    for (int i = 0; i < m->scene->nodes; i++)
+        whole |= coordinates_held_turn(m, i) != NONE;
     for (int i = 0; i < m->scene->loads; i++)
         whole |= scene_load_unsymmetric(&m->scene->load[i]);
     return !whole;

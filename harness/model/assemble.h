@@ -10,7 +10,7 @@ status assemble_pattern(model *, int with_driven, const sparse **out, fault *f);
 /* Of any state: stored whole where a load may make tangents unsymmetric, and then symmetric by its
  * numbers. */
 status assemble_pattern_of_states(model *, int with_driven, const sparse **out, fault *f);
-/* 0: a load may make tangents unsymmetric. */
+/* 0: a load or a support may make tangents unsymmetric. */
 int assemble_symmetric(const model *);
 /* Free x free and never symmetric: of motions, whose turning masses are not. */
 status assemble_pattern_in_time(model *, const sparse **out, fault *f);

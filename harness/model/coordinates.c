@@ -152,6 +152,22 @@ static status number_vertices(model *m, tally *of, fault *f)
                : STATUS_OK;
 }
 
+int coordinates_held_turn(const model *m, int node)
+{
+    const mesh_vertex *v = &m->vertex[node];
+    int held = NONE, count = 0;
+    if (v->body != node || v->angles > 0 || v->vector_driver[0] != NONE)
+        return NONE;
+    for (int k = 0; k < 3; k++) {
+        const int coordinate = v->coordinate[SCENE_RX + k];
+        if (coordinate != NONE && coordinate < m->free)
+            continue;
+        held = v->idle >> k & 1 ? NONE : k;
+        count++;
+    }
+    return count == 1 ? held : NONE;
+}
+
 /* Those of a released end behind all others, turns first. A ball's place does not depend on how its
  * node turns, unless that is beside the body. */
 static void index_release(const model *m, int node, mesh_element *el)

@@ -215,6 +215,9 @@ status mesh_build(model *m, int elements, fault *f);
 
 /* coordinates.c */
 status coordinates_number(model *m, fault *f);
+/* The axis about which alone a node is held, or driven, so that it takes a moment about it in
+ * whatever way the node turns about the two others; NONE: of no or of several axes. */
+int coordinates_held_turn(const model *m, int node);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -157,7 +157,9 @@ static const scene_key rotation[] = {
 
 const scene_key keys_node[] = {
     {"at", KEY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "position"},
-    {"hold", KEY_WORDS, .words = "all|" COMPONENTS, .summary = "components that do not move",
+    {"hold", KEY_WORDS, .words = "all|" COMPONENTS,
+     .summary = "components that do not move; of one turn alone: about that fixed "
+                "axis",
      .usual = "[]"},
     {"drive", KEY_MAP, .below = drive, .summary = "components that follow a motion",
      .left_out = "nothing is driven"},

@@ -19,10 +19,11 @@ static int invert(int n, double A[], double B[])
     return failed;
 }
 
-/* K -= m~/2 on the turns. */
-static void subtract_half_skew(const movable *v, const double m[3], double K[])
+/* K -= times m~/2 on the turns. */
+static void subtract_half_skew(const movable *v, double times, const double of[3], double K[])
 {
-    const double skew[9] = {0, -m[2], m[1], m[2], 0, -m[0], -m[1], m[0], 0};
+    const double m[3] = {times * of[0], times * of[1], times * of[2]},
+                 skew[9] = {0, -m[2], m[1], m[2], 0, -m[0], -m[1], m[0], 0};
     const int n = v->count;
     if (v->whole) {
         for (int i = 0; i < n; i++)
@@ -46,10 +47,16 @@ static void symmetrise(int n, double K[])
             K[i * n + j] = K[j * n + i] = (K[i * n + j] + K[j * n + i]) / 2;
 }
 
-int convention_changes(scene_moments convention, const double m[3])
+int convention_changes(scene_moments of_tangent, scene_moments convention, const double m[3])
 {
     return convention == SCENE_MOMENTS_SYMMETRISED ||
-           (convention == SCENE_MOMENTS_SPATIAL && vec3_norm(m) > 0);
+           (convention != of_tangent && vec3_norm(m) > 0);
+}
+
+/* How many times m~/2 is taken off. */
+static int times_of(scene_moments of_tangent, scene_moments convention)
+{
+    return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);
 }
 
 /* to[m x m] = T A T^T, T [m x n]; m, n at most N. */
@@ -106,15 +113,15 @@ static void scatter_stiffness(const movable *v, const double from[], double K[36
     dense_add_transpose_mul(N, n, N, v->dual, half, K);
 }
 
-status convention_apply(scene_moments convention, const movable *motions, const double m[3],
-                        double C[36], double K[36], fault *f)
+status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
+                        const double m[3], double C[36], double K[36], fault *f)
 {
     double A[N * N], B[N * N], inverse[N * N];
     gather(motions, C, A);
     if (invert(motions->count, A, B) != 0)
         return fault_set(f, STATUS_SINGULAR, "the compliance matrix is singular");
-    if (convention_changes(convention, m)) {
-        subtract_half_skew(motions, m, B);
+    if (convention_changes(of_tangent, convention, m)) {
+        subtract_half_skew(motions, times_of(of_tangent, convention), m, B);
         if (convention == SCENE_MOMENTS_SYMMETRISED)
             symmetrise(motions->count, B);
         memcpy(A, B, sizeof A);

@@ -46,8 +46,8 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
 void tangent_prescribed(const tangent *t, double moment[3]);
 /* Motions that the node can make at all. */
 void tangent_movable(const model *m, const tangent *t, movable *out);
-/* C[6 x 6] of the node with the reaction's moment semitangential; columns outside `wanted`, and
- * rows and columns of what is not among the `components` that can move, stay zero. */
+/* C[6 x 6] of the node with the reaction's moment as convention.h has it; columns outside `wanted`,
+ * and rows and columns of what is not among the `components` that can move, stay zero. */
 status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
                           double C[36], fault *f);
 

@@ -140,8 +140,7 @@ def turn_of(q):
 
 
 def held_tip(vibration, y, p, free_warping):
-    """u_y and the third component of the rotation vector held; no force along x and z; about x and y the moment m of the reaction is
-    the one whose virtual work on the rotation vector vanishes: dm = theta x m/2."""
+    """u_y and the rotation about the fixed axis z held; no force along x and z, no moment about the fixed axes x and y."""
     n, f = vibration.n, vibration.fields
     rows = np.zeros((f // 2, f))
     theta, F = turn_of(y[3:7]), p[:3]
@@ -152,7 +151,6 @@ def held_tip(vibration, y, p, free_warping):
     dm[:, n + 3:] = np.eye(3)
     dm[:, n:n + 3] -= cross_matrix(y[:3])
     dm[:, :3] += cross_matrix(F)
-    dm[:, 3:7] += cross_matrix(p[3:] - np.cross(y[:3], F)) @ theta / 2
     rows[4:6] = dm[:2]
     if f == 15:
         return np.vstack([rows[:6], np.eye(f)[8 if free_warping else 7]])
