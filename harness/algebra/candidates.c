@@ -165,7 +165,7 @@ double candidates_scale(candidates *p, long *solutions)
     enum { POWERS = 6 };
     double *x = p->form, before = 0, largest = 0;
     for (int i = 0; i < p->n; i++)
-        x[i] = sin(1.7 * i) / sqrt(*(p->problem->K->value + p->problem->K->column[i + 1] - 1));
+        x[i] = sin(1.7 * i) / sqrt(sparse_diagonal(p->problem->K, i));
     for (int power = 0; power <= POWERS; power++) {
         sparse_mul(p->problem->K, x, p->work);
         const double size = sqrt(dense_dot(p->n, x, p->work));

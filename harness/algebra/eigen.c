@@ -259,6 +259,35 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
                                       : fault_set(f, worse->status, "%s", worse->reason);
 }
 
+/* Of a matrix that is stored whole, its upper triangle: K - A/mu, of which little may be left, is
+ * symmetric whatever rounding has made of K and A. */
+static status take_upper(const sparse **a, by_numbers **whole, fault *f)
+{
+    if ((*a)->symmetric)
+        return STATUS_OK;
+    TRY(by_numbers_alloc(*a, whole, f));
+    by_numbers_take(*whole, *a);
+    *a = by_numbers_upper(*whole);
+    return STATUS_OK;
+}
+
+static status solve_upper(const eigen_problem *e, eigen_result *r, fault *f)
+{
+    eigen_problem upper = *e;
+    by_numbers *K = NULL, *A = NULL;
+    candidates up = {0}, down = {0};
+    status outcome = take_upper(&upper.K, &K, f);
+    if (outcome == STATUS_OK)
+        outcome = take_upper(&upper.A, &A, f);
+    if (outcome == STATUS_OK)
+        outcome = solve(&upper, &up, &down, r, f);
+    candidates_free(&up);
+    candidates_free(&down);
+    by_numbers_free(K);
+    by_numbers_free(A);
+    return outcome;
+}
+
 status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
 {
     const int negative = factor_count(e->K_factor).negative_pivots;
@@ -272,9 +301,5 @@ status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
             negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
     if (r->n == 0)
         return STATUS_OK;
-    candidates up = {0}, down = {0};
-    const status outcome = solve(e, &up, &down, r, f);
-    candidates_free(&up);
-    candidates_free(&down);
-    return outcome;
+    return solve_upper(e, r, f);
 }

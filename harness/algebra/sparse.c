@@ -100,6 +100,12 @@ static int place_of(const sparse *a, int row, int column)
     return -1;
 }
 
+double sparse_diagonal(const sparse *a, int j)
+{
+    const int place = place_of(a, j, j);
+    return place < 0 ? 0 : a->value[place];
+}
+
 static void fill(const sparse *a, by_numbers *b)
 {
     int entries = 0;

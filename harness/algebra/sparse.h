@@ -23,6 +23,8 @@ void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
 /* The first rows and columns of `whole`, whose others are the last in each of them. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
+/* Entry (j, j), 0 where none is stored, whichever part of the matrix is. */
+double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]); /* y = A x */
 /* What rounding of all its terms, each in the same direction, changes in x^T A y, A symmetric, or
  * skew where the upper triangle is stored. */

@@ -96,8 +96,8 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
 {
     double k = 0, mass = 0;
     for (int j = 0; j < M->n; j++) {
-        k += *(s->K.value + s->K.column[j + 1] - 1);
-        mass += *(M->value + M->column[j + 1] - 1);
+        k += sparse_diagonal(&s->K, j);
+        mass += sparse_diagonal(M, j);
     }
     *shift = 1e-9 * k / mass;
     for (int i = 0; i < M->column[M->n]; i++)

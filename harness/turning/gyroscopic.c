@@ -236,21 +236,13 @@ static status missing(solver *s, int wanted, int *number, fault *f)
     return STATUS_OK;
 }
 
-static double diagonal(const sparse *a, int j)
-{
-    for (int k = a->column[j]; k < a->column[j + 1]; k++)
-        if (a->row[k] == j)
-            return a->value[k];
-    return 0;
-}
-
 /* [1/s] What G does: its largest entry beside the masses on either side. */
 static double rate_of_turning(const sparse *G, const sparse *M)
 {
     double rate = 0;
     for (int j = 0; j < G->n; j++)
         for (int k = G->column[j]; k < G->column[j + 1]; k++) {
-            const double mass = sqrt(diagonal(M, j) * diagonal(M, G->row[k]));
+            const double mass = sqrt(sparse_diagonal(M, j) * sparse_diagonal(M, G->row[k]));
             if (mass > 0)
                 rate = fmax(rate, fabs(G->value[k]) / mass);
         }
@@ -266,8 +258,8 @@ static status find_shift(solver *s, fault *f)
         TRY(sparse_alloc_like(K, &s->shifted, f));
     s->S = &s->shifted;
     for (int j = 0; j < K->n; j++) {
-        k += fabs(diagonal(K, j));
-        mass += diagonal(M, j);
+        k += fabs(sparse_diagonal(K, j));
+        mass += sparse_diagonal(M, j);
     }
     for (s->shift = fmax(1e-12 * k / mass, s->least);; s->shift *= 10) {
         if (!(s->shift < 1e3 * k / mass))

@@ -61,6 +61,18 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
+BESIDE = """beamwork: 1
+sections: {s: {constants: {A: 1e6, Iy: 3, Iz: 1, It: 1}, young: 1, shear_modulus: 1, density: 1e-6}}
+nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [uy, uz, rx]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+loads: {p: {force: [-1, 0, 0], on: b}%s}
+analyses: {s: {static: {stations: [1]}}, b: {buckling: {about: s}}, m: {modal: {}}, a: {modal: {about: s}}}
+quantities:
+  P_$i: {for: {i: 0..1}, critical_factor: {analysis: b, which: $i}}
+  f_$i: {for: {i: 0..3}, frequency: {analysis: m, which: $i}, unit: Hz}
+  g_$i: {for: {i: 0..3}, frequency: {analysis: a, which: $i}, unit: Hz}
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
+"""
 TWISTED_BY_ARMS = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [uy, uz]},
@@ -246,6 +258,21 @@ class MultiplePoints(ProgramTest):
                 self.assertIn("the moment that holds rx of node a", done.stdout + done.stderr)
             else:
                 self.near([q["value"] for q in json.loads(done.stdout)["quantities"]], found, 1e-4)
+
+    def test_found_beside_zero_loads(self):
+        """Frequencies and critical loads, many unknowns: a load of zero changes no bit."""
+        for more in ZERO[1:]:
+            for formulation, n in (("collocation", 24), ("geometrically_exact", 24)):
+                with_it, without = (self.found_beside(one, formulation, n) for one in (more, ""))
+                self.assertEqual(with_it, without, (more, formulation))
+                self.near(with_it[:2], (PI2, 3 * PI2), 1e-2, more, formulation)
+
+    def found_beside(self, more, formulation, n):
+        path = self.folder / "scene.yaml"
+        path.write_text(BESIDE % more)
+        done = run("solve", "--scene", path, "-f", formulation, "-n", n, "--format", "json")
+        self.assertEqual(done.returncode, 0, (more, done.stdout + done.stderr))
+        return [q["value"] for q in json.loads(done.stdout)["quantities"]]
 
     def test_stability_of_steps(self):
         path = self.folder / "scene.yaml"
