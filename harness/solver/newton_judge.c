@@ -7,6 +7,7 @@
 #include "elements/math/pi.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/model/release.h"
 #include "harness/model/turns.h"
 #include "harness/solver/newton.h"
 
@@ -43,7 +44,19 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
                      quarter ? "quarter" : "half", m->type->name, s->path);
 }
 
-/* Elements longer than the axial force in them allows. */
+/* Does this end of a member turn freely about all axes across it? */
+static int swings(const model *m, const mesh_element *el, int node)
+{
+    const mesh_release *r = release_of(m, el->vertex[node]);
+    const double *triad = el->triad[node], x[3] = {triad[0], triad[3], triad[6]};
+    const double across = 1e-6;
+    if (r == NULL || r->turns < 2)
+        return 0;
+    return r->turns == 3 ||
+           (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
+}
+
+/* Elements longer than the axial force in them allows; bars that nothing bends are never. */
 static status judge_tension(const model *m, const model_state *s, fault *f)
 {
     int worst = 0;
@@ -51,8 +64,11 @@ static status judge_tension(const model *m, const model_state *s, fault *f)
     for (int i = 0; i < m->elements; i++) {
         const double by = m->type->tension(m->kind[m->element[i].kind].data,
                                            s->sigma + (size_t)i * (size_t)m->strains);
-        worst = by > most ? i : worst;
-        most = fmax(most, by);
+        const mesh_element *el = &m->element[i];
+        if (by <= most || (swings(m, el, 0) && swings(m, el, el->nodes - 1)))
+            continue;
+        worst = i;
+        most = by;
     }
     if (most < 1)
         return STATUS_OK;

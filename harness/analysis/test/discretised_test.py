@@ -41,6 +41,18 @@ quantities:
   f: {frequency: {analysis: m, which: 0}, unit: Hz}
 omit: [trapeze, rotary_inertia]
 """
+# Two bars at right angles, pulled down between their ends by far more than their bending stiffness.
+TRUSS = """beamwork: 1
+sections: {s: {constants: {A: 1e-2, Iy: 1e-9, Iz: 1e-9, It: 2e-9, Iw: 0, wagner_torque: 0}, young: 2e11,
+               shear_modulus: 8e10}}
+nodes: {a: {at: [-1, 1, 0], hold: all}, b: {at: [1, 1, 0], hold: all}, c: {at: [0, 0, 0], hold: [uz, rx, ry, rz]}}
+members: {l: {from: a, to: c, section: s, y: [1, 1, 0], release: {from: %s, to: %s}},
+          r: {from: b, to: c, section: s, y: [1, -1, 0], release: {from: %s, to: %s}}}
+loads: {p: {force: [0, -4e5, 0], on: c}}
+analyses: {st: {static: {stations: [1]}}}
+quantities: {u: {displacement: {analysis: st, node: c, component: uy}, unit: m}}
+omit: [trapeze, rotary_inertia]
+"""
 
 
 class Discretised(ProgramTest):
@@ -105,6 +117,12 @@ class Discretised(ProgramTest):
                                          % (n, formulation.split(":")[0], n + 1))
                         self.assertIsNone(values.get("u"))
                         self.assertEqual(self.solve(WIRE % {"N": N, "more": ""}, formulation, 2*n)[0], 0, (formulation, n))
+        for formulation in ("geometrically_exact", "sheet_third", "collocation"):
+            for ends, status in (("[ry, rz]", 0), ("[rz]", 1)):  # a bar between two hinges is not bent
+                done, values, said = self.solve(TRUSS % (ends, ends, ends, ends), formulation, 1)
+                self.assertEqual(done, status if formulation != "collocation" else 0, (formulation, said))
+                if done == 0:
+                    self.assertLess(abs(values["u"] / (-2e5 * math.sqrt(2) / 2e9 * 2) - 1), 1e-3, formulation)
         for formulation in ("geometrically_exact:nodes=2", "geometrically_exact", "sheet_third"):
             self.assertIn("too long for the axial force", " ".join(run("list", formulation.split(":")[0]).stdout.split()))
         self.assertNotIn("too long for the axial force", " ".join(run("list", "collocation").stdout.split()))

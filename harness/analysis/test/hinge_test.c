@@ -122,7 +122,8 @@ static status build_half_pinned(const double value[], scene *s, fault *f)
     return euler(1, s);
 }
 
-/* Two bars of a flat roof, all ends hinged, pushed through by its crown: 4 m wide, 0.6 m high. */
+/* Two bars of a flat roof, all ends hinged across them, pushed through by its crown: 4 m wide, 0.6
+ * m high. */
 static status build_roof(const double value[], scene *s, fault *f)
 {
     static const double path[] = {0, 1}, down[] = {0, -1.5};
@@ -137,8 +138,8 @@ static status build_roof(const double value[], scene *s, fault *f)
     scene_drive(s, crown, SCENE_UY, driver);
     for (int i = 0; i < 2; i++) {
         const int member = scene_add_member(s, i ? right : left, crown, profile, y_axis);
-        for (int end = 0; end < 2; end++)
-            scene_release_end(s, member, end, SCENE_RZ);
+        for (int end = 0; end < 4; end++)
+            scene_release_end(s, member, end / 2, end % 2 ? SCENE_RZ : SCENE_RY);
     }
     const int statics = scene_add_static(s, 1, &path[1], 4);
     scene_add_quantity(s, "force", "N", statics, scene_reaction(crown, SCENE_UY));

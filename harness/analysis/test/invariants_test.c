@@ -174,8 +174,8 @@ static void mirrors(const element_type *e)
     for (size_t i = 0; i < sizeof images / sizeof images[0]; i++) {
         static answer one, other;
         const case_type *type = case_find(images[i].base, NULL);
-        ask(&(question){type, images[i].one, e, 3, 0, unchanged}, &one);
-        ask(&(question){type, images[i].other, e, 3, 0, unchanged}, &other);
+        ask(&(question){type, images[i].one, e, 4, 0, unchanged}, &one);
+        ask(&(question){type, images[i].other, e, 4, 0, unchanged}, &other);
         const int both = ask_count(&tally, &one, "%s, %s", images[i].base, images[i].one) +
                          ask_count(&tally, &other, "%s, %s", images[i].base, images[i].other);
         if (both < 2)
