@@ -14,11 +14,13 @@
 #include "harness/algebra/eigen.h"
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
+#include "harness/equations/internal.h"
 #include "harness/equations/rotating_frame.h"
 #include "harness/flutter/flutter.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/model/model_impl.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/newton.h"
@@ -479,6 +481,38 @@ static status hand_over(search *s, outcome_side *out, fault *f)
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
 }
 
+/* The largest N l^2/(pi^2 E I) of an element under thrust N in Newton's state, I the least of its
+ * section's: above 1 it buckles by itself, and what diverges may be that alone. */
+static double thrust_of_elements(const newton *n)
+{
+    model *m = n->c->model;
+    const internal_state at = {.s = n->state, .path = kinematics_state_path(n->state)};
+    double most = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_kind *kind = &m->kind[m->element[i].kind];
+        const section *s = &m->section[kind->section];
+        double end[2][7];
+        for (int k = 0; k < 2; k++)
+            internal_at_end(m, &at, m->element[i].member, k, end[k]);
+        const double EI = s->young * fmin(s->Iy, s->Iz), thrust = -fmin(end[0][0], end[1][0]);
+        if (EI > 0) /* of a section by matrices: 0 */
+            most = fmax(most, thrust * kind->length * kind->length / (PI * PI * EI));
+    }
+    return most;
+}
+
+/* Without a mass flutter is not looked for, and a divergence may be one of the mesh. */
+static status judge_massless(const newton *n, const flutter_point *first, fault *f)
+{
+    const double most = first->massless ? thrust_of_elements(n) : 0;
+    return most < 1 ? STATUS_OK
+                    : fault_set(f, STATUS_NOT_CONVERGED,
+                                "the divergence near path %.6g is one of the mesh, whose elements "
+                                "bear %.3g times their own Euler load there: use more elements, or "
+                                "give a section a density, without which flutter is not looked for",
+                                first->path, most);
+}
+
 /* Where the loads have no potential: the first load, and what it is. */
 static status find_without_potential(analysis_context *c, search *s, outcome_spectrum *found,
                                      fault *f)
@@ -486,6 +520,11 @@ static status find_without_potential(analysis_context *c, search *s, outcome_spe
     flutter_point first;
     char how[64] = "";
     TRY(flutter_search(&s->n, s->size, static_walk, &first, f));
+    const status right = judge_massless(&s->n, &first, f);
+    if (right != STATUS_OK) {
+        free(first.mode);
+        return right;
+    }
     double *value = calloc(1, sizeof *value), *error = calloc(1, sizeof *error);
     if (value == NULL || error == NULL) {
         free(value);

@@ -120,6 +120,12 @@ class Flutter(ProgramTest):
         _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, status=1)
         self.assertRegex(said, "no critical load from path 0 to .* nothing has a mass, so that flutter was not looked for")
 
+    def test_of_the_mesh(self):
+        """Without a mass Beck's column has no critical load: what diverges on a coarse mesh is its elements alone."""
+        for formulation in ("collocation", "beamw", "geometrically_exact"):
+            _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, 4, formulation, status=1)
+            self.assertIn("is one of the mesh", said, formulation)
+
     def test_with_damping_or_without(self):
         """Frequencies about symmetric states are those without damping, and say so; others are damped."""
         one = self.folder / "scene.yaml"
