@@ -28,7 +28,7 @@ quantities:
 """
 HINGE = """beamwork: 1
 sections:
-  leaf: {rectangle: {width: 0.01, thickness: 3e-4}, shear_factor: [0.84967320261437906, 0.84967320261437906], young: 2e11, shear_modulus: 76923076923.076923}
+  leaf: {rectangle: {width: 0.01, thickness: 3e-4}, shear_factor: [0.84967320261437906, 0.84967320261437906], given: {Iw: 1.875e-19}, young: 2e11, shear_modulus: 76923076923.076923}
 nodes:
   arm: {at: [0, 0, 0], rotation: {sequence: [{axis: [0, 0, 1], angle: turn}, {axis: [0, 1, 0], angle: free}, {axis: [1, 0, 0], angle: free}]}}
 %(nodes)smembers:
