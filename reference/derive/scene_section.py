@@ -2,12 +2,13 @@
 
 A fibre turns about the shear centre: the trapeze term has ys^2 + zs^2 and the Wagner moments -2 ys, -2 zs wherever the shear centre is
 off the centroid; Ip/A only with `trapeze`, int y (y^2 + z^2) dA and int z (y^2 + z^2) dA only with `wagner_moments`.
-Rectangle: EIw = E (w t)^3/144, 1/F = k A with k = 5/6 where it is not given, and then 5/6 of the warping shear too; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
+Rectangle: EIw by Saint-Venant's series (warping_constant), 1/F = k A with k = 5/6 where it is not given, and then 5/6 of the warping shear too; c = (w^5 t + w t^5)/1440 = 1/8 (int r^4 dA - Ip^2/A).
 Walls: c = 1/8 (int r^4 dA - Ip^2/A - wagner_y^2/Iz - wagner_z^2/Iy), r^2 = y^2 + z^2 (section.py).
 Ring of radii R > r: 1/k = 7/6 + 10/3 m^2/(1 + m^2)^2, m = r/R (Renton 1991; Cowper 1966 at nu = 0), c = 1/8 int (r^2 - Ip/A)^2 dA.
 """
 import math
 
+import mpmath as mp
 import numpy as np
 
 from reference.derive.beam import Beam
@@ -31,6 +32,23 @@ class Constants:
             "turned", 0.0)
 
 
+def warping_constant(wide, thin):
+    """int omega^2 dA, omega = y z + sum C_n sin(k_n y) sinh(k_n z) with stress-free sides, by integration over the area."""
+    a, b = mp.mpf(thin) / 2, mp.mpf(wide) / 2
+    ks = [(2*n + 1) * mp.pi / 2 / a for n in range(60)]
+    cs = [-4 * (-1)**n / (a * k**3) for n, k in enumerate(ks)]
+    # omega^2 integrated over z in closed form, over y by orthogonality of sin(k_n y)
+    total = 4 * a**3 * b**3 / 9
+    for n, (k, c) in enumerate(zip(ks, cs)):
+        tanh = mp.tanh(k * b)
+        first, second = 2 * (-1)**n / k**2, 2 * (b / k - tanh / k**2)
+        total += 2 * c * first * second + c**2 * a * (tanh / k - b / mp.cosh(k * b)**2)
+    k = (2*len(ks) + 1) * mp.pi / 2 / a  # what follows: tanh = 1
+    tail = (mp.zeta(6, len(ks) + mp.mpf(1)/2)) * (a / mp.pi)**6
+    total += -32 * b / a * tail + 48 / a * mp.zeta(7, len(ks) + mp.mpf(1)/2) * (a / mp.pi)**7
+    return float(total)
+
+
 def rectangle(entry, where):
     shape = entry["rectangle"]
     only(shape, where, ("width", "thickness"))
@@ -46,7 +64,7 @@ def rectangle(entry, where):
                      Iz=w * h ** 3 / 12,
                      Ip=w * h * (w * w + h * h) / 12,
                      It=float(rectangle_constant(wide, thin)),
-                     Iw=(w * h) ** 3 / 144,
+                     Iw=warping_constant(wide, thin),
                      wagner_torque=(wide ** 5 * thin + wide * thin ** 5) / 1440,
                      F=F)
 
