@@ -38,7 +38,9 @@ void sheet_section(double width, double thickness, double young, double poisson,
     *out = section_spec_rectangle(young, young / (2 * (1 + poisson)), width, thickness);
     const double k = shear_factor > 0 ? shear_factor : 10 * (1 + poisson) / (12 + 11 * poisson);
     out->shear_factor[0] = out->shear_factor[1] = k;
-    out->given.wagner_torque = pow(width, 5) * thickness / 1440; /* of a thin sheet: N Eq. 46 */
+    /* of a thin sheet: N Eq. 46, and (w t)^3/144 */
+    out->given.wagner_torque = pow(width, 5) * thickness / 1440;
+    out->given.Iw = width * width * width * thickness * thickness * thickness / 144;
 }
 
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f)

@@ -45,7 +45,8 @@ static void rectangle_is_a_wall(double h, double t)
     gsl_test_rel(wide.A, wall.A, 1e-14, "area of %g x %g", h, t);
     gsl_test_rel(wide.Iy, wall.Iz, 1e-13, "stiff bending");
     gsl_test_rel(wide.Iz, wall.Iy, 1e-13, "soft bending");
-    gsl_test_rel(wide.Iw, wall.Iw, 1e-13, "warping constant of %g x %g", h, t);
+    gsl_test_rel(wall.Iw, pow(h * t, 3) / 144, 1e-13, "warping constant of a wall of %g x %g", h,
+                 t);
     gsl_test_rel(wide.F[0], wall.F[4], 1e-13, "shear across the wall");
     gsl_test_rel(wide.F[4], wall.F[0], 1e-13, "shear along the wall");
     gsl_test_rel(wide.F[8], wall.F[8], 1e-13, "warping shear of %g x %g", h, t);
@@ -149,6 +150,34 @@ static void torsion_of_a_rectangle(double a, double b)
     gsl_test_rel(rectangle(b, a, 0, 0).It, rectangle(a, b, 0, 0).It, 1e-14, "the sides exchanged");
 }
 
+/* Saint-Venant's warping function over a rectangle's quarter, by the series of its stress. */
+static double warping_at(double y, double z, double a, double b)
+{
+    double omega = y * z;
+    for (int n = 0; n < 60; n++) {
+        const double k = (2 * n + 1) * PI / 2 / a;
+        omega -= (n % 2 ? -4 : 4) / (a * pow(k, 3)) * sin(k * y) *
+                 (exp(k * (z - b)) - exp(-k * (z + b))) / (1 + exp(-2 * k * b));
+    }
+    return omega;
+}
+
+/* int omega^2 dA, and the value of thin ones where they are thin. */
+static void warping_constant(double width, double height)
+{
+    enum { N = 20 };
+    double x[N], w[N], sum = 0;
+    const double a = fmin(width, height) / 2, b = fmax(width, height) / 2;
+    quadrature_points(N, x, w);
+    for (int i = 0; i < N * N; i++)
+        sum += w[i / N] * w[i % N] * pow(warping_at(a * x[i / N], b * x[i % N], a, b), 2);
+    gsl_test_rel(rectangle(width, height, 0, 0).Iw, 4 * a * b * sum, 1e-7, "Iw of %g x %g", width,
+                 height);
+    gsl_test_rel(rectangle(height, width, 0, 0).Iw, rectangle(width, height, 0, 0).Iw, 1e-13,
+                 "it knows no side");
+    gsl_test_rel(rectangle(1e-4, 1, 0, 0).Iw, 1e-12 / 144, 1e-6, "of a thin one");
+}
+
 /* Torque cubic in the twist rate: 1/8 int (r^2 - mean)^2 dA over the area, whatever its sides; of a
  * thin one w^5 t/1440 (N Eq. 46), of a square twice that. Where another value is given, that. */
 static void wagner_torque(double width, double height)
@@ -213,6 +242,9 @@ int main(void)
     wagner_torque(0.1, 0.0007);
     wagner_torque(0.1, 0.03);
     wagner_torque(0.02, 0.02);
+    warping_constant(0.02, 0.02);
+    warping_constant(0.03, 0.02);
+    warping_constant(0.1, 0.03);
     refusals();
     rectangle_is_a_wall(0.1, 0.02);
     rectangle_is_a_wall(0.1, 0.0003);

@@ -174,6 +174,7 @@ static void solve(const element_type *type, int n, int reversed, double *C_xx, d
     double *K = malloc(sizeof(double) * SIZE * SIZE), *right = malloc(sizeof(double) * SIZE);
     int most = 0;
     section_spec spec = section_spec_rectangle(200e9, 200e9 / (2 * (1 + nu)), 0.1, 0.00225);
+    spec.given.Iw = pow(0.1 * 0.00225, 3) / 144; /* of a thin one */
     spec.shear_factor[0] = spec.shear_factor[1] = 10 * (1 + nu) / (12 + 11 * nu);
     const section s = sections_computed(&spec);
     const element_request request = {.section = &s,

@@ -148,7 +148,7 @@ quantities: {rx: {stiffness: {analysis: support, component: uz}}}
 omit: [trapeze, wagner_torque]
 """
         guide = HEAD.replace("leaf: {rectangle: {width: 0.05, thickness: 5e-4}, young: 210000000000.0, shear_modulus: 81000000000.0",
-                             "thin: {rectangle: {width: 0.03, thickness: 3e-4}, young: 200e9, shear_modulus: 77e9") + guide
+                             "thin: {rectangle: {width: 0.03, thickness: 3e-4}, given: {Iw: 5.0625e-18}, young: 200e9, shear_modulus: 77e9") + guide
 
         def across(text):
             return values(self.record("solve", "--scene", self.scene(text), "-n", 2))["rx"]
