@@ -20,7 +20,7 @@ status flutter_system_alloc(const newton *n, flutter_system *s, fault *f)
     for (int j = 0; s->massless && j < s->M.n; j++)
         for (int k = s->M.column[j]; k < s->M.column[j + 1]; k++)
             if (s->M.row[k] == j)
-                s->M.value[k] = fabs(n->K.value[k]);
+                s->M.value[k] = n->weight[j];
     s->damped = !s->massless && damping_acts(n->c->scene);
     return s->damped ? sparse_alloc_like(&n->K, &s->C, f) : STATUS_OK;
 }
@@ -76,10 +76,12 @@ const char *flutter_damping(const scene *s, int damped)
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)
 {
+    const double rounding = 1e-6; /* of a double value that diverges */
     flutter_kind kind = FLUTTER_NONE;
     double largest = 0;
     for (int i = 0; i < r->count; i++) {
-        const flutter_kind one = r->frequency[i] > 0 ? FLUTTER_OSCILLATES : FLUTTER_DIVERGES;
+        const double least = s->massless ? rounding * r->growth[i] : 0;
+        const flutter_kind one = r->frequency[i] > least ? FLUTTER_OSCILLATES : FLUTTER_DIVERGES;
         if (!(r->growth[i] > largest) || (s->massless && one == FLUTTER_OSCILLATES))
             continue;
         largest = r->growth[i];
