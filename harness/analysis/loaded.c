@@ -277,15 +277,15 @@ static status go_to(search *s, double path, int *stable, fault *f)
     s->lost = outcome == STATUS_NOT_CONVERGED;
     if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost) /* singular: critical */
         return outcome;
-    if (*stable) {
+    if (outcome == STATUS_OK) { /* an unstable one far away tells nothing of this path either */
         const double rate = rate_to(s, path);
         s->lost = s->rate > 0 && rate > steepest * s->rate;
-        *stable = !s->lost;
+        *stable &= !s->lost;
         if (s->lost)
             (void)fault_set(
                 f, STATUS_NOT_CONVERGED,
                 "the structure jumps near path %g, before which nothing loses stiffness", path);
-        else
+        else if (*stable)
             s->rate = rate;
     }
     if (*stable)
@@ -357,6 +357,15 @@ static status predict_twice(search *s, fault *f)
     return outcome;
 }
 
+/* Is sigma as small as the way that is left makes it, in proportion or, at a limit point, by its
+ * root? Else what lies behind is another equilibrium. */
+static int falls_to_zero(const search *s)
+{
+    const double noise = 2e-3, steep = 5;
+    const double part = fabs((s->estimate - s->p[0]) / (s->estimate - s->begin));
+    return s->sigma[0] <= s->shift * (noise + steep * sqrt(part));
+}
+
 static status find_critical(search *s, fault *f)
 {
     int stable = 0;
@@ -383,7 +392,12 @@ static status find_critical(search *s, fault *f)
                      size = fmax(fabs(s->estimate), s->estimate - s->begin);
         if (isfinite(s->estimate) && (s->change <= wanted_error * size ||
                                       (left <= 2 * closest * size && s->change <= alike * size)))
-            return STATUS_OK;
+            return falls_to_zero(s) ? STATUS_OK
+                                    : fault_set(f, STATUS_NOT_CONVERGED,
+                                                "near path %g the structure goes to another "
+                                                "equilibrium, before which nothing loses "
+                                                "stiffness: follow a continuation",
+                                                s->p[0]);
         target = fmin(
             s->p[0] + fmax(closest * size,
                            fmin(approached * left, isfinite(left) ? left - closest * size : left)),

@@ -55,7 +55,7 @@ quantities:
   P: {critical_factor: {analysis: b, which: 0}, unit: 1}
   u: {displacement: {analysis: path, node: b, component: uy}, unit: m}
 """
-        pressed = "loads: {p: {force: [-200, 0.5, 0], on: b}%s}\n"
+        pressed = "loads: {p: {force: [-200, 0, 0], on: b}%s}\n"
         for formulation in ("collocation",):
             bare = self.values(BAR + pressed % "" + rest, formulation)
             for name, load in LOADS.items():
@@ -63,6 +63,17 @@ quantities:
                 found = self.values(BAR + more + rest, formulation)
                 for q, value in bare.items():
                     self.assertEqual(found[q]["value"], value["value"], (formulation, name, q))
+
+    def test_bent_column(self):
+        """One that bends from the beginning loses no stiffness: that Newton meets other equilibria beyond Euler's load is
+        no critical load."""
+        scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
+analyses: {path: {static: {stations: [1]}}, b: {buckling: {about: path}}}
+quantities: {P: {critical_factor: {analysis: b}}}
+"""
+        for formulation in FORMULATIONS:
+            for n in (4, 8, 16, 32, 64):
+                self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
 
     def test_what_is_not_symmetric_has_frequencies(self):
         """Those of the unloaded bar, but for what a small moment changes."""
