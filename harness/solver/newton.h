@@ -53,9 +53,9 @@ status newton_accept(const model *, const model_state *from, model_state *, faul
 /* How an iteration goes on. */
 typedef struct newton_watch {
     int iteration, growing;
-    double last;
+    double last, first, largest; /* corrections; the largest behind the first */
 } newton_watch;
-static const newton_watch newton_watch_start = {0, 0, INFINITY};
+static const newton_watch newton_watch_start = {0, 0, INFINITY, INFINITY, 0};
 /* OK with *done = 1 when converged, OK with 0 to go on, or NOT_CONVERGED with the reason. */
 status newton_judge(const newton *, newton_watch *, double path, double correction, int *done,
                     fault *);

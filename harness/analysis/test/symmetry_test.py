@@ -20,10 +20,13 @@ FORMULATIONS = ("collocation", "beamw", "geometrically_exact")
 
 
 class Symmetry(ProgramTest):
-    def values(self, scene, formulation="collocation", n=8, status=0):
+    def written(self, scene):
         path = self.folder / "scene.yaml"
         path.write_text(scene)
-        done = run("solve", "--scene", path, "-f", formulation, "-n", n, "--format", "json")
+        return path
+
+    def values(self, scene, formulation="collocation", n=8, status=0):
+        done = run("solve", "--scene", self.written(scene), "-f", formulation, "-n", n, "--format", "json")
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return {q["quantity"]: q for q in json.loads(done.stdout)["quantities"]}
 
@@ -74,6 +77,25 @@ quantities: {P: {critical_factor: {analysis: b}}}
         for formulation in FORMULATIONS:
             for n in (4, 8, 16, 32, 64):
                 self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
+
+    def test_bent_column_by_stations(self):
+        """Far beyond Euler's load it is bent to the side that its load across bends it to; a state that it is not in, which one
+        long step ends in, is unstable and said to be."""
+        scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
+analyses: {path: {static: {stations: %r}}}
+quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m}}
+"""
+        for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
+            for n in (8, 32):
+                many = [1 + 0.01*i for i in range(51)]
+                fine = self.values(scene % many, formulation, n)["u"]["value"]
+                self.assertTrue(0.4 < fine < 0.7, fine)
+                for few in ([1.5], [1, 1.5], [1.2, 1.5], [1, 1.2, 1.3, 1.35, 1.4, 1.5]):
+                    done = run("solve", "--scene", self.written(scene % few), "-f", formulation, "-n", n, "--format", "json")
+                    record = json.loads(done.stdout)
+                    found, last = record["quantities"][0]["value"], record["steps"][-1]["stability"]
+                    self.assertTrue(abs(found/fine - 1) < 1e-8 or last == "unstable (1)", (formulation, n, few, found, last))
+                self.assertEqual(last, "stable")
 
     def test_what_is_not_symmetric_has_frequencies(self):
         """Those of the unloaded bar, but for what a small moment changes."""
