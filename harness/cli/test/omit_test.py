@@ -93,6 +93,29 @@ quantities:
         self.assertEqual(solved[2], solved[1])
         self.assertNotEqual(solved[2], solved[0])
 
+    BAR = """\
+beamwork: 1
+{parameters}sections:
+  bar: {{{section}}}
+nodes:
+  a: {{at: [0, 0, 0], hold: all}}
+  b: {{at: [1, 0, 0]}}
+members:
+  bar: {{from: a, to: b, section: bar, y: [0, 1, 0]}}
+loads:
+  push: {{force: [0, {load}, 0], on: b}}
+analyses:
+  st: {{{analysis}}}
+quantities:
+  u: {{displacement: {{analysis: st, node: b, component: uy}}, unit: m}}
+{more}"""
+
+    def loaded_bar(self, more):
+        return self.BAR.format(
+            parameters="parameters: {load: {value: 10, unit: N}}\n", load="load", analysis="static: {stations: [1]}",
+            section="constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10" % more,
+            more="omit: [trapeze]\n")
+
     def test_numbers_that_are_not_given(self):
         """A section by its numbers has nothing of what they do not say, which is told unless it cannot count, is left
         out, or is known from the shape."""
@@ -113,22 +136,7 @@ quantities:
             (diagonal, "linear: {}", "", "warping"),
             (diagonal, "static: {stations: [1]}", "", "trapeze, wagner_moments, wagner_torque, warping"),
             (shapes, "static: {stations: [1]}", "", None)):
-            scene = self.scene(f"""\
-beamwork: 1
-sections:
-  bar: {{{section}}}
-nodes:
-  a: {{at: [0, 0, 0], hold: all}}
-  b: {{at: [1, 0, 0]}}
-members:
-  bar: {{from: a, to: b, section: bar, y: [0, 1, 0]}}
-loads:
-  push: {{force: [0, 10, 0], on: b}}
-analyses:
-  st: {{{analysis}}}
-quantities:
-  u: {{displacement: {{analysis: st, node: b, component: uy}}, unit: m}}
-{more}""")
+            scene = self.scene(self.BAR.format(parameters="", section=section, load=10, analysis=analysis, more=more))
             for verb in (("solve", ), ("converge", "-f", "collocation", "-n", 2)):
                 said = " ".join(self.answered(verb[0], "--scene", scene, *verb[1:]).stdout.split())
                 found = re.findall("not known: ([a-z_, ]*) of section bar, whose numbers", said)
@@ -168,28 +176,9 @@ quantities:
             self.assertEqual("not modelled: what the bimoment of section zed does to its torsion" in said, told,
                              (flange, analysis, more))
 
-    BAR = """\
-beamwork: 1
-parameters: {{load: {{value: 10, unit: N}}}}
-sections:
-  bar: {{constants: {{A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8{more}}}, young: 2e11, shear_modulus: 8e10}}
-nodes:
-  a: {{at: [0, 0, 0], hold: all}}
-  b: {{at: [1, 0, 0]}}
-members:
-  bar: {{from: a, to: b, section: bar, y: [0, 1, 0]}}
-loads:
-  push: {{force: [0, load, 0], on: b}}
-analyses:
-  st: {{static: {{stations: [1]}}}}
-quantities:
-  u: {{displacement: {{analysis: st, node: b, component: uy}}, unit: m}}
-omit: [trapeze]
-"""
-
     def test_assumptions_stand_everywhere(self):
         """One list: text, CSV, JSON, HDF5, JUnit and Markdown."""
-        scene = ("--scene", self.scene(self.BAR.format(more=", Iw: 0")))
+        scene = ("--scene", self.scene(self.loaded_bar(", Iw: 0")))
         physics = "shear, wagner_torque"
         said = physics + " of section bar, whose numbers say nothing of it: taken as zero"
         line = "not known: " + said
@@ -232,15 +221,15 @@ omit: [trapeze]
                            (", ys: 0.01, wagner_y: 0", "shear, wagner_moments, warping, wagner_torque"),
                            (", ys: 0.01, wagner_y: 0, wagner_z: 0", "shear, warping, wagner_torque"),
                            (f", F: [{every}], Iw: 0, wagner_torque: 0", None)):
-            written = self.answered("scene", "--scene", self.scene(self.BAR.format(more=more))).stdout
-            for text in (self.BAR.format(more=more), written):
+            written = self.answered("scene", "--scene", self.scene(self.loaded_bar(more))).stdout
+            for text in (self.loaded_bar(more), written):
                 found = [a["physics"] for a in self.record("solve", "--scene", self.scene(text))["assumptions"]]
                 self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
     def test_torque_of_its_own(self):
         """Built-in sheets have the torque of a thin strip; what is given as zero is known, and nothing."""
         self.assertRegex(self.answered("scene", "sheet_wagner").stdout, "given: {Iw: [^}]*, wagner_torque: ")
-        text = self.BAR.format(more="").replace("omit: [trapeze]\n", "")
+        text = self.loaded_bar("").replace("omit: [trapeze]\n", "")
         for more, told in ((", given: {wagner_torque: 0}", "shear, warping"), (", given: {Iw: 0}", "shear, wagner_torque"),
                            (", given: {Iw: 1e-12, wagner_torque: 1e-14}", "shear")):
             (found, ) = self.record("solve", "--scene", self.scene(text.replace(", young", more + ", young")))["assumptions"]

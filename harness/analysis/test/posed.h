@@ -1,0 +1,355 @@
+/* A small frame with one feature of the table of inputs and one analysis of it, posed and solved.
+ */
+#ifndef BEAMWORK_POSED_H
+#define BEAMWORK_POSED_H
+
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cases/scene/inputs.h"
+#include "elements/test/sections.h"
+#include "harness/test/ask.h"
+
+enum { ROOT, MIDDLE, TIP, BESIDE, LATER };
+static const double y_axis[3] = {0, 1, 0}, end = 1, turning[3] = {0, 3, 20};
+
+static section_spec spec_of(double size)
+{
+    section_spec spec = sections_of(1e-3 * size, 2e-7 * size, 1e-7 * size, 3e-7 * size);
+    spec.young = 2e11;
+    spec.shear_modulus = 8e10;
+    spec.density = 7800;
+    return spec;
+}
+
+/* A cantilever of two members, pushed along itself and across. */
+static void base(scene *s)
+{
+    scene_init(s, "base");
+    const section_spec one = spec_of(1);
+    const int profile = scene_add_section(s, &one);
+    for (int i = 0; i < 3; i++)
+        scene_add_node(s, 0.5 * i, 0, 0);
+    scene_add_member(s, 0, 1, profile, y_axis);
+    scene_add_member(s, 1, 2, profile, y_axis);
+    scene_hold_all(s, ROOT);
+    scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
+}
+
+/* Half a shallow arch of the same, which snaps through whatever else acts. */
+static void arch(scene *s)
+{
+    base(s);
+    for (int i = 0; i < 3; i++)
+        scene_node_at(s, i)->position[1] = 0.03 * i;
+    scene_node_at(s, TIP)->translation[0] = scene_node_at(s, TIP)->translation[2] = SCENE_HELD;
+    scene_load_at(s, 0)->vector[0] = scene_load_at(s, 0)->vector[2] = 0;
+    scene_load_at(s, 0)->vector[1] = -300;
+}
+
+static scene_load *follow(scene *s, int load)
+{
+    scene_load_at(s, load)->follower = 1;
+    return scene_load_at(s, load);
+}
+
+/* A section that warps, twisted by a force beside the axis, which has a potential. */
+static void twist(scene *s)
+{
+    s->section[0].constants.Iw = 5e-9;
+    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* it turns first */
+    scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
+}
+
+/* The base cannot turn about its axis at the tip. */
+static void ended_in_a_fork(scene *s)
+{
+    const double *to = s->node[TIP].position, axis[3] = {to[0], to[1], to[2]},
+                 web[3] = {-to[1], to[0], 0};
+    scene_fork(s, TIP, axis, web);
+}
+
+/* What the base is without, so that the input has something to act on; then the input. */
+static void add(scene *s, const char *name)
+{
+    static const double from = 0, whole = 1;
+#define IS(text) (strcmp(name, text) == 0)
+    if (IS("force"))
+        scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30);
+    else if (IS("force that follows"))
+        follow(s, scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30));
+    else if (IS("force beside its node"))
+        scene_load_at(s, scene_add_load(s, SCENE_FORCE, TIP, 10, 50, -30))->at[1] = 0.1;
+    else if (IS("moment"))
+        scene_add_load(s, SCENE_MOMENT, TIP, 20, 30, 40);
+    else if (IS("moment that follows"))
+        follow(s, scene_add_load(s, SCENE_MOMENT, TIP, 20, 30, 40));
+    else if (IS("load along a member"))
+        scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50);
+    else if (IS("load along a member that follows"))
+        follow(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
+    else if (IS("moments along a member"))
+        scene_add_load(s, SCENE_DISTRIBUTED_MOMENT, 1, 60, 90, 120);
+    else if (IS("gravity on members"))
+        scene_add_load(s, SCENE_GRAVITY, 1, -30, -9.81, 20);
+    else if (IS("weight of a body")) {
+        scene_set_body(s, TIP, (scene_body){.mass = 8});
+        scene_add_load(s, SCENE_WEIGHT, TIP, -30, -9.81, 20);
+    } else if (IS("load that stays"))
+        scene_set_factor(s, scene_add_load(s, SCENE_FORCE, TIP, -300, 50, 20), 1, &from, &whole);
+    else if (IS("strain of a member")) {
+        scene_member_at(s, 0)->strain[0] = 2e-4;
+        scene_hold_all(s, TIP);
+        scene_node_at(s, TIP)->translation[1] = scene_node_at(s, TIP)->angle[2] = SCENE_FREE;
+    } else if (IS("initial curvature"))
+        scene_member_at(s, 1)->curvature[2] = 0.3;
+    else if (IS("taper")) {
+        const section_spec thin = spec_of(0.7);
+        scene_member_at(s, 1)->section_q = scene_add_section(s, &thin);
+    } else if (IS("section by its matrices")) {
+        section_spec m = {.kind = SECTION_MATRICES};
+        section_spec_init(&m);
+        m.kind = SECTION_MATRICES;
+        const double C[6] = {1.8e8, 6e7, 6e7, 2e4, 4e4, 2e4}, M[6] = {7, 7, 7, 3e-3, 2e-3, 1e-3};
+        for (int i = 0; i < 6; i++) {
+            m.constants.stiffness[7 * i] = C[i];
+            m.constants.mass[7 * i] = M[i];
+        }
+        const int profile = scene_add_section(s, &m);
+        scene_member_at(s, 1)->section = scene_member_at(s, 1)->section_q = profile;
+    } else if (IS("spring")) {
+        double k[36] = {0};
+        for (int i = 0; i < 6; i++)
+            k[7 * i] = 1e4 * (i + 1);
+        scene_add_spring(s, SCENE_NONE, TIP, k);
+    } else if (IS("release")) {
+        double k[36] = {[28] = 500, [35] = 400};
+        scene_release_end(s, 1, 0, SCENE_RZ);
+        scene_add_spring(s, MIDDLE, TIP, k);
+    } else if (IS("fork")) {
+        twist(s);
+        ended_in_a_fork(s);
+    } else if (IS("warping held")) {
+        twist(s);
+        scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
+    } else if (IS("warping shared")) {
+        twist(s);
+        scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
+        scene_member_at(s, 0)->warp_q = scene_member_at(s, 1)->warp_p = 0;
+    } else if (IS("node that another carries")) {
+        const int edge = scene_add_attached(s, TIP, 1, 0.2, 0);
+        scene_add_member(s, MIDDLE, edge, s->member[0].section, y_axis);
+    } else if (IS("mass of a node"))
+        scene_set_body(s, TIP, (scene_body){.mass = 3});
+    else if (IS("inertia of a node"))
+        scene_set_body(s, TIP, (scene_body){.inertia = {0.2, 0.3, 0.25, 0, 0, 0}});
+    else if (IS("motion of a node"))
+        scene_drive(
+            s, TIP, SCENE_UX,
+            scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, -1e-6}));
+    else if (IS("damping"))
+        for (int i = 0; i < s->members; i++)
+            scene_member_at(s, i)->damping = 1e-4;
+    else if (!IS("velocity at the start") && !IS("axes that turn")) /* which are the analysis's */
+        s->name[0] = '\0';
+#undef IS
+}
+
+/* Without the input, but with what was only added to carry it. */
+static void carry(scene *s, const char *name)
+{
+    if (strcmp(name, "strain of a member") == 0) {
+        scene_hold_all(s, TIP);
+        scene_node_at(s, TIP)->translation[1] = scene_node_at(s, TIP)->angle[2] = SCENE_FREE;
+    }
+    if (strcmp(name, "fork") == 0 || strncmp(name, "warping", 7) == 0)
+        twist(s);
+    if (strcmp(name, "warping shared") == 0)
+        scene_member_at(s, 0)->warp_p = SCENE_WARP_FIXED;
+    if (strcmp(name, "weight of a body") == 0)
+        scene_set_body(s, TIP, (scene_body){.mass = 8});
+}
+
+static const double end_of_continuation = 0.01;
+
+/* A scene of the table: the input or not, and what a law changes beside it. */
+typedef struct posed {
+    const char *name;
+    scene_column column;
+    int with;
+    double times; /* what the input's loads, strains and motions are times */
+    double size;  /* what all loads, strains and motions are times, */
+    double grown; /* and those loads that do not stay */
+    double end;   /* of the static path */
+    double pull;  /* [N] at the tip along y, from the begin of the path on */
+    int turns;    /* 1: the axes of the paths turn */
+    int follows;  /* 1: a force at the tip follows it */
+} posed;
+
+/* Loads without a potential are asked for flutter. */
+static int flutters(const char *name, scene_column column)
+{
+    for (const scene_input *in = scene_inputs; in->name != NULL; in++)
+        if (strcmp(in->name, name) == 0)
+            return column == SCENE_OF_BUCKLING_ABOUT &&
+                   (in->part[SCENE_OF_BUCKLING] == SCENE_PART_STATE ||
+                    in->part[SCENE_OF_BUCKLING] == SCENE_PART_REFUSED);
+    return 0;
+}
+
+static posed pose(const char *name, scene_column column, int with)
+{
+    return (posed){.name = name,
+                   .column = column,
+                   .with = with,
+                   .times = 1,
+                   .size = 1,
+                   .grown = 1,
+                   .end = 1,
+                   .turns = with && strcmp(name, "axes that turn") == 0,
+                   .follows = flutters(name, column)};
+}
+
+/* The analysis of a column; what follows has its own before it. */
+static int analyse(scene *s, const posed *p)
+{
+    const scene_column column = p->column;
+    const int about_path = column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
+                           column == SCENE_OF_COMPLIANCE_ABOUT,
+              path = about_path                        ? scene_add_static(s, 1, &p->end, 2)
+                     : column == SCENE_OF_MODAL_LINEAR ? scene_add_linear(s)
+                                                       : SCENE_NONE;
+    const int still = strcmp(p->name, "axes that turn") == 0 && !p->turns;
+    switch (column) {
+    case SCENE_OF_LINEAR:
+        return scene_add_linear(s);
+    case SCENE_OF_STATIC:
+        return scene_add_static(s, 1, &p->end, 2);
+    case SCENE_OF_CONTINUATION:
+        return scene_add_continuation(
+            s, 1, &end_of_continuation,
+            (scene_control){.node = TIP, .component = SCENE_UY, .step = 0.003, .step_max = 0.01});
+    case SCENE_OF_BUCKLING:
+    case SCENE_OF_BUCKLING_ABOUT:
+        return scene_add_buckling(s, path);
+    case SCENE_OF_MODAL:
+    case SCENE_OF_MODAL_LINEAR:
+    case SCENE_OF_MODAL_ABOUT:
+        return scene_add_modal(s, path);
+    case SCENE_OF_COMPLIANCE:
+    case SCENE_OF_COMPLIANCE_ABOUT:
+        return scene_add_compliance(s, path, (scene_compliance){.node = TIP});
+    case SCENE_OF_ROTATION:
+        return scene_add_rotation(
+            s, 1, &end, 2, 1,
+            (scene_rotating_frame){.omega = {0, still ? 0 : turning[1], still ? 0 : turning[2]}});
+    default:
+        return scene_add_motion(s, SCENE_NONE, 1, (const double[]){0.02},
+                                (scene_motion){.scheme = SCENE_ALPHA,
+                                               .alpha = scene_alpha_of_radius(0.9),
+                                               .step = 1e-3});
+    }
+}
+
+/* What the analyses have of themselves. */
+static void begin(scene *s, const posed *p)
+{
+    scene_analysis *last = &s->analysis[s->analyses - 1];
+    if (strcmp(p->name, "velocity at the start") == 0 && last->kind == SCENE_MOTION)
+        last->of.motion.start.spin[2] = 0.01 * p->times;
+    for (int i = 0; i < s->analyses && p->turns; i++)
+        if (s->analysis[i].kind == SCENE_STATIC || s->analysis[i].kind == SCENE_CONTINUATION)
+            scene_set_rotating_frame(
+                s, i, (scene_rotating_frame){.omega = {turning[0], turning[1], turning[2]}});
+}
+
+static void want(scene *s, scene_column column, int analysis)
+{
+    switch (column) {
+    case SCENE_OF_BUCKLING:
+    case SCENE_OF_BUCKLING_ABOUT:
+        scene_add_quantity(s, "factor", "1", analysis, scene_critical_factor(1, 0));
+        break;
+    case SCENE_OF_MODAL:
+    case SCENE_OF_MODAL_LINEAR:
+    case SCENE_OF_MODAL_ABOUT:
+        for (int i = 0; i < 3; i++)
+            scene_add_quantity(s, (const char *[]){"f0", "f1", "f2"}[i], "Hz", analysis,
+                               scene_frequency(i, SCENE_ANY));
+        break;
+    case SCENE_OF_COMPLIANCE:
+    case SCENE_OF_COMPLIANCE_ABOUT:
+        for (int i = 0; i < 3; i++)
+            scene_add_quantity(s, (const char *[]){"cx", "cy", "cz"}[i], "m/N", analysis,
+                               scene_compliance_entry(i, SCENE_UY));
+        scene_add_quantity(s, "turn", "rad/(N m)", analysis,
+                           scene_compliance_entry(SCENE_RX, SCENE_RX));
+        break;
+    default:
+        for (int i = 0; i < 6; i++) {
+            char name[SCENE_NAME];
+            snprintf(name, sizeof name, "u_%d", i);
+            scene_add_quantity(s, name, "m", analysis, scene_coordinate(MIDDLE, i));
+            snprintf(name, sizeof name, "v_%d", i);
+            scene_add_quantity(s, name, "m", analysis, scene_coordinate(TIP, i));
+        }
+        for (int i = 0; i < 6; i++) {
+            char name[SCENE_NAME];
+            snprintf(name, sizeof name, "R_%d", i);
+            scene_add_quantity(s, name, "N", analysis, scene_reaction(ROOT, i));
+        }
+        scene_add_quantity(s, "N", "N", analysis, scene_internal_at(1, 0, SCENE_N));
+        scene_add_quantity(s, "M", "N m", analysis, scene_internal_at(0, 0.7, SCENE_MZ));
+        if (column == SCENE_OF_CONTINUATION)
+            scene_add_quantity(s, "factor", "1", analysis, scene_factor_at());
+    }
+}
+
+/* All of it but analyses. */
+static void structure(const posed *p, scene *s)
+{
+    static const double from = 0, whole = 1;
+    if (p->column == SCENE_OF_BUCKLING_ABOUT && !p->follows) /* which flutters */
+        arch(s);
+    else
+        base(s);
+    const int loads = s->loads;
+    if (p->with)
+        add(s, p->name);
+    else
+        carry(s, p->name);
+    for (int i = 0; i < s->loads; i++)
+        for (int k = 0; k < 3; k++)
+            s->load[i].vector[k] *=
+                p->size * (i < loads ? 1 : p->times) * (s->load[i].stations == 0 ? p->grown : 1);
+    for (int i = 0; i < s->members; i++)
+        s->member[i].strain[0] *= p->times * p->size;
+    for (int i = 0; i < s->drivers; i++)
+        s->driver[i].value[1] *= p->times * p->size;
+    if (p->pull != 0)
+        scene_set_factor(s, scene_add_load(s, SCENE_FORCE, TIP, 0, p->pull, 0), 1, &from, &whole);
+    if (p->follows)
+        follow(s, scene_add_load(s, SCENE_FORCE, TIP, -3000, 0, 0));
+}
+
+static void answer_to(scene *s, const posed *p, const element_type *e, answer *a)
+{
+    fault f = {""};
+    gsl_test(scene_validate(s, &f) != STATUS_OK, "%s: %s is a scene (%s)",
+             scene_column_name[p->column], p->name, f.text);
+    ask_scene(s, e, NULL, 4, a);
+    scene_free(s);
+}
+
+static void solve(const posed *p, const element_type *e, answer *a)
+{
+    scene s;
+    structure(p, &s);
+    const int asked = analyse(&s, p);
+    begin(&s, p);
+    want(&s, p->column, asked);
+    answer_to(&s, p, e, a);
+}
+
+#endif
