@@ -179,13 +179,15 @@ status newton_judge(const newton *n, newton_watch *w, double path, double correc
     *done = arrival_reached(&n->arrival);
     w->first = w->iteration == 0 ? correction : w->first;
     w->largest = w->iteration == 0 ? 0 : fmax(w->largest, correction);
-    if (*done && w->largest > astray && w->largest > behind_first * w->first)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "at path %g Newton strayed by %.2g rad or lengths and may have found "
-                         "another equilibrium: use smaller steps, or follow a continuation",
-                         path, w->largest);
-    if (*done)
-        return newton_accept(n->c->model, n->backup, n->state, f);
+    if (*done) {
+        TRY(newton_accept(n->c->model, n->backup, n->state, f));
+        if (w->largest > astray && w->largest > behind_first * w->first)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "at path %g Newton strayed by %.2g rad or lengths and may have found "
+                             "another equilibrium: use smaller steps, or follow a continuation",
+                             path, w->largest);
+        return STATUS_OK;
+    }
     w->growing = correction > w->last && w->iteration > 1 ? w->growing + 1 : 0;
     w->last = correction;
     w->iteration++;
