@@ -52,6 +52,24 @@ static void reverse_stress(scene_quantity *q)
         q->what = scene_stress_at(what->member, 1 - what->place, what->measure);
 }
 
+/* Of a member whose ends are exchanged. */
+static void reverse_load(scene_load *load)
+{
+    const double begin = load->range[0];
+    for (int k = 0; k < 2 && load->axes == SCENE_AXES_MEMBER; k++) { /* x and y */
+        load->vector[k] = -load->vector[k];
+        load->last[k] = -load->last[k];
+        load->at[k] = -load->at[k];
+    }
+    load->range[0] = 1 - load->range[1];
+    load->range[1] = 1 - begin;
+    for (int k = 0; k < 3 && load->varies; k++) {
+        const double first = load->vector[k];
+        load->vector[k] = load->last[k];
+        load->last[k] = first;
+    }
+}
+
 static status reverse(scene *s, fault *f)
 {
     for (int i = 0; i < s->sections; i++)
@@ -78,11 +96,8 @@ static status reverse(scene *s, fault *f)
             m->y_axis[k] = -m->y_axis[k];
     }
     for (int i = 0; i < s->loads; i++)
-        if (s->load[i].axes == SCENE_AXES_MEMBER)
-            for (int k = 0; k < 2; k++) { /* x and y */
-                s->load[i].vector[k] = -s->load[i].vector[k];
-                s->load[i].at[k] = -s->load[i].at[k];
-            }
+        if (scene_load_along(&s->load[i]))
+            reverse_load(&s->load[i]);
     for (int i = 0; i < s->quantities; i++) {
         scene_quantity *q = &s->quantity[i];
         if (q->what.kind == SCENE_INTERNAL)

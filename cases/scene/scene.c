@@ -199,11 +199,27 @@ int scene_add_unknown_driver(scene *s, const char *name, int node, int component
     return i;
 }
 
+scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z)
+{
+    scene_load load = {.kind = kind, .where = where, .vector = {x, y, z}};
+    load.range[1] = scene_load_along(&load) && !scene_load_within(&load);
+    return load;
+}
+
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z)
 {
     const int i = scene_grow(s, &s->load, &s->loads, sizeof *s->load);
     if (i >= 0)
-        s->load[i] = (scene_load){.kind = kind, .where = where, .vector = {x, y, z}};
+        s->load[i] = scene_load_of(kind, where, x, y, z);
+    return i;
+}
+
+int scene_add_load_within(scene *s, scene_load_kind kind, int member, double place, double x,
+                          double y, double z)
+{
+    const int i = scene_add_load(s, kind, member, x, y, z);
+    scene_load *load = scene_load_at(s, i);
+    load->range[0] = load->range[1] = place;
     return i;
 }
 
@@ -217,11 +233,21 @@ int scene_load_along(const scene_load *load)
     return load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT && load->kind != SCENE_WEIGHT;
 }
 
+int scene_load_within(const scene_load *load)
+{
+    return load->kind == SCENE_MEMBER_FORCE || load->kind == SCENE_MEMBER_MOMENT;
+}
+
+int scene_load_turns(const scene_load *load)
+{
+    return load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT ||
+           load->kind == SCENE_MEMBER_MOMENT;
+}
+
 int scene_load_unsymmetric(const scene_load *load)
 {
-    const int turns =
-        load->follower || load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT;
-    return turns && vec3_norm(load->vector) > 0;
+    const int acts = vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0);
+    return (load->follower || scene_load_turns(load)) && acts;
 }
 
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])

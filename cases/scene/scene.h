@@ -134,7 +134,9 @@ typedef enum scene_load_kind {
     SCENE_DISTRIBUTED,        /* [N/m] along a member, per initial length */
     SCENE_DISTRIBUTED_MOMENT, /* [N m/m] along a member */
     SCENE_GRAVITY,            /* [m/s^2] on the mass of a member */
-    SCENE_WEIGHT              /* [m/s^2] on the mass of the body of a node, at its centre */
+    SCENE_WEIGHT,             /* [m/s^2] on the mass of the body of a node, at its centre */
+    SCENE_MEMBER_FORCE,       /* [N] at a place within a member */
+    SCENE_MEMBER_MOMENT       /* [N m] at a place within a member */
 } scene_load_kind;
 
 /* Axes of a load: fixed, or those of its member before it is deformed, y as in scene_member. */
@@ -143,9 +145,17 @@ typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_
 typedef struct scene_load {
     scene_load_kind kind;
     int where;        /* node, or member: scene_load_along */
-    double vector[3]; /* in `axes`, of the undeformed structure */
-    double at[3];     /* of forces, in `axes`: where they act, from the node or the centroids, with
-                             which it turns [m] */
+    double vector[3]; /* in `axes`, of the undeformed structure; at range[0] where it varies */
+    double last[3];   /* where it varies: at range[1], linear between */
+    int varies;       /* 0: the vector is the same all over the range */
+    double range[2]; /* of a member, in parts of its initial length from p: where a distributed load
+                        begins and ends (0 and 1: all of it, as of gravity); of a force or a moment
+                        at a place both are that place. 0 and 0 of loads at nodes */
+    int lumped;      /* of loads along a member: 0: it does its work on the displacements within the
+                        elements; 1: an element's share goes to its nodes, halves to both, of order
+                        two */
+    double at[3];    /* of forces, in `axes`: where they act, from the node or the centroids, with
+                            which it turns [m] */
     scene_load_axes axes; /* of both */
     int follower; /* 0: its direction stays (dead); 1: it turns with the node or the sections */
     int stations; /* 0: proportional to the path parameter (factor = path) */
@@ -230,11 +240,20 @@ void scene_drive_piece(scene *s, int driver, double until, const char *text);
 void scene_load_piece(scene *s, int load, double until, const char *text);
 int scene_add_unknown_driver(scene *s, const char *name, int node, int component,
                              int condition_driver);
+/* A load that stays, all along its member where it is distributed. */
+scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
+/* A force or a moment within a member: place: 0 at p .. 1 at q, of the initial length. */
+int scene_add_load_within(scene *s, scene_load_kind kind, int member, double place, double x,
+                          double y, double z);
 /* Entry of the list, to say more of it; never NULL. */
 scene_load *scene_load_at(scene *s, int index);
-/* Does it act along a member? */
+/* Does it act on a member: along it, or at a place within it? */
 int scene_load_along(const scene_load *load);
+/* At a place within a member? */
+int scene_load_within(const scene_load *load);
+/* Is its vector a moment, not a force? */
+int scene_load_turns(const scene_load *load);
 /* May its stiffness make a tangent unsymmetric? Not that of a load of zero. */
 int scene_load_unsymmetric(const scene_load *load);
 /* The load is its vector times a factor, piecewise linear over the path parameter. */

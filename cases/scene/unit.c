@@ -128,11 +128,14 @@ static void scale_spring(scene_spring *p, double x)
 
 static void scale_load(scene_load *load, double x)
 {
+    static const int power[] = {[SCENE_MOMENT] = 1,
+                                [SCENE_GRAVITY] = 1,
+                                [SCENE_WEIGHT] = 1,
+                                [SCENE_DISTRIBUTED] = -1,
+                                [SCENE_MEMBER_MOMENT] = 1};
     scale_vector(load->at, x);
-    if (load->kind == SCENE_MOMENT || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT)
-        scale_vector(load->vector, x);
-    if (load->kind == SCENE_DISTRIBUTED)
-        scale_vector(load->vector, 1 / x);
+    scale_vector(load->vector, pow(x, power[load->kind]));
+    scale_vector(load->last, pow(x, power[load->kind]));
 }
 
 static void scale_analysis(scene_analysis *a, double x)
@@ -283,8 +286,10 @@ void scene_change_force(scene *s, double y)
         for (int k = 0; k < 36; k++)
             s->spring[i].stiffness[k] *= y;
     for (int i = 0; i < s->loads; i++)
-        if (s->load[i].kind != SCENE_GRAVITY && s->load[i].kind != SCENE_WEIGHT)
+        if (s->load[i].kind != SCENE_GRAVITY && s->load[i].kind != SCENE_WEIGHT) {
             scale_vector(s->load[i].vector, y);
+            scale_vector(s->load[i].last, y);
+        }
     for (int i = 0; i < s->quantities; i++) {
         scene_quantity *q = &s->quantity[i];
         const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;

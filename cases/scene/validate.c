@@ -216,7 +216,7 @@ static status check_load(const scene *s, int i, fault *f)
             "%s: it acts on something that does not exist; add its node or member first",
             scene_called(s, SCENE_LOADS, i).text);
     for (int k = 0; k < 3; k++)
-        if (!isfinite(load->vector[k]) || !isfinite(load->at[k]))
+        if (!isfinite(load->vector[k]) || !isfinite(load->last[k]) || !isfinite(load->at[k]))
             return fault_set(f, STATUS_REFUSED,
                              "%s: it is not a number; give three finite components",
                              scene_called(s, SCENE_LOADS, i).text);

@@ -65,7 +65,7 @@ static void no_load_there(scene *s)
 
 static void no_member_loaded(scene *s)
 {
-    s->load[0] = (scene_load){SCENE_DISTRIBUTED, .where = 1};
+    s->load[0] = scene_load_of(SCENE_DISTRIBUTED, 1, 0, 0, 0);
 }
 
 static void load(scene *s)
@@ -91,7 +91,8 @@ static void node_along(scene *s)
 
 static void weight_turns(scene *s)
 {
-    s->load[0] = (scene_load){SCENE_GRAVITY, .follower = 1};
+    s->load[0] = scene_load_of(SCENE_GRAVITY, 0, 0, 0, 0);
+    s->load[0].follower = 1;
 }
 
 static void weightless(scene *s)
@@ -100,12 +101,12 @@ static void weightless(scene *s)
     spec->kind = SECTION_RECTANGLE;
     spec->young = spec->shear_modulus = spec->width = spec->height = 1;
     spec->density = 0;
-    s->load[0] = (scene_load){SCENE_GRAVITY, .vector = {0, 0, -9.81}};
+    s->load[0] = scene_load_of(SCENE_GRAVITY, 0, 0, 0, -9.81);
 }
 
 static void body_weightless(scene *s)
 {
-    s->load[0] = (scene_load){SCENE_WEIGHT, .where = TIP, .vector = {0, 0, -9.81}};
+    s->load[0] = scene_load_of(SCENE_WEIGHT, TIP, 0, 0, -9.81);
 }
 
 static void unknown_driver(scene *s)

@@ -224,8 +224,8 @@ void write_structure_motions(writer *w)
 
 void write_structure_loads(writer *w)
 {
-    static const char *const kind[] = {"force",   "moment", "distributed", "distributed_moment",
-                                       "gravity", "gravity"};
+    static const char *const kind[] = {"force",   "moment",  "distributed", "distributed_moment",
+                                       "gravity", "gravity", "force",       "moment"};
     fputs(w->scene->loads > 0 ? "loads:\n" : "", w->to);
     for (int i = 0; i < w->scene->loads; i++) {
         const scene_load *load = &w->scene->load[i];

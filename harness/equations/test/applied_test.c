@@ -71,8 +71,8 @@ static void along_a_member(const char *name)
 {
     static const double v[3] = {1, -2, 3}, at[3] = {0, 0.5, -0.25};
     double F[3], M[3], fixed[3], arm[3], expected[3];
-    scene_load load = {.kind = SCENE_DISTRIBUTED, .axes = SCENE_AXES_MEMBER};
-    memcpy(load.vector, v, sizeof v);
+    scene_load load = scene_load_of(SCENE_DISTRIBUTED, 0, v[0], v[1], v[2]);
+    load.axes = SCENE_AXES_MEMBER;
     memcpy(load.at, at, sizeof at);
     to_fixed(v, fixed);
     to_fixed(at, arm);
