@@ -63,7 +63,7 @@ along_path_words along_path_end(const scene *s)
     changes c = {.begin = INFINITY, .end = -INFINITY};
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
-        if (vec3_norm(load->vector) == 0)
+        if (!scene_load_acts(load))
             continue;
         if (load->stations == 0)
             return out;

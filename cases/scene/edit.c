@@ -3,6 +3,7 @@
 #include "cases/scene/unit.h"
 #include "elements/section/taper.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -158,6 +159,53 @@ static int section_between(scene *s, const scene_member *m, double fraction)
     return scene_add_section(s, &spec);
 }
 
+/* What of a load acts from one place of its member to another, which become 0 and 1. */
+static void cut_load(scene_load *load, double from, double to)
+{
+    const scene_load whole = *load;
+    const double length = whole.range[1] - whole.range[0];
+    for (int k = 0; k < 2; k++) {
+        const double place = fmin(fmax(whole.range[k], from), to);
+        double *v = k == 0 ? load->vector : load->last;
+        for (int i = 0; i < 3 && whole.varies; i++)
+            v[i] = ((whole.range[1] - place) * whole.vector[i] +
+                    (place - whole.range[0]) * whole.last[i]) /
+                   length;
+        load->range[k] = (place - from) / (to - from);
+    }
+}
+
+/* A load of the first member, which ends at `fraction` now: of that one, of the second, or one of
+ * each. */
+static void split_load(scene *s, int load, double fraction, int second)
+{
+    const scene_load whole = *scene_load_at(s, load);
+    if (whole.range[1] <= fraction) {
+        cut_load(scene_load_at(s, load), 0, fraction);
+        return;
+    }
+    if (whole.range[0] >= fraction) {
+        cut_load(scene_load_at(s, load), fraction, 1);
+        scene_load_at(s, load)->where = second;
+        return;
+    }
+    const int part = scene_add_load(s, whole.kind, second, 0, 0, 0);
+    scene_load *l = scene_load_at(s, part);
+    const scene_load empty = *l;
+    *l = whole;
+    l->where = second;
+    l->path = empty.path;
+    l->factor = empty.factor;
+    l->function = empty.function;
+    memcpy(l->name, empty.name, sizeof l->name);
+    cut_load(l, fraction, 1);
+    cut_load(scene_load_at(s, load), 0, fraction);
+    if (whole.stations > 0)
+        scene_set_factor(s, part, whole.stations, whole.path, whole.factor);
+    if (part >= 0 && function_copy(&l->function, &whole.function) < 0)
+        s->out_of_memory = 1;
+}
+
 static status split(scene *s, double fraction, fault *f)
 {
     const scene_member first = *scene_member_at(s, 0);
@@ -192,19 +240,8 @@ static status split(scene *s, double fraction, fault *f)
     m->warp_q = name;
     m->release[1].count = 0;
     for (int i = 0; i < loads; i++)
-        if (scene_load_along(&s->load[i]) && s->load[i].where == 0) {
-            const scene_load whole = s->load[i];
-            const double *v = whole.vector;
-            const int part = scene_add_load(s, whole.kind, second, v[0], v[1], v[2]);
-            scene_load *l = scene_load_at(s, part);
-            memcpy(l->at, whole.at, sizeof l->at);
-            l->axes = whole.axes;
-            l->follower = whole.follower;
-            if (whole.stations > 0)
-                scene_set_factor(s, part, whole.stations, whole.path, whole.factor);
-            if (part >= 0 && function_copy(&l->function, &whole.function) < 0)
-                s->out_of_memory = 1;
-        }
+        if (scene_load_along(&s->load[i]) && s->load[i].where == 0)
+            split_load(s, i, fraction, second);
     for (int i = 0; i < s->quantities; i++)
         TRY(split_quantity(&s->quantity[i], fraction, second, f));
     return STATUS_OK;

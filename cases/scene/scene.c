@@ -244,10 +244,14 @@ int scene_load_turns(const scene_load *load)
            load->kind == SCENE_MEMBER_MOMENT;
 }
 
+int scene_load_acts(const scene_load *load)
+{
+    return vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0);
+}
+
 int scene_load_unsymmetric(const scene_load *load)
 {
-    const int acts = vec3_norm(load->vector) > 0 || (load->varies && vec3_norm(load->last) > 0);
-    return (load->follower || scene_load_turns(load)) && acts;
+    return (load->follower || scene_load_turns(load)) && scene_load_acts(load);
 }
 
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])

@@ -254,6 +254,8 @@ int scene_load_along(const scene_load *load);
 int scene_load_within(const scene_load *load);
 /* Is its vector a moment, not a force? */
 int scene_load_turns(const scene_load *load);
+/* Is it not zero all over its range? */
+int scene_load_acts(const scene_load *load);
 /* May its stiffness make a tangent unsymmetric? Not that of a load of zero. */
 int scene_load_unsymmetric(const scene_load *load);
 /* The load is its vector times a factor, piecewise linear over the path parameter. */

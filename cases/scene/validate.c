@@ -168,12 +168,50 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
+/* What of a member it acts on. */
+static status check_range(const scene *s, int i, fault *f)
+{
+    const scene_load *load = &s->load[i];
+    const int spread = scene_load_along(load) && load->kind != SCENE_GRAVITY,
+              within = scene_load_within(load);
+    const double *r = load->range;
+    if (load->varies && (!spread || within))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: only a distributed load changes along its member; give one vector",
+                         scene_called(s, SCENE_LOADS, i).text);
+    if (load->lumped && (!scene_load_along(load) || within))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: it acts at one place, and only loads along a member are lumped; "
+                         "leave that out",
+                         scene_called(s, SCENE_LOADS, i).text);
+    if (within)
+        return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_REFUSED,
+                               "%s: it acts at %g of its member's length; give a part of it, from "
+                               "0 to 1",
+                               scene_called(s, SCENE_LOADS, i).text, r[0]);
+    if (spread)
+        return r[0] >= 0 && r[0] < r[1] && r[1] <= 1
+                   ? STATUS_OK
+                   : fault_set(f, STATUS_REFUSED,
+                               "%s: it acts from %g to %g of its member's length; give two parts "
+                               "of it that ascend, from 0 to 1",
+                               scene_called(s, SCENE_LOADS, i).text, r[0], r[1]);
+    if (r[0] != 0 || r[1] != (load->kind == SCENE_GRAVITY))
+        return fault_set(f, STATUS_REFUSED, "%s: a part of a member, and it is %s; leave that out",
+                         scene_called(s, SCENE_LOADS, i).text,
+                         load->kind == SCENE_GRAVITY ? "the weight of all of one" : "at a node");
+    return STATUS_OK;
+}
+
 /* What a kind of load cannot have. */
 static status check_load_kind(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
     section c;
-    if (vec3_norm(load->at) > 0 && load->kind != SCENE_FORCE && load->kind != SCENE_DISTRIBUTED)
+    if (vec3_norm(load->at) > 0 &&
+        (scene_load_turns(load) || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT))
         return fault_set(f, STATUS_REFUSED,
                          "%s: only forces act at an offset, moments are the same everywhere and "
                          "gravity acts at the centres of mass; take 'at' away",
@@ -220,6 +258,7 @@ static status check_load(const scene *s, int i, fault *f)
             return fault_set(f, STATUS_REFUSED,
                              "%s: it is not a number; give three finite components",
                              scene_called(s, SCENE_LOADS, i).text);
+    TRY(check_range(s, i, f));
     return check_load_kind(s, i, f);
 }
 

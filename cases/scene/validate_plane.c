@@ -143,14 +143,17 @@ static status check_load(const scene *s, int i, fault *f)
 {
     const scene_load *l = &s->load[i];
     const scene_words who = scene_called(s, SCENE_LOADS, i);
-    const int turns = l->kind == SCENE_MOMENT || l->kind == SCENE_DISTRIBUTED_MOMENT;
-    double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, v[3], at[3];
+    const int turns = scene_load_turns(l);
+    double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, v[2][3], at[3];
     if (l->axes == SCENE_AXES_MEMBER && scene_load_along(l))
         axes_of(s, l->where, R);
-    to_fixed(R, l->vector, v);
+    to_fixed(R, l->vector, v[0]);
+    to_fixed(R, l->last, v[1]);
     to_fixed(R, l->at, at);
-    if (turns ? is_beside(s, v) : is_across(s, v))
-        return refuse(s, who, turns ? "it turns out of the plane" : "it acts out of the plane", f);
+    for (int k = 0; k < 2; k++)
+        if (turns ? is_beside(s, v[k]) : is_across(s, v[k]))
+            return refuse(s, who, turns ? "it turns out of the plane" : "it acts out of the plane",
+                          f);
     return is_across(s, at) ? refuse(s, who, "it acts beside the plane", f) : STATUS_OK;
 }
 

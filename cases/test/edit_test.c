@@ -2,6 +2,7 @@
  */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cases/scene/edit.h"
@@ -61,6 +62,73 @@ static void reversed(void)
     is_vector(l->vector, -5, -6, 7, "load in the member's axes");
     is_vector(l->at, -0.1, -0.2, 0.3, "its place");
     scene_free(&s);
+}
+
+/* Loads on parts of a member of length 2, along x, that is turned round or cut in two. */
+static const struct {
+    scene_load_kind kind;
+    double from, to, last;      /* 1 at the begin; last 0: it does not vary */
+    double turned[3];           /* from, to, and what it is at the begin */
+    double first[4], second[4]; /* cut at 0.25: likewise, and at the end */
+} on_part[] = {
+    {SCENE_DISTRIBUTED, 0, 1, 0, {0, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}},
+    {SCENE_DISTRIBUTED, 0, 1, 5, {0, 1, 5}, {0, 1, 1, 2}, {0, 1, 2, 5}},
+    {SCENE_DISTRIBUTED_MOMENT, 0.125, 0.25, 0, {0.75, 0.875, 1}, {0.5, 1, 1, 1}, {-1}},
+    {SCENE_DISTRIBUTED, 0.25, 0.625, 3, {0.375, 0.75, 3}, {-1}, {0, 0.5, 1, 3}},
+    {SCENE_DISTRIBUTED_MOMENT, 0.125, 0.625, 5, {0.375, 0.875, 5}, {0.5, 1, 1, 2}, {0, 0.5, 2, 5}},
+    {SCENE_GRAVITY, 0, 1, 0, {0, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}},
+    {SCENE_MEMBER_FORCE, 0.125, 0.125, 0, {0.875, 0.875, 1}, {0.5, 0.5, 1, 1}, {-1}},
+    {SCENE_MEMBER_MOMENT, 0.625, 0.625, 0, {0.375, 0.375, 1}, {-1}, {0.5, 0.5, 1, 1}},
+};
+
+/* The load on a member, as expected; none where that begins with -1. */
+static void is_on(const scene *s, int member, const double expected[4], const char *what)
+{
+    int found = 0;
+    for (int i = 0; i < s->loads; i++) {
+        const scene_load *l = &s->load[i];
+        const double *last = l->varies ? l->last : l->vector;
+        if (l->where != member)
+            continue;
+        found++;
+        gsl_test(l->range[0] != expected[0] || l->range[1] != expected[1], "%s: from %g to %g",
+                 what, l->range[0], l->range[1]);
+        gsl_test(l->vector[2] != expected[2] || last[2] != expected[3], "%s: %g at the begin, %g",
+                 what, l->vector[2], last[2]);
+        gsl_test(l->lumped != 1, "%s: lumped as before", what);
+    }
+    gsl_test_int(found, expected[0] >= 0, "%s: loads on member %d", what, member);
+}
+
+static void parts(void)
+{
+    for (size_t i = 0; i < sizeof on_part / sizeof on_part[0]; i++) {
+        char what[40];
+        for (int cut = 0; cut < 2; cut++) {
+            scene s;
+            fault f = {""};
+            make(&s);
+            scene_load *l = scene_load_at(&s, 0);
+            const double v[3] = {0, 0, 1};
+            l->kind = on_part[i].kind;
+            l->axes = SCENE_AXES_FIXED;
+            memcpy(l->vector, v, sizeof v);
+            l->range[0] = on_part[i].from;
+            l->range[1] = on_part[i].to;
+            l->varies = on_part[i].last != 0;
+            l->last[2] = on_part[i].last;
+            l->lumped = 1;
+            const scene_edit edit = {cut ? SCENE_EDIT_SPLIT : SCENE_EDIT_REVERSE, 0.25};
+            gsl_test(scene_edit_apply(&s, &edit, &f) != STATUS_OK, "%s", f.text);
+            snprintf(what, sizeof what, "load %d, %s", (int)i, cut ? "cut" : "turned");
+            const double *t = on_part[i].turned;
+            const double turned[4] = {t[0], t[1], t[2], on_part[i].last != 0 ? 1 : t[2]};
+            is_on(&s, 0, cut ? on_part[i].first : turned, what);
+            if (cut)
+                is_on(&s, 1, on_part[i].second, what);
+            scene_free(&s);
+        }
+    }
 }
 
 static void is_split(void)
@@ -195,6 +263,7 @@ int main(void)
     in_millimetres();
     reversed();
     is_split();
+    parts();
     refused();
     stay_scenes();
     return gsl_test_summary();

@@ -73,6 +73,124 @@ static void load(scene *s)
     s->load[0].vector[2] = NAN;
 }
 
+/* Along the member from one part of it to another. */
+static scene_load *spread(scene *s, double from, double to)
+{
+    s->load[0] = scene_load_of(SCENE_DISTRIBUTED, 0, 0, 1, 0);
+    s->load[0].range[0] = from;
+    s->load[0].range[1] = to;
+    return &s->load[0];
+}
+
+static void end_value(scene *s)
+{
+    scene_load *l = spread(s, 0, 1);
+    l->varies = 1;
+    l->last[1] = NAN;
+}
+
+static void no_range(scene *s)
+{
+    spread(s, 0, 0);
+}
+
+static void range_falls(scene *s)
+{
+    spread(s, 0.5, 0.25);
+}
+
+static void range_beyond(scene *s)
+{
+    spread(s, 0.5, 1.5);
+}
+
+static void range_before(scene *s)
+{
+    spread(s, -0.5, 0.5);
+}
+
+static void range_nowhere(scene *s)
+{
+    spread(s, NAN, 1);
+}
+
+static void moments_fall(scene *s)
+{
+    spread(s, 1, 0)->kind = SCENE_DISTRIBUTED_MOMENT;
+}
+
+static scene_load *within(scene *s, scene_load_kind kind, double place)
+{
+    s->loads = 0;
+    return scene_load_at(s, scene_add_load_within(s, kind, 0, place, 0, 1, 0));
+}
+
+static void place_beyond(scene *s)
+{
+    within(s, SCENE_MEMBER_FORCE, 1.25);
+}
+
+static void place_nowhere(scene *s)
+{
+    within(s, SCENE_MEMBER_MOMENT, NAN);
+}
+
+static void two_places(scene *s)
+{
+    within(s, SCENE_MEMBER_FORCE, 0.25)->range[1] = 0.5;
+}
+
+static void place_of_no_member(scene *s)
+{
+    within(s, SCENE_MEMBER_FORCE, 0.25)->where = 1;
+}
+
+static void place_varies(scene *s)
+{
+    within(s, SCENE_MEMBER_FORCE, 0.25)->varies = 1;
+}
+
+static void place_lumped(scene *s)
+{
+    within(s, SCENE_MEMBER_FORCE, 0.25)->lumped = 1;
+}
+
+static void moment_within_beside(scene *s)
+{
+    within(s, SCENE_MEMBER_MOMENT, 0.25)->at[1] = 0.5;
+}
+
+static void node_varies(scene *s)
+{
+    s->load[0].varies = 1;
+}
+
+static void node_lumped(scene *s)
+{
+    s->load[0].lumped = 1;
+}
+
+static void node_range(scene *s)
+{
+    s->load[0].range[1] = 1;
+}
+
+static scene_load *heavy(scene *s)
+{
+    s->load[0] = scene_load_of(SCENE_GRAVITY, 0, 0, 0, -9.81);
+    return &s->load[0];
+}
+
+static void gravity_on_part(scene *s)
+{
+    heavy(s)->range[1] = 0.5;
+}
+
+static void gravity_varies(scene *s)
+{
+    heavy(s)->varies = 1;
+}
+
 static void load_nowhere(scene *s)
 {
     s->load[0].at[1] = INFINITY;
@@ -187,6 +305,25 @@ static const refusal refusals[] = {
     {no_member_loaded, "load 0: ", "does not exist"},
     {load, "load 0: ", "not a number"},
     {load_nowhere, "load 0: ", "not a number"},
+    {end_value, "load 0: ", "not a number"},
+    {no_range, "load 0: ", "from 0 to 0 of its member's length"},
+    {range_falls, "load 0: ", "from 0.5 to 0.25 of its member's length"},
+    {range_beyond, "load 0: ", "from 0.5 to 1.5 of its member's length"},
+    {range_before, "load 0: ", "from -0.5 to 0.5 of its member's length"},
+    {range_nowhere, "load 0: ", "from nan to 1 of its member's length"},
+    {moments_fall, "load 0: ", "from 1 to 0 of its member's length"},
+    {place_beyond, "load 0: ", "at 1.25 of its member's length"},
+    {place_nowhere, "load 0: ", "at nan of its member's length"},
+    {two_places, "load 0: ", "at 0.25 of its member's length"},
+    {place_of_no_member, "load 0: ", "does not exist"},
+    {place_varies, "load 0: ", "only a distributed load changes"},
+    {place_lumped, "load 0: ", "only loads along a member are lumped"},
+    {moment_within_beside, "load 0: ", "only forces act at an offset"},
+    {node_varies, "load 0: ", "only a distributed load changes"},
+    {node_lumped, "load 0: ", "only loads along a member are lumped"},
+    {node_range, "load 0: ", "it is at a node"},
+    {gravity_on_part, "load 0: ", "the weight of all of one"},
+    {gravity_varies, "load 0: ", "only a distributed load changes"},
     {moment_beside, "load 0: ", "only forces act at an offset"},
     {node_along, "load 0: ", "a member's axes and acts on a node"},
     {weight_turns, "load 0: ", "gravity has fixed axes"},
@@ -221,8 +358,50 @@ static void says_what_is_sought_along_paths(void)
     scene_free(&s);
 }
 
+/* What is whole, and what is not a mistake. */
+static void accepts(void)
+{
+    static const double place[] = {0, 0.5, 1};
+    for (int i = 0; i < 12; i++) {
+        scene s;
+        fault f = {""};
+        refuse_sound(&s);
+        if (i < 6) {
+            scene_load *l =
+                within(&s, i % 2 ? SCENE_MEMBER_FORCE : SCENE_MEMBER_MOMENT, place[i / 2]);
+            l->axes = SCENE_AXES_MEMBER;
+            l->follower = 1;
+            l->at[2] = i % 2 ? 0.1 : 0;
+        } else {
+            scene_load *l = spread(&s, place[i / 6 - 1], place[1 + i % 2]);
+            l->kind = i % 3 ? SCENE_DISTRIBUTED : SCENE_DISTRIBUTED_MOMENT;
+            l->lumped = l->varies = i % 2;
+        }
+        gsl_test(scene_validate(&s, &f) != STATUS_OK, "load %d on a member: %s", i, f.text);
+        scene_free(&s);
+    }
+}
+
+/* A load that is nothing where it begins acts, and turns the tangent. */
+static void acts_where_it_ends(void)
+{
+    scene_load l = scene_load_of(SCENE_DISTRIBUTED, 0, 0, 0, 0);
+    l.follower = 1;
+    l.last[1] = 2;
+    gsl_test(scene_load_acts(&l) || scene_load_unsymmetric(&l), "what does not vary has no end");
+    l.varies = 1;
+    gsl_test(!scene_load_acts(&l) || !scene_load_unsymmetric(&l), "it acts where it ends");
+    gsl_test(l.range[0] != 0 || l.range[1] != 1, "all along its member");
+    l = scene_load_of(SCENE_MEMBER_MOMENT, 0, 0, 1, 0);
+    gsl_test(!scene_load_unsymmetric(&l), "a moment within a member");
+    l = scene_load_of(SCENE_MEMBER_FORCE, 0, 0, 1, 0);
+    gsl_test(scene_load_unsymmetric(&l) || !scene_load_along(&l), "a force within a member");
+}
+
 int main(void)
 {
+    accepts();
+    acts_where_it_ends();
     says_what_is_sought_along_paths();
     refuse_all(sizeof refusals / sizeof refusals[0], refusals);
     says_that_memory_ran_out();

@@ -111,7 +111,7 @@ static status check_load(const scene *s, int load, fault *f)
     const scene_load *l = &s->load[load];
     if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: along members and weight are not written for solids; put it on nodes",
+                         "%s: on members and weight are not written for solids; put it on nodes",
                          scene_called(s, SCENE_LOADS, load).text);
     if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
         return fault_set(f, STATUS_REFUSED,

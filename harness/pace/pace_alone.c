@@ -26,7 +26,7 @@ static int is_over(const scene_function *f, double from)
 static double load_until(const scene_load *load)
 {
     const scene_function *f = &load->function;
-    if (load->vector[0] == 0 && load->vector[1] == 0 && load->vector[2] == 0)
+    if (!scene_load_acts(load))
         return 0;
     if (f->pieces > 0) {
         const double from = f->pieces > 1 ? f->piece[f->pieces - 2].until : 0;

@@ -90,21 +90,33 @@ static void write_rows(FILE *to, const void *what)
     }
 }
 
+/* What of its member a load acts on, and its vector where that ends; nothing of one at a node. */
+static void write_extent(FILE *to, const scene_load *l)
+{
+    const double *last = l->varies ? l->last : l->vector;
+    if (scene_load_along(l))
+        fprintf(to, ",%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", l->range[0], l->range[1], last[0],
+                last[1], last[2], l->lumped);
+    else
+        fputs(",,,,,,\n", to);
+}
+
 static void write_loads(FILE *to, const void *what)
 {
-    static const char *const kind[] = {"force",   "moment", "distributed", "distributed moment",
-                                       "gravity", "gravity"};
-    static const char *const unit[] = {"N", "N m", "N/m", "N m/m", "m/s^2", "m/s^2"};
+    static const char *const kind[] = {"force",   "moment",  "distributed", "distributed moment",
+                                       "gravity", "gravity", "force",       "moment"};
+    static const char *const unit[] = {"N", "N m", "N/m", "N m/m", "m/s^2", "m/s^2", "N", "N m"};
     const scene *s = ((const contents *)what)->scene;
-    fprintf(to, "column,kind,node,member,x,y,z,unit,axes,follower\n");
+    fprintf(to, "column,kind,node,member,x,y,z,unit,axes,follower,from,to,x_to,y_to,z_to,lumped\n");
     for (int i = 0; i < s->loads; i++) {
         const scene_load *l = &s->load[i];
         const int along = scene_load_along(l);
         fprintf(to, "%d,%s,", i + 1, kind[l->kind]);
         name_cell(to, s, SCENE_NODES, along ? SCENE_NONE : l->where);
         name_cell(to, s, SCENE_MEMBERS, along ? l->where : SCENE_NONE);
-        fprintf(to, "%.17g,%.17g,%.17g,%s,%s,%d\n", l->vector[0], l->vector[1], l->vector[2],
+        fprintf(to, "%.17g,%.17g,%.17g,%s,%s,%d", l->vector[0], l->vector[1], l->vector[2],
                 unit[l->kind], l->axes == SCENE_AXES_MEMBER ? "member" : "fixed", l->follower);
+        write_extent(to, l);
     }
 }
 

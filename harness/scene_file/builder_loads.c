@@ -17,12 +17,8 @@ static int add(const fields *f, const scene_load *what)
 {
     scene *s = f->b->scene;
     double *path, *factor;
-    const double *v = what->vector;
-    const int load = scene_add_load(s, what->kind, what->where, v[0], v[1], v[2]);
-    scene_load *l = scene_load_at(s, load);
-    memcpy(l->at, what->at, sizeof l->at);
-    l->axes = what->axes;
-    l->follower = what->follower;
+    const int load = scene_add_load(s, what->kind, what->where, 0, 0, 0);
+    *scene_load_at(s, load) = *what; /* has neither a name nor factors yet */
     if (fields_have(f, "path") || fields_have(f, "factor")) {
         const int stations = builder_stations(f, "factor", &path, &factor);
         if (stations > 0 && load >= 0)
@@ -57,6 +53,15 @@ static int is_heavy(const scene *s, const scene_member *m)
     return 0;
 }
 
+/* The same gravity on a body. */
+static scene_load at_centre(const scene_load *what)
+{
+    scene_load out = *what;
+    out.kind = SCENE_WEIGHT;
+    out.range[1] = 0;
+    return out;
+}
+
 /* Gravity on each member that has a density and each body that has a mass; a mistake is told
  * once. */
 static void weigh_all(const fields *f, scene_load *what)
@@ -70,7 +75,8 @@ static void weigh_all(const fields *f, scene_load *what)
     for (what->where = 0; what->where < s->members && f->b->mistakes->count == told; what->where++)
         if (is_heavy(s, &s->member[what->where]))
             add(f, what);
-    what->kind = SCENE_WEIGHT;
+    *what = at_centre(what);
+    what->lumped = 0;
     for (what->where = 0; what->where < s->nodes && f->b->mistakes->count == told; what->where++)
         if (s->node[what->where].body.mass > 0)
             add(f, what);
@@ -111,21 +117,112 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[LIST_LOADS].entry[whole].name);
 }
 
+/* A force or a moment with a place within a member is of another kind than one at a node. */
+static scene_load_kind kind_of(const fields *f, int given)
+{
+    const int within = fields_have(f, "where");
+    return given == SCENE_FORCE    ? (within ? SCENE_MEMBER_FORCE : SCENE_FORCE)
+           : given == SCENE_MOMENT ? (within ? SCENE_MEMBER_MOMENT : SCENE_MOMENT)
+                                   : (scene_load_kind)given;
+}
+
+/* Of the member's length. */
+static double part_of(const fields *f, const char *key, double otherwise)
+{
+    const double part = fields_number(f, key, otherwise);
+    if (part >= 0 && part <= 1)
+        return part;
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                     "%s = %g; give a part of the member's length, from 0 to 1", key, part);
+    return otherwise;
+}
+
+/* Keys that a load of this kind cannot have. */
+static void check_keys(const fields *f, int given)
+{
+    static const char *const of_range[] = {"from", "to", "to_value"};
+    if (fields_have(f, "where") && given > SCENE_MOMENT)
+        mistake_at(f, "where",
+                   given == SCENE_GRAVITY
+                       ? "where: a place of a force or a moment, and gravity is on all of a "
+                         "member; take it away"
+                       : "where: a place of a force or a moment; a distributed load begins and "
+                         "ends at 'from' and 'to'");
+    for (int k = 0; k < 3; k++) {
+        if (given == SCENE_DISTRIBUTED || given == SCENE_DISTRIBUTED_MOMENT ||
+            !fields_have(f, of_range[k]))
+            continue;
+        document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
+                         "%s: of a distributed load; %s", of_range[k],
+                         given == SCENE_GRAVITY
+                             ? "gravity is on all of a member, take it away"
+                             : "a force or a moment within a member is at one place, 'where'");
+    }
+}
+
+/* Where on its member it acts. */
+static void read_range(const fields *f, int given, scene_load *what)
+{
+    check_keys(f, given);
+    what->lumped = fields_word(f, "lumped", "false|true|no|yes", 0) % 2;
+    if (scene_load_within(what))
+        what->range[0] = what->range[1] = part_of(f, "where", 0);
+    if (given != SCENE_DISTRIBUTED && given != SCENE_DISTRIBUTED_MOMENT)
+        return;
+    what->range[0] = part_of(f, "from", 0);
+    what->range[1] = part_of(f, "to", 1);
+    if (what->range[0] < what->range[1])
+        return;
+    document_mistake(f->b->mistakes, document_find(f->map, fields_have(f, "to") ? "to" : "from"), 0,
+                     "from %g to %g of the member's length; give a larger 'to' than 'from'",
+                     what->range[0], what->range[1]);
+}
+
+/* The node or the member that a load is on. */
+static int place_of(const fields *f, const scene_load *what)
+{
+    const int node = fields_names(f, "on", LIST_NODES),
+              member = fields_names(f, "on", LIST_MEMBERS), within = scene_load_within(what);
+    const char *on = fields_text(f, "on", "");
+    if (what->lumped && (!scene_load_along(what) || within))
+        mistake_at(f, "lumped",
+                   "lumped: of distributed loads and of gravity on a member, and this acts at one "
+                   "place; take it away");
+    if (within && node && !member) {
+        document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
+                         "where: a part of a member's length, and '%.40s' is a node; name a "
+                         "member, or take it away",
+                         on);
+        return SCENE_NONE;
+    }
+    if (what->kind <= SCENE_MOMENT && member && !node) {
+        document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
+                         "'%.40s' is a member; say where of its length, with 'where' from 0 to 1, "
+                         "or name a node",
+                         on);
+        return SCENE_NONE;
+    }
+    return fields_entry(f, "on", scene_load_along(what) ? LIST_MEMBERS : LIST_NODES);
+}
+
 void builder_loads(builder *b)
 {
     const int whole = whole_of(b);
     for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
         const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
-        scene_load what = {.kind = SCENE_FORCE};
-        while (what.kind < SCENE_GRAVITY && !fields_have(&f, key_of[what.kind]))
-            what.kind++;
+        int given = SCENE_FORCE;
+        while (given < SCENE_GRAVITY && !fields_have(&f, key_of[given]))
+            given++;
+        scene_load what = scene_load_of(kind_of(&f, given), SCENE_NONE, 0, 0, 0);
         what.axes =
             fields_word(&f, "axes", "fixed|member", 0) == 1 ? SCENE_AXES_MEMBER : SCENE_AXES_FIXED;
         what.follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
         int (*const vector_of)(const fields *, const char *, double[3]) =
             what.axes == SCENE_AXES_MEMBER ? along_member : fields_direction;
-        vector_of(&f, key_of[what.kind], what.vector);
+        vector_of(&f, key_of[given], what.vector);
         vector_of(&f, "at", what.at);
+        what.varies = vector_of(&f, "to_value", what.last);
+        read_range(&f, given, &what);
         if (what.kind == SCENE_GRAVITY)
             check_gravity(&f, &what, whole);
         if (is_on_all(&f)) {
@@ -137,8 +234,8 @@ void builder_loads(builder *b)
         }
         if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", LIST_MEMBERS) &&
             fields_names(&f, "on", LIST_NODES))
-            what.kind = SCENE_WEIGHT;
-        what.where = fields_entry(&f, "on", scene_load_along(&what) ? LIST_MEMBERS : LIST_NODES);
+            what = at_centre(&what);
+        what.where = place_of(&f, &what);
         if (what.kind == SCENE_WEIGHT)
             check_weight(&f, &what);
         builder_call(b, SCENE_LOADS, add(&f, &what), LIST_LOADS, i);

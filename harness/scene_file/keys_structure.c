@@ -260,8 +260,10 @@ const scene_key keys_motion[] = {
     {.name = NULL}};
 
 const scene_key keys_load[] = {
-    {"force", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N", .summary = "at a node"},
-    {"moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m", .summary = "at one"},
+    {"force", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
+     .summary = "at a node, or at 'where' of a member"},
+    {"moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m",
+     .summary = "at one, or there"},
     {"distributed", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
      .summary = "along a member"},
     {"distributed_moment", KEY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
@@ -270,6 +272,19 @@ const scene_key keys_load[] = {
      .summary = "on a member, whose section has a density, on a node, which has a mass, or on all "
                 "that has"},
     {"on", KEY_NAME, .needed = 1, .summary = "node or member; of gravity also: all"},
+    {"where", KEY_NUMBER,
+     .summary = "of a force or a moment within a member: 0 'from' to 1 'to', of its length",
+     .left_out = "it is at a node"},
+    {"from", KEY_NUMBER, .summary = "of a distributed load: where it begins, of the length",
+     .usual = "0"},
+    {"to", KEY_NUMBER, .summary = "where it ends, of the length", .usual = "1"},
+    {"to_value", KEY_VECTOR, .count = 3,
+     .summary = "of a distributed load: what it is at 'to', linear from what it is at 'from'",
+     .left_out = "the same all along"},
+    {"lumped", KEY_WORD, .words = "false|true|no|yes",
+     .summary = "of a distributed load or gravity: half of an element's share on each of its "
+                "nodes, of second order",
+     .usual = "no"},
     {"path", KEY_NUMBERS, .summary = "path parameter, ascending",
      .left_out = "none: needed with factor"},
     {"factor", KEY_NUMBERS, .summary = "at these", .left_out = "the path parameter itself"},

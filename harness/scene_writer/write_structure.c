@@ -222,6 +222,23 @@ void write_structure_motions(writer *w)
     }
 }
 
+/* Which part of its member a load acts on, and how. */
+static void write_range(writer *w, const scene_load *load)
+{
+    if (scene_load_within(load)) {
+        fputs(", where: ", w->to);
+        write_values_number(w, load->range[0]);
+    } else if (scene_load_along(load)) {
+        write_values_if(w, "from", load->range[0], 0);
+        write_values_if(w, "to", load->range[1], 1);
+    }
+    if (load->varies) {
+        fputs(", to_value: ", w->to);
+        write_values_numbers(w, 3, load->last);
+    }
+    fputs(load->lumped ? ", lumped: yes" : "", w->to);
+}
+
 void write_structure_loads(writer *w)
 {
     static const char *const kind[] = {"force",   "moment",  "distributed", "distributed_moment",
@@ -234,6 +251,7 @@ void write_structure_loads(writer *w)
         write_values_numbers(w, 3, load->vector);
         write_values_named(w, ", on: ", scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES,
                            load->where);
+        write_range(w, load);
         if (write_values_any(3, load->at)) {
             fputs(", at: ", w->to);
             write_values_numbers(w, 3, load->at);

@@ -101,6 +101,8 @@ static inline int same_driver(const scene_driver *a, const scene_driver *b)
 static inline int same_load(const scene_load *a, const scene_load *b)
 {
     return a->kind == b->kind && a->where == b->where && same_numbers(3, a->vector, b->vector) &&
+           same_numbers(3, a->last, b->last) && a->varies == b->varies &&
+           same_numbers(2, a->range, b->range) && a->lumped == b->lumped &&
            same_numbers(3, a->at, b->at) && a->axes == b->axes && a->follower == b->follower &&
            a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
            same_numbers(a->stations, a->factor, b->factor) &&
