@@ -35,16 +35,28 @@ def motion(name, reach):
 
 def load(one):
     kind = one.kind.replace("_", " ")
-    said = f"{kind} {vector(one.vector, loads.UNITS[one.kind])} {axis(one)}on {one.on}"
+    said = f"{kind} {loads.size(one)} {axis(one)}on {one.on}"
+    said += extent(one.within)
     said += f", {place(one.at)} m beside it" if one.at.any() else ""
     said += ", in the member's axes" if one.member_axes else ""
     said += ", turns with it" if one.follower else ""
+    said += ", lumped at its nodes" if one.lumped else ""
     return said + ("" if one.grows else ", constant")
+
+
+def extent(within):
+    """Of the length of a member."""
+    if within in (None, (0, 1)):
+        return ""
+    begin, end = (f"{number(100 * part)} %" for part in within)
+    return f" at {begin} of it" if begin == end else f" from {begin} to {end} of it"
 
 
 def axis(one):
     """Along which axis, where it is one."""
-    along = np.flatnonzero(one.vector)
+    along = np.flatnonzero(np.abs(one.vector) + np.abs(one.last))
+    if one.varies():
+        return ""
     sign = "-" if len(along) and one.vector[along[0]] < 0 else "+"
     way = "about" if "moment" in one.kind else "along"
     return f"{way} {sign}{'xyz'[along[0]]} " if len(along) == 1 else ""

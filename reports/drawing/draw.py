@@ -29,7 +29,7 @@ def directions(scene):
     """Of shifts and of turns that loads, motions, springs and axes make."""
     shifts, turns = [], []
     for load in scene.loads:
-        (turns if "moment" in load.kind else shifts).append(load.vector)
+        (turns if "moment" in load.kind else shifts).extend((load.vector, load.last))
         shifts.append(load.at)
     for node in scene.nodes.values():
         for way, turn, _ in loads.motions_of(scene, node):

@@ -1,4 +1,6 @@
 """Arrows of loads, of driven motions and of axes that turn."""
+from dataclasses import replace
+
 import numpy as np
 
 from reports.drawing.canvas import LOAD, MOTION
@@ -36,8 +38,17 @@ def straight(view, at, way, ways, size=ARROW):
     return start + size * np.outer([-1, 0] if blocked else [0, 1], flat)
 
 
+def size(load):
+    """Of its vector, or of both where it changes."""
+    unit_of = UNITS[load.kind]
+    if not load.varies():
+        return vector(load.vector, unit_of)
+    first, last = (f"({', '.join(map(number, v))})" for v in (load.vector, load.last))
+    return f"{first} to {last} {unit_of}"
+
+
 def words_of(load):
-    return ("gravity " if load.kind == "gravity" else "") + vector(load.vector, UNITS[load.kind])
+    return ("gravity " if load.kind == "gravity" else "") + size(load)
 
 
 def put_force(canvas, view, load, at, ways):
@@ -66,22 +77,47 @@ def beside_member(flat, way, gravity):
     return 2 * SHORT * way if gravity else 0 * way
 
 
+def in_fixed(load, line, v):
+    """A vector of a load on a member."""
+    return line.axes[0].T @ v if load.member_axes else v
+
+
+def point_on(line, places):
+    """Points of a member at parts of its length [n x 3]."""
+    share = np.linspace(0, 1, len(line.points))
+    return np.array([np.interp(places, share, line.points[:, i]) for i in range(3)]).T
+
+
+def put_within(canvas, view, load, line):
+    """A force or a moment at a place of a member."""
+    at = point_on(line, load.within[:1])[0]
+    fixed = replace(load, vector=in_fixed(load, line, load.vector))
+    if load.kind == "moment":
+        put_moment(canvas, view, fixed, at)
+    else:
+        put_force(canvas, view, fixed, at + in_fixed(load, line, load.at), [])
+
+
 def put_along(canvas, view, load, line, told):
     """Arrows along a member, onto its line; a thin line joins their tails. told: words that stand
     there already."""
-    share = np.linspace(0, 1, len(line.points))
-    places = np.linspace(0.03, 0.97, ALONG)
-    way = line.axes[0].T @ load.vector if load.member_axes else load.vector
-    beside = line.axes[0].T @ load.at if load.member_axes else load.at
-    at = np.array([np.interp(places, share, line.points[:, i]) for i in range(3)]).T + beside
+    parts = np.linspace(0.03, 0.97, ALONG)[:, None]
+    begin, end = load.within or (0, 1)
+    ways = (1 - parts) * in_fixed(load, line, load.vector) + parts * in_fixed(load, line, load.last)
+    shares = np.linalg.norm(ways, axis=1)
+    way = ways[np.argmax(shares)]
+    shares = shares / max(shares.max(), 1e-300)
+    at = point_on(line, begin + (end - begin) * parts[:, 0]) + in_fixed(load, line, load.at)
     flat = view(unit(way)) / view.scale
     gravity = load.kind == "gravity"
     if load.kind == "distributed_moment":
-        for i, point in enumerate(at[::2]):
-            canvas.arrow(arc(view, point, way, 7), LOAD, 0.9, load.name if i == 0 else None, head=4)
+        for i, (point, one) in enumerate(zip(at[::2], ways[::2])):
+            mark = load.name if i == 0 else None
+            canvas.arrow(arc(view, point, one if one.any() else way, 7), LOAD, 0.9, mark, head=4)
     else:
-        size = SHORT * max(np.linalg.norm(flat), 0.3) * (0.7 if gravity else 1)
-        tails = view(at) - size * unit(flat)
+        reach = SHORT * max(np.linalg.norm(flat), 0.3) * (0.7 if gravity else 1)
+        flats = np.array([unit(view(unit(one if one.any() else way))) for one in ways])
+        tails = view(at) - reach * np.maximum(shares, 0.1)[:, None] * flats
         lift = beside_member(view(line.points), unit(flat), gravity)
         for i, (tail, tip) in enumerate(zip(tails, view(at))):
             mark = load.name if i == 0 else None
@@ -100,7 +136,9 @@ def put_along(canvas, view, load, line, told):
 def put_loads(canvas, view, scene, lines, into):
     told = set()
     for load in scene.loads:
-        if load.kind in ("force", "moment"):
+        if load.kind in ("force", "moment") and load.within is not None:
+            put_within(canvas, view, load, lines[load.on])
+        elif load.kind in ("force", "moment"):
             node = scene.nodes[load.on].position
             if load.kind == "moment":
                 put_moment(canvas, view, load, node)

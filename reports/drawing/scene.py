@@ -45,7 +45,9 @@ class Member:
 
 @dataclass
 class Load:
-    """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member."""
+    """kind: force, moment, distributed, distributed_moment, gravity; on: a node or a member.
+    within: of which parts of its length, twice the same of a force or a moment, None: at a node;
+    last: the vector where that ends."""
     name: str
     kind: str
     vector: np.ndarray
@@ -54,6 +56,12 @@ class Load:
     member_axes: bool
     follower: bool
     grows: bool  # with the path parameter
+    within: tuple = None
+    last: np.ndarray = None
+    lumped: bool = False
+
+    def varies(self):
+        return bool(np.any(self.vector != self.last))
 
 
 @dataclass
@@ -129,9 +137,17 @@ KINDS = ("force", "moment", "distributed", "distributed_moment", "gravity")
 def read_load(name, said):
     kind = next(k for k in KINDS if k in said)
     factors = numbers(said.get("factor", (0, 1)))
-    return Load(name, kind, numbers(said[kind]) * factors[-1], said["on"],
-                numbers(said.get("at", (0, 0, 0))), said.get("axes") == "member",
-                said.get("follower") == "true", bool(np.ptp(factors)) if "path" in said else True)
+    vector = numbers(said[kind]) * factors[-1]
+    last = numbers(said["to_value"]) * factors[-1] if "to_value" in said else vector
+    within = None
+    if "where" in said:
+        within = (float(said["where"]),) * 2
+    elif kind.startswith("distributed"):
+        within = float(said.get("from", 0)), float(said.get("to", 1))
+    return Load(name, kind, vector, said["on"], numbers(said.get("at", (0, 0, 0))),
+                said.get("axes") == "member", said.get("follower") == "true",
+                bool(np.ptp(factors)) if "path" in said else True, within, last,
+                said.get("lumped") == "yes")
 
 
 def read_spring(name, said):

@@ -2,13 +2,17 @@
 other."""
 import itertools
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
 from harness.test.program import ROOT, run
 from reports.drawing import describe, draw, geometry, loads, scene, sections, supports, view
-from reports.drawing.canvas import boxes_overlap
+from reports.drawing.canvas import Canvas, boxes_overlap
 from reports.style import plt
+
+
+LOADED = ROOT / "harness/scene_file/test/good/loaded.yaml"
 
 
 def written():
@@ -17,6 +21,18 @@ def written():
     found.update({p.stem: ("scene", "--scene", str(p))
                   for p in (ROOT / "cases" / "examples").glob("*.yaml")})
     return {name: run(*arguments).stdout for name, arguments in sorted(found.items())}
+
+
+class Arrows(Canvas):
+    """Keeps them."""
+
+    def __init__(self):
+        super().__init__()
+        self.arrows = []
+
+    def arrow(self, points, *more, **named):
+        super().arrow(points, *more, **named)
+        self.arrows.append(np.asarray(points))
 
 
 class Drawings(unittest.TestCase):
@@ -48,6 +64,39 @@ class Drawings(unittest.TestCase):
             moved = [n.name for n in one.nodes.values() for _ in loads.motions_of(one, n)]
             self.assertEqual(len([m for m in marks if m.startswith("motion_")]), len(moved), name)
             plt.close(figure)
+
+    def test_loads_on_parts_of_members(self):
+        """Arrows stand on the part alone, longer where there is more; one at a place within."""
+        one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
+        self.assertEqual(len(one.loads), 18)
+        figure = draw.draw(one)
+        marks = [a.get_gid() for a in figure.findobj() if a.get_gid()]
+        for load in one.loads:
+            self.assertEqual(marks.count(load.name), 1, load.name)
+        plt.close(figure)
+        said = dict(describe.describe(one))["Loads"]
+        for words in ("force 2 N along +y on leaf at 25 % of it, (0, 0, 0.001) m beside it",
+                      "moment 1 N m about +y on leaf at 33.33 % of it, in the member's axes, turns with it",
+                      "distributed 1 N/m along +y on leaf from 25 % to 75 % of it, (0, 0, 0.001) m beside it",
+                      "distributed (0, 0, 0) to (0, 3, 0) N/m on leaf, turns with it",
+                      "distributed 1 N/m along +y on leaf, lumped at its nodes"):
+            self.assertIn(words, said)
+        part, ramp, same = (self.arrows(one, name) for name in ("part", "ramp", "same"))
+        self.assertEqual([len(part), len(ramp), len(same)], [loads.ALONG, loads.ALONG, 1])
+        tips = part[:, 1, 0]
+        self.assertTrue(0.025 < tips.min() < 0.027 and 0.073 < tips.max() < 0.075, tips)
+        sizes = np.linalg.norm(ramp[:, 1] - ramp[:, 0], axis=1)
+        self.assertTrue(np.all(np.diff(sizes) >= 0) and sizes[-1] > 5 * sizes[0], sizes)
+        np.testing.assert_allclose(same[0, 0], (0.1, 0.05), atol=1e-12)
+
+    @staticmethod
+    def arrows(one, name):
+        """Of a load, on a paper of x and y in metres."""
+        load = next(each for each in one.loads if each.name == name)
+        canvas, line = Arrows(), geometry.line_of(one, one.members[load.on])
+        only = replace(one, loads=[load])
+        loads.put_loads(canvas, view.View(*np.eye(3)[:2]), only, {load.on: line}, None)
+        return np.array(canvas.arrows)
 
     def test_labels_keep_clear(self):
         for name, one in self.scenes.items():

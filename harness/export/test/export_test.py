@@ -110,8 +110,10 @@ class Decks(ExportTest):
             "rectangles and straight walls": plain.replace(
                 RECTANGLE, "tube: {diameter: 10e-3, thickness: 1e-3}"),
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
-            "along members": plain.replace("force: [1.0, 0, 0], on: tip",
-                                           "distributed: [1, 0, 0], on: bar"),
+            "on members": plain.replace("force: [1.0, 0, 0], on: tip",
+                                        "distributed: [1, 0, 0], on: bar"),
+            "push: on members": plain.replace("force: [1.0, 0, 0], on: tip",
+                                              "force: [1.0, 0, 0], on: bar, where: 0.5"),
             "one stiffness of a loaded": cantilever(1.0, PATH).replace(
                 "quantities:", "  stiff: {compliance: {node: tip, about: run}}\nquantities:\n"
                 "  k_x: {stiffness: {analysis: stiff, component: ux}, unit: N/m}\n"

@@ -63,6 +63,25 @@ class Building(ModuleTest):
         self.assertIn("n: {a: 0.5, b: [0, 1, 2], c: [[1.0, 0.0], [0.0, 1.0]], d: yes, e: [0, 1], "
                       'f: [1, 2.5], g: 7, from: x, h: "2*pi/3", i: [{is: t}]}', written(scene))
 
+    def test_loads_on_parts_of_members(self):
+        """As in a scene file; what is refused is refused at its entry."""
+        scene = leaf()
+        scene.loads["row_$i"] = {"for_": {"i": "0..1"}, "force": [0, 1, 0], "on": "leaf",
+                                 "where": "1/4 + i/2", "follower": True}
+        scene.loads["wind"] = {"distributed": numpy.array([0, 1, 0]), "on": "leaf", "from_": 0.25,
+                               "to": numpy.float64(0.75), "to_value": [0, 3, 0], "lumped": True}
+        lines = [line.strip() for line in scene.write().splitlines()]
+        for line in ("row_0: {force: [0, 1, 0], on: leaf, where: 0.25, follower: true}",
+                     "row_1: {force: [0, 1, 0], on: leaf, where: 0.75, follower: true}",
+                     "wind: {distributed: [0, 1, 0], on: leaf, from: 0.25, to: 0.75, "
+                     "to_value: [0, 3, 0], lumped: yes}"):
+            self.assertIn(line, lines)
+        scene.loads["wind"]["to"] = 0.125
+        with self.assertRaises(bw.Refused) as caught:
+            scene.write()
+        self.assertIn("from 0.25 to 0.125 of the member's length", str(caught.exception))
+        self.assertIn("loads['wind']", str(caught.exception))
+
     def test_entries_may_change(self):
         """Entries changed after a solution count in the next one; set values stay."""
         scene = leaf()
