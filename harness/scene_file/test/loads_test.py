@@ -128,6 +128,20 @@ class LoadsTest(SceneCase):
                     continue
                 self.assertEqual(self.loads_of(text_of([f"{said}, {key}"])), self.loads_of(text_of([said])), (kind, key))
 
+    def test_plane(self):
+        """What leaves it where it begins or where it ends is refused."""
+        inside = ["force: [1, 2, 0], on: bar, where: 0.25", "moment: [0, 0, 3], on: bar, where: 0.25",
+                  "distributed: [1, 2, 0], on: bar, to_value: [2, 1, 0]", "distributed_moment: [0, 0, 0], on: bar, to_value: [0, 0, 1]"]
+        outside = ["force: [1, 2, 3], on: bar, where: 0.25", "moment: [1, 0, 3], on: bar, where: 0.25, axes: member",
+                   "distributed: [1, 2, 0], on: bar, to_value: [2, 1, 1]", "distributed: [0, 0, 1], on: bar, to_value: [2, 1, 0]",
+                   "distributed_moment: [0, 0, 0], on: bar, to_value: [0, 1, 1]"]
+        self.assertEqual(len(self.loads_of(text_of(inside) + "plane: xy\n")), len(inside))
+        for said in outside:
+            path = self.scene(text_of([said]) + "plane: xy\n")
+            done = run("scene", "--scene", path)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), said)
+            self.assertRegex(done.stderr, r":11:3: l0: it (acts|turns) out of the plane, .*: take that or plane: xy away\n$")
+
     def test_units(self):
         """In mm and N: parts of a length have no unit, vectors that of their kind, at both ends."""
         def loads(millimetre):
