@@ -194,6 +194,7 @@ static void split_load(scene *s, int load, double fraction, int second)
     const scene_load empty = *l;
     *l = whole;
     l->where = second;
+    l->stations = empty.stations;
     l->path = empty.path;
     l->factor = empty.factor;
     l->function = empty.function;
