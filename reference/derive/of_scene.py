@@ -17,6 +17,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import scene_text, scenes  # noqa: E402
 from reference.derive.scene_network import SceneNetwork  # noqa: E402
+from reference.derive.scene_parts import cut, whole  # noqa: E402
 from reference.derive.predicted_beam import Printed  # noqa: E402
 from reference.derive.scene_states import Path, compliance, linear, reaction, resultants  # noqa: E402
 from reference.derive.scene_support import WORDS  # noqa: E402
@@ -114,12 +115,16 @@ def analyses(scene, questions, grid, scales=None):
         kind = next(iter(entry))
         asked = [q for q in questions if q.of["analysis"] == name]
         if kind == "linear":
+            for q in asked:
+                if q.kind not in ("displacement", "internal"):
+                    out[q.name] = Refused(f"{q.name}: {q.kind} of a linear analysis is not within the deriving program")
+            asked = [q for q in asked if q.name not in out]
             network = SceneNetwork(scene, *grid)
             moved, inside = linear(network)
             scales.update({
                 q.name: np.max(
                     np.abs(moved[q.of["node"]] if q.kind ==
-                           "displacement" else inside[q.of["member"]]))
+                           "displacement" else [inside[one] for one in whole(q.of["member"], inside)]))
                 for q in asked
             })
             answer(asked, [1.0], [{
@@ -178,7 +183,7 @@ def analyses(scene, questions, grid, scales=None):
 
 def solve(scene, form=lambda beam: beam):
     """Yields (quantity, value, unit, uncertainty, convention), and (quantity, Refused) where it is beyond the program; form: of the beams."""
-    questions = []
+    questions, scene = [], cut(scene)
     for name, entry in scene["quantities"].items():
         try:
             questions.append(Question(name, entry))

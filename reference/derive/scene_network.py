@@ -19,7 +19,7 @@ NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", 
         )  # inertia: scene_vibration.py
 MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions", "release")
 LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor",
-        "at", "axes", "follower")
+        "at", "axes", "follower", "to_value")
 
 
 class Place:
@@ -254,15 +254,20 @@ class SceneNetwork:
                                                   entry.get("axes") == "member"):
                 raise Refused(f"{name}: on a curved member it is not within the deriving program")
             kind = next(k for k in ("distributed", "distributed_moment", "gravity") if k in entry)
-            v = axes @ np.array(numbers(entry[kind], name,
-                                        3)) * (density * s.A if kind == "gravity" else 1.0)
-            v = principal.T @ v if follows else v
+            turn = principal.T @ axes if follows else axes
+            first, last = (turn @ np.array(numbers(entry[key], name, 3)) *
+                           (density * s.A if kind == "gravity" else 1.0)
+                           for key in (kind, "to_value" if "to_value" in entry else kind))
             none = np.zeros(3)
+
+            def pair(v, kind=kind):
+                return (none, v) if kind == "distributed_moment" else (v, none)
+
             yield LineLoad(
-                none if kind == "distributed_moment" else v,
-                v if kind == "distributed_moment" else none,
+                *pair(first),
                 principal.T @ axes @ np.array(numbers(entry.get("at", ["0"] * 3), name, 3)),
-                follows, self.factor(entry, name))
+                follows, self.factor(entry, name),
+                pair(last - first) if "to_value" in entry else None)
 
     def _members(self):
         self.member = {}

@@ -146,6 +146,62 @@ class Scenes(unittest.TestCase):
         self.close(other["w"], -0.3 / 3)
         self.assertNotAlmostEqual(one["w"][0], other["w"][0], delta=1e-3)
 
+    def test_loads_on_parts(self):
+        """Closed forms of the linear theory at the tip: a force, a moment, loads from a to b, uniform and linear."""
+        asked = {"w": tip("uy"), "M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m",
+                 "Q": "internal: {analysis: path, member: beam, end: to, resultant: Qy}, unit: N"}
+        for load, deflection, moment in (
+                ("force: [0, 3, 0], on: beam, where: 0.4", 3 * 0.4 ** 2 * 2.6 / 6, 3 * 0.4),
+                ("moment: [0, 0, 3], on: beam, where: 0.4", 3 * 0.4 * (1 - 0.4 / 2), 3.0),
+                ("force: [0, 3, 0], on: beam, where: 1, axes: member", 1.0, 3.0),
+                ("distributed: [0, 2, 0], on: beam, from: 0.25, to: 0.75, lumped: yes",
+                 2 * ((0.75 ** 3 - 0.25 ** 3) / 6 - (0.75 ** 4 - 0.25 ** 4) / 24), 0.75 ** 2 - 0.25 ** 2),
+                ("distributed: [0, 0, 0], on: beam, to_value: [0, 6, 0]", 6 * (1 / 8 - 1 / 30), 2.0),
+                ("distributed: [0, 0, 0], on: beam, to: 0.5, to_value: [0, 6, 0]", 12 * (0.5 ** 4 / 8 - 0.5 ** 5 / 30),
+                 12 * 0.5 ** 3 / 3),
+                ("distributed_moment: [0, 0, 1], on: beam, from: 0.5, to_value: [0, 0, 3]",
+                 # int m(x) (x - x^2/2) dx, m = 4 x - 1
+                 4 * (1 - 0.5 ** 3) / 3 - (1 - 0.5 ** 2) / 2 - (1 - 0.5 ** 4) / 2 + (1 - 0.5 ** 3) / 6, 1.0)):
+            found = values(bar(load, asked, path="linear: {}"))
+            self.close(found["w"], deflection)
+            self.close(found["M"], moment)
+            at_tip = 3.0 if "where: 1," in load else 0.0
+            self.assertLessEqual(abs(found["Q"][0] - at_tip), found["Q"][1] + 1e-12, load)
+
+    def test_parts_in_other_words(self):
+        """Loads on parts of a member that bends far are those on members that are cut there by hand."""
+        whole = ("distributed: [0, 3, 0.5], on: beam, from: 0.25, to: 0.75, to_value: [1, 9, 0], follower: KIND, axes: member"
+                 "}\n  b: {force: [2, 5, 1], on: beam, where: 0.25, at: [0, 0.1, 0.2], follower: KIND"
+                 "}\n  c: {moment: [0.3, 0.2, 1], on: beam, where: 0.75, follower: KIND, axes: member")
+        by_hand = ("distributed: [0, 3, 0.5], on: second, to_value: [1, 9, 0], follower: KIND, axes: member"
+                   "}\n  b: {force: [2, 5, 1], on: one, at: [0, 0.1, 0.2], follower: KIND"
+                   "}\n  c: {moment: [0.3, 0.2, 1], on: two, follower: KIND")
+        more = ("  one: {at: [0.25, 0, 0]}\n  two: {at: [0.75, 0, 0]}\nmembers:\n"
+                "  beam: {from: root, to: one, section: bar, y: [0, 1, 0]}\n  second: {from: one, to: two, section: bar, y: [0, 1, 0]}\n"
+                "  third: {from: two, to: tip, section: bar, y: [0, 1, 0]}\nloads:\n")
+        asked = {"u": tip("ux"), "w": tip("uy"), "z": tip("uz"), "t": tip("rz"),
+                 "M": "internal: {analysis: path, member: beam, end: from, resultant: Mz}, unit: N m"}
+        for kind in ("false", "true"):
+            one = bar(whole.replace("KIND", kind), asked)
+            text = bar(by_hand.replace("KIND", kind), asked)
+            head, _, rest = text.partition("members:\n")
+            two = head + more + rest.partition("loads:\n")[2]
+            found, other = values(one), values(two)
+            for name, (value, uncertainty) in other.items():
+                self.assertLessEqual(abs(found[name][0] - value), 1e-9 * abs(value) + uncertainty, (kind, name))
+            self.assertGreater(abs(found["w"][0]), 0.3)
+
+    def test_parts_beyond(self):
+        """What is beyond the program is named."""
+        asked = {"w": tip("uy")}
+        for load, beam, words in (
+                ("force: [0, 3, 0], on: beam, where: 0.4", ", curvature: [0, 0, 0.1]", "beam: a load on a part of a curved member"),
+                ("force: [0, 3, 0], on: beam, where: 1", ", release: {to: [rz]}", "load: at a released end")):
+            with self.assertRaisesRegex(Refused, words):
+                values(bar(load, asked, beam=beam))
+        with self.assertRaisesRegex(Refused, "R: reaction of a linear analysis"):
+            values(bar("force: [0, 3, 0], on: tip", {"R": "reaction: {analysis: path, node: root, component: uy}, unit: N"}, path="linear: {}"))
+
     def test_resultants(self):
         """At the root of a cantilever: the load at its tip and its moment; at the end of one with a line load: nothing."""
 
