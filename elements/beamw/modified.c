@@ -158,7 +158,7 @@ void beamw_modified_consistent(const section *c, unsigned features, double l, co
                                double Q[BEAMW_MODIFIED][N * N])
 {
     double x[BEAMW_TWIST_MAX_POINTS], w[BEAMW_TWIST_MAX_POINTS];
-    const int points = beamw_twist_points(t, x, w);
+    const int points = beamw_twist_points(t, 0, 1, x, w);
     memset(Q, 0, BEAMW_MODIFIED * sizeof Q[0]);
     for (int p = 0; p < points; p++) {
         point_fields at;

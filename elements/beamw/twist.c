@@ -84,28 +84,38 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
     return s;
 }
 
-int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
-                       double w[BEAMW_TWIST_MAX_POINTS])
+/* Where the panels of an element end; returns how many panels. */
+static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
 {
-    double point[PANEL_POINTS], weight[PANEL_POINTS], edge[2 * LAYER_PANELS + 2] = {0};
-    const int each = t->lambda == 0 ? CUBIC_POINTS : PANEL_POINTS;
-    int panels = 1, count = 0;
-    quadrature_points(each, point, weight);
+    int panels = 1;
     if (t->lambda <= 2 * LAYER_PANELS * panel_decay) {
         panels = t->lambda > panel_decay ? (int)ceil(t->lambda / panel_decay) : 1;
         for (int i = 0; i <= panels; i++)
             edge[i] = (double)i / panels;
-    } else { /* layers at the ends, nothing but polynomials between */
-        panels = 2 * LAYER_PANELS + 1;
-        for (int i = 0; i <= LAYER_PANELS; i++) {
-            edge[i] = i * panel_decay / t->lambda;
-            edge[panels - i] = 1 - edge[i];
+        return panels;
+    }
+    /* layers at the ends, nothing but polynomials between */
+    panels = 2 * LAYER_PANELS + 1;
+    for (int i = 0; i <= LAYER_PANELS; i++) {
+        edge[i] = i * panel_decay / t->lambda;
+        edge[panels - i] = 1 - edge[i];
+    }
+    return panels;
+}
+
+int beamw_twist_points(const beamw_twist *t, double from, double to,
+                       double x[BEAMW_TWIST_MAX_POINTS], double w[BEAMW_TWIST_MAX_POINTS])
+{
+    double point[PANEL_POINTS], weight[PANEL_POINTS], edge[2 * LAYER_PANELS + 2];
+    const int each = t->lambda == 0 ? CUBIC_POINTS : PANEL_POINTS, panels = panels_of(t, edge);
+    int count = 0;
+    quadrature_points(each, point, weight);
+    for (int k = 0; k < panels; k++) {
+        const double begin = fmax(edge[k], from), length = fmin(edge[k + 1], to) - begin;
+        for (int i = 0; i < each && length > 0; i++, count++) {
+            x[count] = begin + length * point[i];
+            w[count] = length * weight[i];
         }
     }
-    for (int k = 0; k < panels; k++)
-        for (int i = 0; i < each; i++, count++) {
-            x[count] = edge[k] + (edge[k + 1] - edge[k]) * point[i];
-            w[count] = (edge[k + 1] - edge[k]) * weight[i];
-        }
     return count;
 }

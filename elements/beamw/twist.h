@@ -33,9 +33,9 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x);
 
 enum { BEAMW_TWIST_MAX_POINTS = 144 };
 
-/* Points and weights on [0, 1] that integrate products of two of the shapes with polynomials;
- * returns how many. */
-int beamw_twist_points(const beamw_twist *t, double x[BEAMW_TWIST_MAX_POINTS],
-                       double w[BEAMW_TWIST_MAX_POINTS]);
+/* Points and weights on [from, to] in [0, 1] that integrate products of two of the shapes with
+ * polynomials; returns how many. */
+int beamw_twist_points(const beamw_twist *t, double from, double to,
+                       double x[BEAMW_TWIST_MAX_POINTS], double w[BEAMW_TWIST_MAX_POINTS]);
 
 #endif

@@ -186,7 +186,7 @@ static void twist_functions(void)
         const beamw_twist t = beamw_twist_of(&c, 1.3, 0, BEAMW_TWIST_HYPERBOLIC);
         const double h = t.lambda / 2, moment = 1 / (tanh(h) * t.lambda) -
                                                 (h < 300 ? 1 / (2 * sinh(h) * sinh(h)) : 0);
-        const int points = beamw_twist_points(&t, x, w);
+        const int points = beamw_twist_points(&t, 0, 1, x, w);
         gsl_test_rel(t.lambda, lambdas[k], 1e-14, "lambda");
         for (int i = 0; i < points; i++) {
             const beamw_twist_shapes s = beamw_twist_at(&t, x[i]);
