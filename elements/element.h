@@ -91,8 +91,8 @@ typedef enum element_analysis {
 } element_analysis;
 
 /* Orders in the number of elements: the least that a smooth solution shows, and the highest that
- * any quantity can show, where leading terms vanish.  Loads along members and masses of nodes are
- * lumped: nothing that depends on them has more than two. */
+ * any quantity can show, where leading terms vanish.  Masses lumped at nodes have two, loads along
+ * members four where rotations are large. */
 typedef struct element_order {
     int least, highest; /* of a smooth solution; of any quantity */
 } element_order;

@@ -8,6 +8,7 @@
 #include "harness/condensation/condensation_impl.h"
 #include "harness/condensation/link.h"
 #include "harness/equations/ahead.h"
+#include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/assemble.h"
 #include "harness/model/discrete.h"
@@ -23,7 +24,8 @@ static int applies(const model *m, int from)
         return 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (scene_load_along(load) && (load->follower || vec3_norm(load->at) > 0))
+        if (scene_load_along(load) &&
+            (scene_load_unsymmetric(load) || (load->lumped && vec3_norm(load->at) > 0)))
             return 0;
     }
     for (int i = 0; i < m->scene->members; i++) {
@@ -177,31 +179,36 @@ void condensation_free(condensation *s)
 }
 
 /* One element as a link; force[7 nodes]: internal, in the state. */
-static status link_element_of(model *m, const model_state *s, const member *of, int i,
+static status link_element_of(model *m, const model_state *s, const member *of, int i, double path,
                               chain_link *link, double force[], fault *f)
 {
     const model_slot w = linearise_slot(m, i);
     const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     node_state x[ELEMENT_MAX_NODES];
-    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES];
+    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
+        along[ELEMENT_MAX_COORDINATES] = {0};
     kinematics_gather(m, s, &m->element[i], x);
     ahead_strain(m, i, x, &(strain_output){.s = sigma, .H = H});
     for (int k = 0; k < m->nodes; k++)
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
+    distributed_add(m, x, i, path, along, H);
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= along[k];
     const link_element el = {m->nodes, m->strains, of->joint, w.J, w.C, H, r};
     return link_of(&el, link, f);
 }
 
 /* The chain of a member; force[14]: internal forces of its ends. */
-static status fill_chain(model *m, const model_state *s, member *of, double force[], fault *f)
+static status fill_chain(model *m, const model_state *s, member *of, double path, double force[],
+                         fault *f)
 {
     double own[ELEMENT_MAX_COORDINATES];
     chain_begin(of->chain);
     for (int i = of->first; i < of->first + of->links; i++) {
         chain_link link;
-        TRY(link_element_of(m, s, of, i, &link, own, f));
+        TRY(link_element_of(m, s, of, i, path, &link, own, f));
         TRY(chain_add(of->chain, &link, f));
         if (i == of->first)
             memcpy(force, own, NODE_COORDINATES * sizeof *force);
@@ -212,11 +219,11 @@ static status fill_chain(model *m, const model_state *s, member *of, double forc
 }
 
 /* K of the member's ends, in coordinates of the model. */
-static status member_matrix(condensation *s, member *of, double K[], fault *f)
+static status member_matrix(condensation *s, member *of, double path, double K[], fault *f)
 {
     const int c = of->joint, n = 2 * NODE_COORDINATES;
     double small[CHAIN_LINK * CHAIN_LINK], force[2 * NODE_COORDINATES];
-    TRY(fill_chain(s->m, s->at, of, force, f));
+    TRY(fill_chain(s->m, s->at, of, path, force, f));
     TRY(chain_stiffness(of->chain, small, f));
     s->negative += chain_negative(of->chain);
     memset(K, 0, (size_t)(n * n) * sizeof *K);
@@ -228,11 +235,11 @@ static status member_matrix(condensation *s, member *of, double K[], fault *f)
     return STATUS_OK;
 }
 
-static status members(condensation *s, fault *f)
+static status members(condensation *s, double path, fault *f)
 {
     double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
     for (int i = 0; i < s->members; i++) {
-        TRY(member_matrix(s, &s->member[i], K, f));
+        TRY(member_matrix(s, &s->member[i], path, K, f));
         assemble_discrete(&s->member[i].ends, K, &s->K);
     }
     return STATUS_OK;
@@ -244,7 +251,7 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     s->negative = 0;
     sparse_zero(&s->K);
     ahead_strains(s->m, at, AHEAD_H, at->sigma);
-    const status outcome = members(s, f);
+    const status outcome = members(s, path, f);
     ahead_end(s->m);
     TRY(outcome);
     for (int i = 0; i < s->m->discretes; i++) {
@@ -252,7 +259,7 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
         discrete_equations(s->m, at, &s->m->discrete[i], path, part.force, part.K);
         assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
     }
-    loads_subtract_stiffness(s->m, at, path, &s->K);
+    loads_subtract_at_vertices(s->m, at, path, &s->K);
     linearise_add_held_moments(s->m, at, path, &s->K);
     return STATUS_OK;
 }

@@ -4,12 +4,26 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/along_path.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/release.h"
+
+double applied_factor(const model *m, const scene_load *load, double path)
+{
+    double at[3];
+    if (m->unloaded)
+        return 0;
+    if (!m->in_time)
+        return along_path_factor(load, path);
+    if (load->function.pieces == 0)
+        return along_path_factor(load, m->held_path);
+    function_at(&load->function, path, at);
+    return at[0];
+}
 
 void applied_member_axes(const double triad[9], const section *of, double R[9])
 {
@@ -28,7 +42,7 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
                          const double axes[9], const double beside[3])
 {
     applied out = {.vertex = vertex, .follower = load->follower};
-    const int moment = load->kind == SCENE_MOMENT || load->kind == SCENE_DISTRIBUTED_MOMENT ? 3 : 0;
+    const int moment = scene_load_turns(load) ? 3 : 0;
     double v[3], at[3];
     memcpy(v, load->vector, sizeof v);
     memcpy(at, load->at, sizeof at);
@@ -80,21 +94,108 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
+/* Parts of an element shorter than this hold no load: rounding of where it begins. */
+static const double least_part = 1e-12;
+
+int applied_inside(double x)
+{
+    return x > least_part && x < 1 - least_part;
+}
+
+int applied_part(const model *m, int element, const scene_load *load, double part[2])
+{
+    const int member = m->element[element].member;
+    if (!scene_load_along(load) || load->where != member)
+        return 0;
+    const int first = m->first_element[member], count = m->first_element[member + 1] - first,
+              number = element - first;
+    for (int i = 0; i < 2; i++)
+        part[i] = load->range[i] * count - number;
+    if (scene_load_within(load))
+        return (int)fmin(floor(load->range[0] * count), count - 1) == number;
+    part[0] = fmax(part[0], 0);
+    part[1] = fmin(part[1], 1);
+    return part[1] - part[0] > least_part;
+}
+
+void applied_vector(const model *m, int element, const scene_load *load, double x, double vector[3])
+{
+    const int member = m->element[element].member, first = m->first_element[member],
+              count = m->first_element[member + 1] - first;
+    memcpy(vector, load->vector, 3 * sizeof *vector);
+    if (!load->varies)
+        return;
+    const double along =
+        ((element - first + x) / count - load->range[0]) / (load->range[1] - load->range[0]);
+    for (int i = 0; i < 3; i++)
+        vector[i] += along * (load->last[i] - load->vector[i]);
+}
+
+/* The share of node k at x. */
+static double share_of(const model *m, int k, double x)
+{
+    const double three[] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), -x * (1 - 2 * x)};
+    if (m->nodes == 2)
+        return k == 0 ? 1 - x : x;
+    return three[k];
+}
+
+/* Points of a load on a part of an element with their weights; exact for shares times what varies
+ * linearly. */
+static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
+{
+    const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
+    if (scene_load_within(load)) {
+        x[0] = part[0];
+        weight[0] = 1;
+        return 1;
+    }
+    for (int i = 0; i < 2; i++) {
+        x[i] = middle + (i ? half : -half) / sqrt(3);
+        weight[i] = half;
+    }
+    return 2;
+}
+
+/* What node k of an element takes: the load's vector times its shares. */
+static void share_at(const model *m, const scene_load *load, int element, const double part[2],
+                     int k, double vector[3])
+{
+    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
+    const double length = scene_load_within(load) ? 1 : m->kind[m->element[element].kind].length;
+    double x[2], weight[2];
+    memset(vector, 0, 3 * sizeof *vector);
+    if (!load->varies && !scene_load_within(load) && part[0] == 0 && part[1] == 1) {
+        for (int i = 0; i < 3; i++)
+            vector[i] = (m->nodes == 2 ? two : three)[k] * length * load->vector[i];
+        return;
+    }
+    const int count = points_of(load, part, x, weight);
+    for (int g = 0; g < count; g++) {
+        double here[3];
+        applied_vector(m, element, load, x[g], here);
+        for (int i = 0; i < 3; i++)
+            vector[i] += length * weight[g] * share_of(m, k, x[g]) * here[i];
+    }
+}
+
 void applied_element(const model *m, const model_state *s, const scene_load *load, double scale,
                      int element, void (*take)(void *context, const applied *), void *context)
 {
-    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const mesh_element *el = &m->element[element];
+    double part[2];
+    if (!applied_part(m, element, load, part))
+        return;
     for (int k = 0; k < m->nodes; k++) {
-        const double weight = scale * (m->nodes == 2 ? two : three)[k] * m->kind[el->kind].length *
-                              density_of(m, load, el);
         double axes[9], centre[3];
+        scene_load one = *load;
+        share_at(m, load, element, part, k, one.vector);
         if (load->axes == SCENE_AXES_MEMBER)
             applied_member_axes(el->triad[k], &m->section[m->kind[el->kind].section], axes);
         weight_centre(m, load, el, k, centre);
-        const applied one = of_vertex(s, el->vertex[k], load, weight,
-                                      load->axes == SCENE_AXES_MEMBER ? axes : NULL, centre);
-        take(context, &one);
+        const applied what = of_vertex(s, el->vertex[k], &one, scale * density_of(m, load, el),
+                                       load->axes == SCENE_AXES_MEMBER ? axes : NULL, centre);
+        take(context, &what);
     }
 }
 

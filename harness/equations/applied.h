@@ -12,13 +12,22 @@ typedef struct applied {
     double arm[3]; /* from the vertex to where the force acts, with which it turns [m] */
 } applied;
 
-/* The load times `scale`.  Along members it is lumped, per initial length: 1/2, 1/2, or Simpson's
- * weights with a middle node. */
+/* What the load is times at `path`, or in time (loads_of). */
+double applied_factor(const model *, const scene_load *load, double path);
+/* The load times `scale`.  Along members it is lumped at the nodes of elements, by linear shares,
+ * or quadratic ones with a middle node: of a uniform load 1/2, 1/2, or Simpson's weights. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
 /* The same of a load along the member of this element, and of this element alone. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
+/* The part [from, to] of an element that a load along its member acts on; of one at a place both
+ * are it, in the element behind it. 0: it acts elsewhere. */
+int applied_part(const model *, int element, const scene_load *, double part[2]);
+/* Is that inside the element, not at an end of it? */
+int applied_inside(double x);
+/* Vector of a load along the member at x in [0, 1] of an element, as the scene gives it. */
+void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
 /* The undeformed member's axes, y as the scene gives it, from the triad of a place of it, whose y
  * and z are the principal ones of the section. */
 void applied_member_axes(const double triad[9], const section *, double axes[9]);

@@ -9,19 +9,32 @@
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 
-static int acts(const model *m, int element, const scene_load *load)
+int distributed_spreads(const model *m, const scene_load *load)
 {
-    return scene_load_along(load) && load->where == m->element[element].member;
+    const int lumped = load->lumped || m->lumps == LUMPS_LOADS ||
+                       (m->lumps == LUMPS_WEIGHTS && load->kind == SCENE_GRAVITY);
+    return scene_load_along(load) && !lumped;
 }
 
 int distributed_acts(const distributed *of)
 {
+    double part[2];
     if (of->m->rotates)
         return 1;
     for (int i = 0; i < of->m->scene->loads; i++)
-        if (acts(of->m, of->element, &of->m->scene->load[i]))
+        if (applied_part(of->m, of->element, &of->m->scene->load[i], part))
             return 1;
     return 0;
+}
+
+int distributed_jumps(const distributed *of)
+{
+    double part[2];
+    for (int i = 0; i < of->m->scene->loads; i++)
+        if (applied_part(of->m, of->element, &of->m->scene->load[i], part) &&
+            (applied_inside(part[0]) || applied_inside(part[1])))
+            return i;
+    return SCENE_NONE;
 }
 
 /* The triad of the undeformed element at x. */
@@ -37,38 +50,118 @@ static void undeformed(const distributed *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* Its vectors, in fixed axes, of the section with the triad R. */
-static void add_load(const distributed *of, const scene_load *load, const double before[9],
-                     const double R[9], span_load *out)
+/* What the load is at x times `scale`, with the undeformed triad there: per length, of gravity on
+ * the mass there. */
+static void load_at(const distributed *of, const scene_load *load, double scale, double x,
+                    const double before[9], field_load *out)
 {
     const section *c = &of->m->section[of->m->kind[of->m->element[of->element].kind].section];
-    const double scale =
-        loads_factor(of->m, load, of->path) * (load->kind == SCENE_GRAVITY ? c->density * c->A : 1);
-    double v[3], at[3], moved[3], turning[3], axes[9];
-    memcpy(v, load->vector, sizeof v);
+    const double size = scale * (load->kind == SCENE_GRAVITY ? c->density * c->A : 1);
+    double vector[3], at[3], v[3], axes[9];
+    applied_vector(of->m, of->element, load, x, vector);
+    for (int i = 0; i < 3; i++)
+        v[i] = vector[i] = size * vector[i];
     memcpy(at, load->at, sizeof at);
     if (load->axes == SCENE_AXES_MEMBER) {
         applied_member_axes(before, c, axes);
-        mat3_mul_vec(axes, load->vector, v);
+        mat3_mul_vec(axes, vector, v);
         mat3_mul_vec(axes, load->at, at);
     }
-    mat3_transpose_mul_vec(before, at, moved);
+    memset(out, 0, sizeof *out);
+    mat3_transpose_mul_vec(before, at, out->arm);
     if (load->kind == SCENE_GRAVITY && c->matrices)
-        section_matrices_centre(c, moved);
-    mat3_mul_vec(R, moved, at);
-    if (load->follower) {
-        mat3_transpose_mul_vec(before, v, moved);
-        mat3_mul_vec(R, moved, v);
+        section_matrices_centre(c, out->arm);
+    out->follower = load->follower;
+    double *of_kind = scene_load_turns(load) ? out->moment : out->force;
+    if (load->follower)
+        mat3_transpose_mul_vec(before, v, of_kind);
+    else
+        memcpy(of_kind, v, sizeof v);
+}
+
+enum { MOST = FIELD_MOST_POINTS };
+
+/* Is a load along an element, which is `one` at a point of it, the same at all of them? */
+static int same(const distributed *of, const scene_load *load, const field_load *one)
+{
+    return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
+           (load->axes == SCENE_AXES_FIXED ||
+            vec3_norm(of->m->kind[of->m->element[of->element].kind].curvature) == 0);
+}
+
+/* What acts of one load at the points of an element; returns how many. */
+static int points_of(const distributed *of, const scene_load *load, double scale,
+                     const double part[2], field_rows rows[MOST], field_load acting[MOST])
+{
+    const mesh_kind *kind = &of->m->kind[of->m->element[of->element].kind];
+    double x[MOST], weight[MOST], before[9];
+    int count = 1;
+    undeformed(of, part[0], before);
+    load_at(of, load, scale, part[0], before, acting);
+    memset(rows, 0, sizeof *rows);
+    if (scene_load_within(load)) {
+        field_at(&kind->field, part[0], rows);
+        return 1;
     }
-    if (load->kind == SCENE_DISTRIBUTED_MOMENT) {
-        for (int i = 0; i < 3; i++)
-            out->moment[i] += scale * v[i];
-        return;
+    if (same(of, load, acting) && part[0] == 0 && part[1] == 1) {
+        field_gather(kind->length, &kind->field.whole, rows);
+        return 1;
+    }
+    count = field_points(&kind->field, part[0], part[1], x, weight);
+    for (int k = 0; k < count; k++) {
+        const double size = scale * weight[k] * kind->length;
+        undeformed(of, x[k], before);
+        load_at(of, load, size, x[k], before, &acting[k]);
+        field_at(&kind->field, x[k], &rows[k]);
+    }
+    return count;
+}
+
+int distributed_add_one(const model *m, const node_state x[], int element, const scene_load *load,
+                        double scale, double forces[], double K[])
+{
+    const distributed of = {m, element, 0};
+    field_rows rows[MOST];
+    field_load acting[MOST];
+    double part[2];
+    if (!applied_part(m, element, load, part) || scale == 0)
+        return 0;
+    const int count = points_of(&of, load, scale, part, rows, acting);
+    field_add_loads(&m->kind[m->element[element].kind].field, x, count, rows, acting, forces, K);
+    return 1;
+}
+
+int distributed_add(const model *m, const node_state x[], int element, double path, double forces[],
+                    double K[])
+{
+    int acting = 0;
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (distributed_spreads(m, load))
+            acting |=
+                distributed_add_one(m, x, element, load, applied_factor(m, load, path), forces, K);
+    }
+    return acting;
+}
+
+/* Its vectors, in fixed axes, of the section with the triad R. */
+static void add_load(const distributed *of, const scene_load *load, double x,
+                     const double before[9], const double R[9], span_load *out)
+{
+    field_load one;
+    double at[3], v[3], moment[3], turning[3];
+    load_at(of, load, applied_factor(of->m, load, of->path), x, before, &one);
+    mat3_mul_vec(R, one.arm, at);
+    memcpy(v, one.force, sizeof v);
+    memcpy(moment, one.moment, sizeof moment);
+    if (one.follower) {
+        mat3_mul_vec(R, one.force, v);
+        mat3_mul_vec(R, one.moment, moment);
     }
     vec3_cross(at, v, turning);
     for (int i = 0; i < 3; i++) {
-        out->force[i] += scale * v[i];
-        out->moment[i] += scale * turning[i];
+        out->force[i] += v[i];
+        out->moment[i] += moment[i] + turning[i];
     }
 }
 
@@ -127,9 +220,12 @@ void distributed_at(void *context, double x, const span_frame *at, span_load *ou
     double before[9];
     memset(out, 0, sizeof *out);
     undeformed(of, x, before);
-    for (int i = 0; i < of->m->scene->loads; i++)
-        if (acts(of->m, of->element, &of->m->scene->load[i]))
-            add_load(of, &of->m->scene->load[i], before, at->R, out);
+    for (int i = 0; i < of->m->scene->loads; i++) {
+        const scene_load *load = &of->m->scene->load[i];
+        double part[2];
+        if (applied_part(of->m, of->element, load, part) && !scene_load_within(load))
+            add_load(of, load, x, before, at->R, out);
+    }
     if (of->m->rotates)
         add_rotating(of, at, out);
 }

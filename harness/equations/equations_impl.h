@@ -28,11 +28,14 @@ static inline model_slot linearise_slot(const model *m, int element)
     return w;
 }
 
-/* loads.c */
-void loads_add(const model *m, const model_state *s, double path,
-               double out[]); /* [free + driven] */
-/* What the loads add to K. */
-void loads_stiffness(const model *m, const model_state *s, double path, loads_entry, void *context);
+/* loads.c: out[free + driven] += all of them, or those on vertices alone, not along elements. */
+void loads_add(const model *m, const model_state *s, double path, double out[]);
+void loads_add_at_vertices(const model *m, const model_state *s, double path, double out[]);
+/* What those on vertices add to K. */
+void loads_stiffness_at_vertices(const model *m, const model_state *s, double path, loads_entry,
+                                 void *context);
+void loads_subtract_at_vertices(const model *m, const model_state *s, double path, sparse *K);
+/* And all of them, on a pattern of assemble.h. */
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
 /* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
 status loads_have_potential(const model *m, const model_state *s, double path, fault *f);

@@ -62,7 +62,7 @@ static void keep_smooth(const model *m, const model_state *const at[], double pa
     }
     for (int l = 0; l < m->scene->loads; l++) {
         for (int i = 0; i <= g->most; i++)
-            value[i] = loads_factor(m, &m->scene->load[l], i < g->most ? at[i]->path : path);
+            value[i] = applied_factor(m, &m->scene->load[l], i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
 }

@@ -32,12 +32,21 @@ static void take_off(void *context, const applied *what)
         of->force[3 + i] -= moment[i];
 }
 
+/* Does it act between the ends of an element? What acts at an end acts on the node there. */
+static int lies_along(const model *m, int element, const scene_load *load)
+{
+    double part[2];
+    return applied_part(m, element, load, part) &&
+           (!scene_load_within(load) || applied_inside(part[0]));
+}
+
 /* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
  * along it, in fixed axes: ends[2][7]; and its nodes. */
 static void ends_of(model *m, const internal_state *s, int i, node_state x[], double ends[2][7])
 {
     const mesh_element *el = &m->element[i];
-    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0};
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
+                                                             along[ELEMENT_MAX_COORDINATES] = {0};
     const size_t first = (size_t)i * (size_t)m->strains;
     kinematics_gather(m, s->s, el, x);
     m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
@@ -45,13 +54,20 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
                             s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
     rotating_frame_add(m, x, i, s->path, force, NULL,
                        NULL); /* never fails in a state that is reached */
+    for (int l = 0; l < m->scene->loads; l++) {
+        const scene_load *load = &m->scene->load[l];
+        if (lies_along(m, i, load) && distributed_spreads(m, load))
+            distributed_add_one(m, x, i, load, applied_factor(m, load, s->path), along, NULL);
+    }
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= along[k];
     for (int end = 0; end < 2; end++) {
         const int k = end ? m->nodes - 1 : 0;
         const share of = {el->vertex[k], force + NODE_COORDINATES * k};
         for (int l = 0; l < m->scene->loads; l++) {
             const scene_load *load = &m->scene->load[l];
-            if (scene_load_along(load) && load->where == el->member)
-                applied_element(m, s->s, load, loads_factor(m, load, s->path), i, take_off,
+            if (lies_along(m, i, load) && !distributed_spreads(m, load))
+                applied_element(m, s->s, load, applied_factor(m, load, s->path), i, take_off,
                                 (void *)&of);
         }
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
@@ -169,6 +185,13 @@ static status recover(model *m, const internal_state *s, int i, const span_grid 
     TRY(features_of_section(m, kind->section, &request.features, f));
     memcpy(request.curvature, kind->curvature, sizeof request.curvature);
     memcpy(request.strain, kind->strain, sizeof request.strain);
+    const int jump = distributed_jumps(&loads.loads);
+    if (jump != SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: %s begins, ends or acts inside an element of it, where resultants "
+                         "have a kink; put a node there, or let an element end there",
+                         scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
+                         scene_called(m->scene, SCENE_LOADS, jump).text);
     loads.acts = distributed_acts(&loads.loads);
     if (loads.nodes > 0)
         s->moving->along(s->moving->context, i, loads.density);

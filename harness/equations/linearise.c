@@ -11,6 +11,7 @@
 #include "elements/math/dense.h"
 #include "harness/equations/ahead.h"
 #include "harness/equations/chunk.h"
+#include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 #include "harness/model/discrete.h"
@@ -77,8 +78,21 @@ static status add_material(model *m, const model_state *s, const chunk_element *
     return STATUS_OK;
 }
 
-/* Internal less centrifugal forces of an element that was evaluated and, where wanted, their
- * tangent; both in model coordinates. */
+/* What acts along the element. */
+static void subtract_loads(const model *m, chunk_element *of, int tangent, double path,
+                           element_part *part)
+{
+    double forces[ELEMENT_MAX_COORDINATES] = {0};
+    if (!distributed_add(m, of->x, of->index, path, forces, tangent ? part->K : NULL))
+        return;
+    for (int k = 0; k < m->coordinates; k++) {
+        part->force[k] -= forces[k];
+        of->present[k] -= tangent ? forces[k] : 0;
+    }
+}
+
+/* Internal forces of an element that was evaluated, less centrifugal ones and loads along it, and,
+ * where wanted, their tangent; both in model coordinates. */
 static status element_equations(model *m, const model_state *s, chunk_element *of, int tangent,
                                 double path, element_part *part)
 {
@@ -90,6 +104,7 @@ static status element_equations(model *m, const model_state *s, chunk_element *o
                          m->type->name);
     if (!of->complete)
         TRY(add_material(m, s, of, tangent, path, of->present, part));
+    subtract_loads(m, of, tangent, path, part);
     if (tangent)
         eliminate_matrix(m, s, el, of->present, part->K);
     eliminate_forces(m, s, el, part->force);
@@ -258,9 +273,9 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
                &loop);
     TRY(loop.outcome);
     add_discrete(m, s, lin);
-    loads_add(m, s, lin->path, lin->residual);
+    loads_add_at_vertices(m, s, lin->path, lin->residual);
     if (lin->K != NULL) {
-        loads_subtract_stiffness(m, s, lin->path, lin->K);
+        loads_subtract_at_vertices(m, s, lin->path, lin->K);
         linearise_add_held_moments(m, s, lin->path, lin->K);
     }
     phases_lap(&m->phases, PHASE_ASSEMBLY);

@@ -9,17 +9,35 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/equations/applied.h"
+#include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/kinematics.h"
 
 /* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
 static const double potential = 1e-12;
 
+/* What of the loads along members goes to the ends of elements: weights where mass is lumped there,
+ * all where a motion has to conserve energy; in states that motions start from, too. */
+static model_lumps lumps_of(const scene *s, int analysis)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    model_lumps lumps = LUMPS_NOTHING;
+    if (a->kind == SCENE_MOTION && a->of.motion.mass == SCENE_LUMPED)
+        lumps = a->of.motion.scheme == SCENE_CONSERVING ? LUMPS_LOADS : LUMPS_WEIGHTS;
+    for (int later = analysis + 1; later < s->analyses; later++) {
+        const model_lumps then =
+            s->analysis[later].follows == analysis ? lumps_of(s, later) : LUMPS_NOTHING;
+        lumps = then > lumps ? then : lumps;
+    }
+    return lumps;
+}
+
 void loads_of(model *m, int analysis)
 {
     const scene_analysis *a = &m->scene->analysis[analysis];
     m->unloaded = 0;
     m->in_time = a->kind == SCENE_MOTION;
+    m->lumps = lumps_of(m->scene, analysis);
     m->held_path = 1;
 }
 
@@ -31,19 +49,6 @@ void loads_hold(model *m, double path)
 void loads_none(model *m)
 {
     m->unloaded = 1;
-}
-
-double loads_factor(const model *m, const scene_load *load, double path)
-{
-    double at[3];
-    if (m->unloaded)
-        return 0;
-    if (!m->in_time)
-        return along_path_factor(load, path);
-    if (load->function.pieces == 0)
-        return along_path_factor(load, m->held_path);
-    function_at(&load->function, path, at);
-    return at[0];
 }
 
 double loads_driver_value(const model *m, const scene_driver *d, double path)
@@ -90,17 +95,49 @@ static void add_applied(void *context, const applied *what)
             sum->out[index[k]] += T[i * n + k] * F[i];
 }
 
-void loads_add_one(const model *m, const model_state *s, const scene_load *load, double scale,
-                   double out[])
+static void add_at_vertices(const model *m, const model_state *s, const scene_load *load,
+                            double scale, double out[])
 {
     sum_of_loads sum = {m, s, out};
     applied_each(m, s, load, scale, add_applied, &sum);
 }
 
+static void add_within(const model *m, const model_state *s, const scene_load *load, double scale,
+                       double out[])
+{
+    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        double forces[MODEL_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, &m->element[i], x);
+        if (!distributed_add_one(m, x, i, load, scale, forces, NULL))
+            continue;
+        eliminate_forces(m, s, &m->element[i], forces);
+        assemble_vector(&m->element[i], forces, out);
+    }
+}
+
+void loads_add_one(const model *m, const model_state *s, const scene_load *load, double scale,
+                   double out[])
+{
+    if (distributed_spreads(m, load))
+        add_within(m, s, load, scale, out);
+    else
+        add_at_vertices(m, s, load, scale, out);
+}
+
+void loads_add_at_vertices(const model *m, const model_state *s, double path, double out[])
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (!distributed_spreads(m, load))
+            add_at_vertices(m, s, load, applied_factor(m, load, path), out);
+    }
+}
+
 void loads_add(const model *m, const model_state *s, double path, double out[])
 {
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], path), out);
+        loads_add_one(m, s, &m->scene->load[i], applied_factor(m, &m->scene->load[i], path), out);
 }
 
 void loads_rate(const model *m, const model_state *s, double path, double out[])
@@ -110,12 +147,14 @@ void loads_rate(const model *m, const model_state *s, double path, double out[])
         loads_add_one(m, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
 }
 
-void loads_stiffness(const model *m, const model_state *s, double path, loads_entry take,
-                     void *context)
+void loads_stiffness_at_vertices(const model *m, const model_state *s, double path,
+                                 loads_entry take, void *context)
 {
-    for (int i = 0; i < m->scene->loads; i++)
-        applied_stiffness(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], path), take,
-                          context);
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (!distributed_spreads(m, load))
+            applied_stiffness(m, s, load, applied_factor(m, load, path), take, context);
+    }
 }
 
 static void into_sparse(void *K, int row, int column, double value)
@@ -123,9 +162,26 @@ static void into_sparse(void *K, int row, int column, double value)
     assemble_subtract(K, row, column, value);
 }
 
+void loads_subtract_at_vertices(const model *m, const model_state *s, double path, sparse *K)
+{
+    loads_stiffness_at_vertices(m, s, path, into_sparse, K);
+}
+
 void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K)
 {
-    loads_stiffness(m, s, path, into_sparse, K);
+    loads_subtract_at_vertices(m, s, path, K);
+    for (int i = 0; i < m->elements; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        double forces[ELEMENT_MAX_COORDINATES] = {0},
+               part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, &m->element[i], x);
+        if (!distributed_add(m, x, i, path, forces, part))
+            continue;
+        for (int k = 0; k < m->coordinates; k++)
+            forces[k] = -forces[k];
+        eliminate_matrix(m, s, &m->element[i], forces, part);
+        assemble_matrix(assemble_of(m, K), i, part, K);
+    }
 }
 
 /* Entries of one load's stiffness at free coordinates: of one body, so few. */
@@ -168,7 +224,7 @@ status loads_have_potential(const model *m, const model_state *s, double path, f
         entries_of_load e = {.free = m->free};
         if (load->kind != SCENE_MOMENT)
             continue;
-        applied_stiffness(m, s, load, loads_factor(m, load, path), into_list, &e);
+        applied_stiffness(m, s, load, applied_factor(m, load, path), into_list, &e);
         if (skew_of(&e) > potential * vec3_norm(load->vector))
             return fault_set(
                 f, STATUS_REFUSED,
@@ -223,13 +279,41 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
+/* What acts along an element. */
+static void add_element_at_node(sum_at_node *sum, int element, double path)
+{
+    const model *m = sum->m;
+    const mesh_element *el = &m->element[element];
+    double forces[ELEMENT_MAX_COORDINATES] = {0};
+    node_state x[ELEMENT_MAX_NODES];
+    int meets = 0;
+    for (int k = 0; k < m->nodes; k++)
+        meets |= m->vertex[el->vertex[k]].body == sum->node;
+    if (!meets)
+        return;
+    kinematics_gather(m, sum->s, el, x);
+    if (!distributed_add(m, x, element, path, forces, NULL))
+        return;
+    for (int k = 0; k < m->nodes; k++) {
+        if (m->vertex[el->vertex[k]].body != sum->node)
+            continue;
+        applied one = {.vertex = el->vertex[k]};
+        memcpy(one.F, forces + NODE_COORDINATES * k, sizeof one.F);
+        add_at_node((void *)sum, &one);
+    }
+}
+
 void loads_at_node(const model *m, const model_state *s, double path, int node, double F[6])
 {
     sum_at_node sum = {m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
-    for (int i = 0; i < m->scene->loads; i++)
-        applied_each(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], path),
-                     add_at_node, &sum);
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (!distributed_spreads(m, load))
+            applied_each(m, s, load, applied_factor(m, load, path), add_at_node, &sum);
+    }
+    for (int i = 0; i < m->elements; i++)
+        add_element_at_node(&sum, i, path);
 }
 
 void loads_drive(const model *m, const model_state *s, double path, double dx[])
@@ -279,7 +363,7 @@ int loads_begin(const model *m)
 {
     int begin = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        begin |= loads_factor(m, &m->scene->load[i], 0) != 0;
+        begin |= applied_factor(m, &m->scene->load[i], 0) != 0;
     for (int d = 0; d < m->scene->drivers; d++)
         begin |= m->scene->driver[d].value != NULL &&
                  loads_driver_value(m, &m->scene->driver[d], 0) != 0;

@@ -12,8 +12,6 @@ void loads_hold(model *, double path);
 /* Until the next of these calls no load acts and no driver moves: what stays are strains that
  * members have by themselves. */
 void loads_none(model *);
-/* What the load is times at `path`, or in time. */
-double loads_factor(const model *, const scene_load *load, double path);
 /* Of a known driver [m or rad]. */
 double loads_driver_value(const model *, const scene_driver *d, double path);
 /* In time, also its first two derivatives; at the end of a piece: of the next one. What has no

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/equations/loads.h"
 #include "harness/model/discrete.h"
@@ -52,7 +53,7 @@ static status add_element(model *m, const model_state *state, int i, double path
               first_s = m->free + strains * (m->elements + i);
     const double *e = &state->e[(size_t)i * (size_t)strains],
                  *sigma = &state->sigma[(size_t)i * (size_t)strains];
-    double D[E], J[E * X], H[X * X], P[E], C[E * E], force[X] = {0};
+    double D[E], J[E * X], H[X * X], P[E], C[E * E], force[X] = {0}, along[X] = {0};
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
@@ -65,6 +66,9 @@ static status add_element(model *m, const model_state *state, int i, double path
                          scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
     dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
     TRY(rotating_frame_add(m, x, i, path, force, H, f));
+    distributed_add(m, x, i, path, along, H);
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= along[k];
     eliminate_matrix(m, state, el, force, H);
     eliminate_forces(m, state, el, force);
     for (int a = 0; a < n; a++) {
@@ -129,12 +133,14 @@ status uncondensed_system(model *m, const model_state *state, double path, const
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
-    loads_add(m, state, path, load);
+    loads_add_at_vertices(m, state, path, load);
     memcpy(b, load, (size_t)m->free * sizeof *b);
+    memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
+    loads_add(m, state, path, load);
     for (int i = 0; i < m->elements; i++) {
         TRY(add_element(m, state, i, path, &s, f));
     }
-    loads_stiffness(m, state, path, put_load, &(load_part){m, &s});
+    loads_stiffness_at_vertices(m, state, path, put_load, &(load_part){m, &s});
     for (int i = 0; i < m->discretes; i++) {
         add_discrete(m, state, &m->discrete[i], path, &s);
     }

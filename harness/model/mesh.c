@@ -109,6 +109,7 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
     if (k->data == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an element");
     *out = *end = m->kinds++;
+    field_prepare(&request, m->nodes, &k->field);
     return m->type->prepare(&request, k->data, f);
 }
 

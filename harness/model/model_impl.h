@@ -2,6 +2,7 @@
 #ifndef BEAMWORK_MODEL_IMPL_H
 #define BEAMWORK_MODEL_IMPL_H
 
+#include "elements/field/field.h"
 #include "harness/algebra/team.h"
 #include "harness/model/model.h"
 
@@ -70,7 +71,8 @@ typedef struct mesh_kind {
     double length, curvature[3], strain[3];
     int next; /* kind of the same section, or NONE */
     element_data *data;
-    size_t data_size; /* [bytes] */
+    size_t data_size;         /* [bytes] */
+    displacement_field field; /* displacements between the nodes, for loads */
 } mesh_kind;
 
 /* An entry of an element's matrix that a pattern stores. */
@@ -132,6 +134,9 @@ typedef struct mesh_damping {
     const double *known, *from; /* [elements x strains] */
 } mesh_damping;
 
+/* What of the loads along members goes to the ends of elements, halves to both. */
+typedef enum model_lumps { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS } model_lumps;
+
 struct model {
     const scene *scene;
     const element_type *given; /* as its file has it */
@@ -172,6 +177,7 @@ struct model {
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
     double held_path; /* path parameter at which those stay in time that have no such function */
     int unloaded;     /* neither loads nor drivers act */
+    model_lumps lumps;
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;

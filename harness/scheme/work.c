@@ -6,6 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/equations/applied.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/inertia/inertia.h"
@@ -81,7 +82,7 @@ double work_power(work *w, const model_state *s, const double v[], const double 
     const model *m = w->m;
     memset(w->force, 0, (size_t)(m->free + m->driven) * sizeof *w->force);
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(m, s, &m->scene->load[i], loads_factor(m, &m->scene->load[i], time),
+        loads_add_one(m, s, &m->scene->load[i], applied_factor(m, &m->scene->load[i], time),
                       w->force);
     if (m->driven > 0)
         hold(w, s, v, a);

@@ -255,14 +255,16 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
         .scheme = SCENE_ALPHA, .alpha = scene_alpha_of_radius(0.9), .step = 1e-3};
     posed p = pose(in->name, continued ? SCENE_OF_CONTINUATION : SCENE_OF_STATIC, 1);
     p.end = 0.7;
-    scene s;
-    solve(&p, e, &path);
-    if (path.status == STATUS_REFUSED)
-        return;
-    structure(&p, &s);
-    const int before = scene_add_motion(&s, analyse(&s, &p), 1, &first, how);
-    want(&s, SCENE_OF_MOTION, scene_add_motion(&s, before, 1, &second, how));
-    answer_to(&s, &p, e, &motion);
+    for (int last = 0; last < 2; last++) { /* what the motions start from, and where they end */
+        scene s;
+        structure(&p, &s);
+        const int state = analyse(&s, &p), before = scene_add_motion(&s, state, 1, &first, how),
+                  behind = scene_add_motion(&s, before, 1, &second, how);
+        want(&s, SCENE_OF_MOTION, last ? behind : state);
+        answer_to(&s, &p, e, last ? &motion : &path);
+        if (path.status == STATUS_REFUSED)
+            return;
+    }
     const double off = largest_apart(&path, &motion, places);
     gsl_test(!(off <= 1e-6), "%s: motion after a motion after a %s, %s: stays (%g; %s)", e->name,
              scene_column_name[p.column], in->name, off, motion.reason);
