@@ -50,10 +50,15 @@ LOAD(following_force, l->kind == SCENE_FORCE && l->follower)
 LOAD(force_beside, l->kind == SCENE_FORCE && vec3_norm(l->at) > 0)
 LOAD(moment, l->kind == SCENE_MOMENT && !l->follower)
 LOAD(following_moment, l->kind == SCENE_MOMENT && l->follower)
-LOAD(line, scene_load_along(l) && l->kind != SCENE_GRAVITY && !scene_load_turns(l) && !l->follower)
-LOAD(following_line,
-     scene_load_along(l) && l->kind != SCENE_GRAVITY && !scene_load_turns(l) && l->follower)
-LOAD(line_of_moments, scene_load_along(l) && scene_load_turns(l))
+LOAD(line, l->kind == SCENE_DISTRIBUTED && !l->follower)
+LOAD(following_line, l->kind == SCENE_DISTRIBUTED && l->follower)
+LOAD(part_of_line, l->kind == SCENE_DISTRIBUTED && !l->follower && l->range[1] - l->range[0] < 1)
+LOAD(varying_line, l->kind == SCENE_DISTRIBUTED && !l->follower && l->varies)
+LOAD(lumped_line, l->kind == SCENE_DISTRIBUTED && !l->follower && l->lumped)
+LOAD(line_of_moments, l->kind == SCENE_DISTRIBUTED_MOMENT)
+LOAD(force_within, l->kind == SCENE_MEMBER_FORCE && !l->follower)
+LOAD(following_force_within, l->kind == SCENE_MEMBER_FORCE && l->follower)
+LOAD(moment_within, l->kind == SCENE_MEMBER_MOMENT)
 LOAD(gravity, l->kind == SCENE_GRAVITY)
 LOAD(weight, l->kind == SCENE_WEIGHT)
 LOAD(staying, along_path_factor(l, 0) != 0)
@@ -160,7 +165,14 @@ const scene_input scene_inputs[] = {
     {"moment that follows", "uusxu-xu-usu", no_potential, has_following_moment},
     {"load along a member", "uuuuu-uu-uuu", NULL, has_line},
     {"load along a member that follows", "uusxu-xu-usu", no_potential, has_following_line},
+    {"load along a part of a member", "uuuuu-uu-uuu", NULL, has_part_of_line},
+    {"load that changes along a member", "uuuuu-uu-uuu", NULL, has_varying_line},
+    {"lumped load along a member", "uuuuu-uu-uuu", NULL, has_lumped_line},
     {"moments along a member", "uusxu-xu-usu", no_potential, has_line_of_moments},
+    {"force within a member", "uuuuu-uu-uuu", NULL, has_force_within},
+    {"force within a member that follows", "uusxu-xu-usu", no_potential,
+     has_following_force_within},
+    {"moment within a member", "uusxu-xu-usu", no_potential, has_moment_within},
     {"gravity on members", "uuuuu-uu-uuu", NULL, has_gravity},
     {"weight of a body", "uuuuu-uu-uuu", NULL, has_weight},
     {"load that stays", "uuuuu-uu-uuu", NULL, has_staying},

@@ -97,21 +97,6 @@ static status note_means(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* What of loads on members is not carried yet. */
-static status check_loads(const scene *s, fault *f)
-{
-    for (int i = 0; i < s->loads; i++) {
-        const scene_load *load = &s->load[i];
-        if (scene_load_within(load) || load->varies ||
-            (scene_load_along(load) && (load->range[0] != 0 || load->range[1] != 1)))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: on a part of a member, or changing along it, which is not "
-                             "carried yet; put it on all of a member, or on nodes between two",
-                             scene_called(s, SCENE_LOADS, i).text);
-    }
-    return STATUS_OK;
-}
-
 static status build(model *m, const model_request *request, fault *f)
 {
     const scene *s = request->scene;
@@ -121,7 +106,6 @@ static status build(model *m, const model_request *request, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s does not offer %s, which scene %s needs", type->name,
                          words, s->name);
-    TRY(check_loads(s, f));
     m->omits = missing_omits(s, type) | request->omit;
     TRY(profile_scene(m, f));
     m->features = (features_needed_of(s, type) & ~m->omits) | (type->offers & FEATURE_CURVATURE);

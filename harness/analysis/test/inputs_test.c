@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
 #include "harness/analysis/test/posed.h"
 #include "harness/catalogue/formulation.h"
 
@@ -38,9 +39,78 @@ static void superposition(const scene_input *in, const element_type *e, const an
                      "%s: linear, %s: superposition of %s", e->name, in->name, with->name[i]);
 }
 
+/* Force and moment, about x, of what acts on the second member, from 0.5 to 1, beyond a place of
+ * it: the vector is linear there, and Simpson's rule exact. */
+static void resultants(const scene_load *load, double place, double x, double out[6])
+{
+    static const double weight[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
+    const double begin = fmax(load->range[0], place), part = load->range[1] - begin,
+                 all = load->range[1] - load->range[0];
+    memset(out, 0, 6 * sizeof *out);
+    for (int k = 0; k < 3 && part >= 0; k++) {
+        const double at = begin + part * k / 2, last = all > 0 ? (at - load->range[0]) / all : 0,
+                     arm[3] = {0.5 + 0.5 * at - x, 0, 0};
+        double v[3], moment[3];
+        for (int i = 0; i < 3; i++)
+            v[i] =
+                (scene_load_within(load) ? 1 : 0.5 * part) * weight[k] *
+                (load->vector[i] + (load->varies ? last : 0) * (load->last[i] - load->vector[i]));
+        vec3_cross(arm, v, moment);
+        for (int i = 0; i < 3; i++) {
+            out[scene_load_turns(load) ? 3 + i : i] += v[i];
+            out[3 + i] += scene_load_turns(load) ? 0 : moment[i];
+        }
+    }
+}
+
+/* Statics of a load on a member: what goes through its sections is what acts beyond, and the root
+ * takes all of it. */
+static void statics(const scene_input *in, const element_type *e)
+{
+    static const double place[] = {0, 0.05, 0.2, 0.45, 0.9};
+    static answer a;
+    const posed p = pose(in->name, SCENE_OF_LINEAR, 1);
+    double expected[6];
+    scene s;
+    structure(&p, &s);
+    scene_load load = *scene_load_at(&s, s.loads - 1);
+    if (!scene_load_along(&load) || load.kind == SCENE_GRAVITY) {
+        scene_free(&s);
+        return;
+    }
+    memset(s.load[0].vector, 0, sizeof s.load[0].vector);
+    const int linear = scene_add_linear(&s);
+    for (int k = 0; k < 6; k++) {
+        const char name[] = {'R', (char)('0' + k), '\0'};
+        scene_add_quantity(&s, name, "N", linear, scene_reaction(ROOT, k));
+    }
+    for (int i = 0; i < 5; i++)
+        for (int k = 0; k < 6; k++) {
+            const char name[] = {(char)('a' + i), (char)('0' + k), '\0'};
+            scene_add_quantity(&s, name, "N", linear,
+                               scene_internal_at(1, place[i], (scene_resultant)(SCENE_N + k)));
+        }
+    answer_to(&s, &p, e, &a);
+    resultants(&load, 0, 0, expected);
+    for (int k = 0; k < 6; k++) {
+        const char name[] = {'R', (char)('0' + k), '\0'};
+        gsl_test_abs(-answer_of(&a, name), expected[k], 1e-7,
+                     "%s: linear, %s: component %d at the root is what acts", e->name, in->name, k);
+    }
+    for (int i = 0; i < 5 && !load.lumped; i++) {
+        resultants(&load, place[i], 0.5 + 0.5 * place[i], expected);
+        for (int k = 0; k < 6; k++) {
+            const char name[] = {(char)('a' + i), (char)('0' + k), '\0'};
+            gsl_test_abs(answer_of(&a, name), expected[k], 1e-7,
+                         "%s: linear, %s: resultant %d at %g of the member", e->name, in->name, k,
+                         place[i]);
+        }
+    }
+}
+
 static int is_load(const scene_input *in)
 {
-    return in - scene_inputs <= 11; /* and strain */
+    return in - scene_inputs <= 17; /* and strain */
 }
 
 static int is_called(const scene_input *in, const char *name)
@@ -374,6 +444,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         part_of_inertia(in, column, e);
     if (column == SCENE_OF_LINEAR && is_load(in))
         superposition(in, e, &without, &with);
+    if (column == SCENE_OF_LINEAR && is_load(in))
+        statics(in, e);
     if (with.values == with.count)
         obey(in, column, e, &with);
 }

@@ -54,6 +54,15 @@ static scene_load *follow(scene *s, int load)
     return scene_load_at(s, load);
 }
 
+/* A load along the second member, or a part of it. */
+static scene_load *spread(scene *s, double from, double to)
+{
+    scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
+    load->range[0] = from;
+    load->range[1] = to;
+    return load;
+}
+
 /* A section that warps, twisted by a force beside the axis, which has a potential. */
 static void twist(scene *s)
 {
@@ -89,6 +98,21 @@ static void add(scene *s, const char *name)
         scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50);
     else if (IS("load along a member that follows"))
         follow(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
+    else if (IS("load along a part of a member"))
+        spread(s, 0.1, 0.7);
+    else if (IS("load that changes along a member")) {
+        scene_load *load = spread(s, 0, 1);
+        load->varies = 1;
+        load->last[1] = 150;
+        load->last[2] = -80;
+    } else if (IS("lumped load along a member"))
+        spread(s, 0, 1)->lumped = 1;
+    else if (IS("force within a member"))
+        scene_add_load_within(s, SCENE_MEMBER_FORCE, 1, 0.3, -20, 50, -30);
+    else if (IS("force within a member that follows"))
+        follow(s, scene_add_load_within(s, SCENE_MEMBER_FORCE, 1, 0.3, -20, 50, -30));
+    else if (IS("moment within a member"))
+        scene_add_load_within(s, SCENE_MEMBER_MOMENT, 1, 0.3, 20, 30, 40);
     else if (IS("moments along a member"))
         scene_add_load(s, SCENE_DISTRIBUTED_MOMENT, 1, 60, 90, 120);
     else if (IS("gravity on members"))
@@ -320,9 +344,12 @@ static void structure(const posed *p, scene *s)
     else
         carry(s, p->name);
     for (int i = 0; i < s->loads; i++)
-        for (int k = 0; k < 3; k++)
-            s->load[i].vector[k] *=
+        for (int k = 0; k < 3; k++) {
+            const double scale =
                 p->size * (i < loads ? 1 : p->times) * (s->load[i].stations == 0 ? p->grown : 1);
+            s->load[i].vector[k] *= scale;
+            s->load[i].last[k] *= scale;
+        }
     for (int i = 0; i < s->members; i++)
         s->member[i].strain[0] *= p->times * p->size;
     for (int i = 0; i < s->drivers; i++)

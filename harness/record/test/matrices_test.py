@@ -165,6 +165,27 @@ class Frequencies(Matrices):
         self.assertEqual([(r["column"], r["node"], float(r["z"])) for r in loads],
                          [("1", "tip", 40), ("2", "tip", 5)])
 
+    def test_loads_on_members(self):
+        """The table says on which part of which member; the columns of B are their shares, by which
+        K x = B 1 is the linear solution."""
+        loads = """  part: {distributed: [0, 6, 0], on: bar, from: 0.25, to: 0.75, to_value: [0, 0, 3]}
+  point: {force: [1, 2, 3], on: bar, where: 0.5}
+  halves: {distributed: [0, 0, 4], on: bar, lumped: yes}
+"""
+        folder, values = self.solved(LOADED.replace("analyses:", loads + "analyses:", 1), "beamw")
+        self.assertEqual(
+            [[r[k] for k in ("kind", "node", "member", "from", "to", "x_to", "y_to", "z_to", "lumped")]
+             for r in self.rows(folder, "loads.csv")],
+            [["force", "tip", *[""] * 7], ["force", "tip", *[""] * 7],
+             ["distributed", "", "bar", "0.25", "0.75", "0", "0", "3", "0"],
+             ["force", "", "bar", "0.5", "0.5", "1", "2", "3", "0"],
+             ["distributed", "", "bar", "0", "1", "0", "0", "4", "1"]])
+        K, B = self.read(folder, "undeformed", "K"), self.read(folder, "undeformed", "B")
+        x = numpy.linalg.solve(K, B.sum(axis=1))
+        tip = [x[i] for i, r in enumerate(self.rows(folder))
+               if (r["node"], r["component"]) == ("tip", "uz")]
+        self.assertLess(abs(tip[0] / values["uz"] - 1), 1e-11)
+
     def test_turning(self):
         """In a frame that turns: two stations, the last with the frequencies."""
         checked = 0
