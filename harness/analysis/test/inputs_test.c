@@ -63,33 +63,37 @@ static void resultants(const scene_load *load, double place, double x, double ou
     }
 }
 
-/* Statics of a load on a member: what goes through its sections is what acts beyond, and the root
- * takes all of it. */
-static void statics(const scene_input *in, const element_type *e)
+/* The scene of a row with nothing but its load, if that is on a member: 1. inside: it begins, ends
+ * and acts inside an element, else between two of the four. */
+static int load_alone(const scene_input *in, int inside, posed *p, scene *s, scene_load *load)
 {
-    static const double place[] = {0, 0.05, 0.2, 0.45, 0.9};
+    *p = pose(in->name, SCENE_OF_LINEAR, 1);
+    structure(p, s);
+    scene_load *own = scene_load_at(s, s->loads - 1);
+    for (int k = 0; k < 2 && !inside; k++)
+        own->range[k] = round(4 * own->range[k]) / 4;
+    memset(s->load[0].vector, 0, sizeof s->load[0].vector);
+    *load = *own;
+    return scene_load_along(own) && own->kind != SCENE_GRAVITY;
+}
+
+/* The root takes all of a load on a member. */
+static void reactions(const scene_input *in, const element_type *e)
+{
     static answer a;
-    const posed p = pose(in->name, SCENE_OF_LINEAR, 1);
     double expected[6];
+    posed p;
     scene s;
-    structure(&p, &s);
-    scene_load load = *scene_load_at(&s, s.loads - 1);
-    if (!scene_load_along(&load) || load.kind == SCENE_GRAVITY) {
+    scene_load load;
+    if (!load_alone(in, 1, &p, &s, &load)) {
         scene_free(&s);
         return;
     }
-    memset(s.load[0].vector, 0, sizeof s.load[0].vector);
     const int linear = scene_add_linear(&s);
     for (int k = 0; k < 6; k++) {
         const char name[] = {'R', (char)('0' + k), '\0'};
         scene_add_quantity(&s, name, "N", linear, scene_reaction(ROOT, k));
     }
-    for (int i = 0; i < 5; i++)
-        for (int k = 0; k < 6; k++) {
-            const char name[] = {(char)('a' + i), (char)('0' + k), '\0'};
-            scene_add_quantity(&s, name, "N", linear,
-                               scene_internal_at(1, place[i], (scene_resultant)(SCENE_N + k)));
-        }
     answer_to(&s, &p, e, &a);
     resultants(&load, 0, 0, expected);
     for (int k = 0; k < 6; k++) {
@@ -97,7 +101,30 @@ static void statics(const scene_input *in, const element_type *e)
         gsl_test_abs(-answer_of(&a, name), expected[k], 1e-7,
                      "%s: linear, %s: component %d at the root is what acts", e->name, in->name, k);
     }
-    for (int i = 0; i < 5 && !load.lumped; i++) {
+}
+
+/* What goes through a section is what acts beyond it. */
+static void sections(const scene_input *in, const element_type *e)
+{
+    static const double place[] = {0, 0.05, 0.2, 0.45, 0.9};
+    static answer a;
+    double expected[6];
+    posed p;
+    scene s;
+    scene_load load;
+    if (!load_alone(in, 0, &p, &s, &load) || load.lumped) {
+        scene_free(&s);
+        return;
+    }
+    const int linear = scene_add_linear(&s);
+    for (int i = 0; i < 5; i++)
+        for (int k = 0; k < 6; k++) {
+            const char name[] = {(char)('a' + i), (char)('0' + k), '\0'};
+            scene_add_quantity(&s, name, "N", linear,
+                               scene_internal_at(1, place[i], (scene_resultant)(SCENE_N + k)));
+        }
+    answer_to(&s, &p, e, &a);
+    for (int i = 0; i < 5; i++) {
         resultants(&load, place[i], 0.5 + 0.5 * place[i], expected);
         for (int k = 0; k < 6; k++) {
             const char name[] = {(char)('a' + i), (char)('0' + k), '\0'};
@@ -444,8 +471,10 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         part_of_inertia(in, column, e);
     if (column == SCENE_OF_LINEAR && is_load(in))
         superposition(in, e, &without, &with);
-    if (column == SCENE_OF_LINEAR && is_load(in))
-        statics(in, e);
+    if (column == SCENE_OF_LINEAR && is_load(in)) {
+        reactions(in, e);
+        sections(in, e);
+    }
     if (with.values == with.count)
         obey(in, column, e, &with);
 }
