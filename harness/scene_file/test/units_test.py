@@ -47,7 +47,7 @@ loads:
   push: {{force: {us(0, 1, 3.0, -5.0, 9.0)}, on: tip, at: {us(1, 0, 0.0, 0.01, 0.0)}}}
   twist: {{moment: {us(1, 1, 0.5, 0.2, 0.1)}, on: tip}}
   snow: {{distributed: {us(-1, 1, 0.0, -20.0, 0.0)}, on: a}}
-  drift: {{distributed: {us(-1, 1, 0.0, 3.0, -7.0)}, on: a, from: 0.25, to: 0.75, to_value: {us(-1, 1, 5.0, 0.0, 9.0)}}}
+  drift: {{distributed: {us(-1, 1, 0.0, 3.0, -7.0)}, on: a, from: 0.5, to: 1, to_value: {us(-1, 1, 5.0, 0.0, 9.0)}}}
   screw: {{distributed_moment: {us(0, 1, 0.3, 0.0, 0.0)}, on: b, to_value: {us(0, 1, 0.0, 0.2, 0.1)}}}
   rope: {{force: {us(0, 1, 0.0, 2.0, 0.0)}, on: b, where: 0.25, at: {us(1, 0, 0.0, 0.01, 0.0)}}}
   wrench: {{moment: {us(1, 1, 0.4, 0.0, 0.1)}, on: a, where: 0.5}}
