@@ -266,10 +266,12 @@ int cli_solve(int count, char **arguments)
     return command_run(
         "solve", "CASE",
         "Solves one case with one formulation and one mesh and shows every quantity with its "
-        "error. Without -f a formulation is chosen that offers what the case needs and has no "
-        "known defect there; without -n the coarsest of the case's meshes at which no value "
-        "changes by more than 0.1 % from the mesh before, or, where one still does, the finest: "
-        "the output says which, and why. An analysis that no quantity reads is not run, unless a "
+        "error. Without -n elements are refined until no value changes by more than 0.1 % from "
+        "the mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s of counted "
+        "work. Without -f as well it is done with up to five formulations that offer what the "
+        "case needs and have no known defect there, the cheapest next mesh first, and the first "
+        "that settles is taken; with -n the one of the highest order. The output says which, and "
+        "why. An analysis that no quantity reads is not run, unless a "
         "scene has no quantities, or its states are drawn or written; -k asks for some of the "
         "quantities only."
         "\vbeamwork solve elastica\n"

@@ -1,7 +1,9 @@
 #include "harness/judge/preference.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/catalogue/choice.h"
@@ -9,6 +11,7 @@
 #include "harness/catalogue/registry.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
+#include "harness/timing/price.h"
 
 /* What speaks against a formulation, weightiest first; the least one is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
@@ -50,6 +53,23 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
+/* The least order of what is asked. */
+static int order_of(const scene *s, const element_type *type)
+{
+    double options[ELEMENT_MAX_OPTIONS] = {0};
+    int least = INT_MAX;
+    parameter_defaults(type->options, options);
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        const int moves =
+            q->analysis < s->analyses && s->analysis[q->analysis].kind == SCENE_MOTION;
+        const element_analysis what = moves ? ELEMENT_VIBRATION : verdict_analysis(s, q);
+        const int one = element_order_in(type, what, options).highest;
+        least = one < least ? one : least;
+    }
+    return least;
+}
+
 static standing standing_of(const scene *s, const element_type *type, const rule_subject *where,
                             const rule *rules, int count)
 {
@@ -64,9 +84,7 @@ static standing standing_of(const scene *s, const element_type *type, const rule
     }
     out.against[AGAINST_THEORY] =
         (features_needed(s) & theories) != (features_needed_of(s, type) & theories);
-    double options[ELEMENT_MAX_OPTIONS] = {0};
-    parameter_defaults(type->options, options);
-    out.against[AGAINST_ORDER] = -element_order_in(type, ELEMENT_STATICS, options).highest;
+    out.against[AGAINST_ORDER] = -order_of(s, type);
     return out;
 }
 
@@ -87,44 +105,95 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* The best of those that can run; NULL: none can. */
-static const element_type *best_of(const scene *s, const rule_subject *where, const rule *rules,
-                                   int count, int other, standing *best)
+/* Those that can run, best first: as sound as the first one, and of a family two at most. */
+enum { CANDIDATES = 5, OF_FAMILY = 2 };
+typedef struct candidates {
+    int count;
+    const element_type *type[CANDIDATES];
+    standing here[CANDIDATES];
+} candidates;
+
+/* Is it one of them, or one too many of its family? */
+static int is_taken(const candidates *all, const element_type *type)
 {
-    const element_type *chosen = NULL;
+    int same = 0;
+    for (int i = 0; i < all->count; i++) {
+        if (all->type[i] == type)
+            return 1;
+        same += strcmp(all->type[i]->family, type->family) == 0;
+    }
+    return same >= OF_FAMILY;
+}
+
+static int as_sound(const standing *a, const standing *b)
+{
+    for (int i = 0; i < AGAINST_ELSEWHERE; i++)
+        if (a->against[i] != b->against[i])
+            return 0;
+    return 1;
+}
+
+/* The best that is not taken yet; 0: there is none as sound as the first one. */
+static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
+                     int other, candidates *all)
+{
+    standing *best = &all->here[all->count];
+    const element_type **chosen = &all->type[all->count];
+    *chosen = NULL;
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
-        if (formulations_is_new(type) || !can_run(s, type, other)) /* its defects are not known */
+        if (formulations_is_new(type) || is_taken(all, type) ||
+            !can_run(s, type, other)) /* defects of new ones are not known */
             continue;
         const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
-        if (chosen != NULL && !is_better(&here, best))
+        if (*chosen != NULL && !is_better(&here, best))
             continue;
-        chosen = type;
+        *chosen = type;
         *best = here;
     }
-    return chosen;
+    if (*chosen == NULL || !as_sound(&all->here[0], best))
+        return 0;
+    all->count++;
+    return 1;
+}
+
+static candidates candidates_of(const scene *s, const rule_subject *where, const rule *rules,
+                                int count, int other)
+{
+    candidates out = {0};
+    while (out.count < CANDIDATES && take_next(s, where, rules, count, other, &out)) {}
+    return out;
+}
+
+/* Candidates, and the first half of the line on the choice. */
+static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
+                   candidates *all, char why[FAULT_TEXT], fault *f)
+{
+    *all = candidates_of(s, where, rules, count, 0);
+    const int whole = all->count > 0;
+    if (!whole)
+        *all = candidates_of(s, where, rules, count, 1);
+    if (all->count == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "no formulation offers all that %.60s needs; 'beamwork list' shows what "
+                         "each offers",
+                         s->name);
+    const int *against = all->here[0].against;
+    snprintf(why, FAULT_TEXT, "%s%s%s",
+             whole ? "offers all that is needed" : "another model, which lacks the least",
+             rules == NULL                ? ""
+             : against[AGAINST_HERE] == 0 ? ", no known defect here"
+                                          : ", but has a known defect here",
+             against[AGAINST_THEORY] ? ", another theory of shear than asked for" : "");
+    return STATUS_OK;
 }
 
 status preference_formulation(const scene *s, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f)
 {
-    standing best = {{0}};
-    const element_type *chosen = best_of(s, where, rules, count, 0, &best);
-    const int whole = chosen != NULL;
-    if (!whole)
-        chosen = best_of(s, where, rules, count, 1, &best);
-    if (chosen == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "no formulation offers all that %.60s needs; 'beamwork list' shows what "
-                         "each offers",
-                         s->name);
-    formulation_default(chosen, out);
-    snprintf(why, FAULT_TEXT, "%s%s%s",
-             whole ? "offers all that is needed" : "another model, which lacks the least",
-             rules == NULL                     ? ""
-             : best.against[AGAINST_HERE] == 0 ? ", no known defect here"
-                                               : ", but has a known defect here",
-             best.against[AGAINST_THEORY] ? ", another theory of shear than asked for" : "");
+    candidates all = {0};
+    TRY(find(s, where, rules, count, &all, why, f));
+    formulation_default(all.type[0], out);
     return STATUS_OK;
 }
 
@@ -172,41 +241,145 @@ static int met_unstable(const solve_result *r)
     return 0;
 }
 
-static void tell_elements(const scene *s, int mesh, const step *last, int unstable,
-                          char why[FAULT_TEXT])
+/* One formulation on finer and finer meshes. */
+typedef struct runner {
+    cell_request request;
+    formulation chosen;
+    cell_result cell[2]; /* of the last meshes, in turn */
+    step last;
+    int tried, before, elements; /* meshes; elements of the last two */
+    int unstable;                /* one met unstable states, which finer ones may not pass */
+    double cost, next;           /* of the last mesh; what the next one may cost [s] */
+} runner;
+
+static void begin(runner *r, const cell_request *request, const formulation *chosen)
 {
-    if (last->change <= PREFERENCE_SETTLED)
-        snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
-                 100 * last->change, s->mesh[mesh - 1]);
-    else if (isfinite(last->change))
-        snprintf(why, FAULT_TEXT, "the finest mesh of the case; %s still changed by %.2g %%",
-                 s->quantity[last->which].name, 100 * last->change);
-    else
-        snprintf(why, FAULT_TEXT, "the finest mesh of the case%s",
-                 unstable ? "; coarser ones met unstable states" : "");
+    memset(r, 0, sizeof *r);
+    r->request = *request;
+    r->chosen = *chosen;
+    cell_formulation(&r->request, chosen);
+    r->last = (step){INFINITY, -1};
 }
 
-int preference_elements(const cell_request *request, char why[FAULT_TEXT])
+static void end(runner *r)
 {
-    const scene *s = request->scene;
-    cell_request one = *request;
-    cell_result cell[2];
-    step last = {INFINITY, -1};
-    int mesh = -1, unstable = 0;
-    memset(cell, 0, sizeof cell);
-    while (mesh + 1 < s->meshes && (last.change > PREFERENCE_SETTLED || unstable)) {
-        cell_result *now = &cell[++mesh % 2];
-        fault f;
-        cell_result_free(now);
-        memset(now, 0, sizeof *now);
-        one.elements = s->mesh[mesh];
-        cell_run(&one, now, &f); /* one that fails is not settled */
-        if (mesh > 0)
-            last = step_between(s, &cell[(mesh + 1) % 2], now);
-        unstable |= met_unstable(&now->solve); /* which finer ones may not pass */
+    cell_result_free(&r->cell[0]);
+    cell_result_free(&r->cell[1]);
+}
+
+/* The meshes of the scene, then twice as many elements each. */
+static int next_mesh(const scene *s, const runner *r)
+{
+    return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
+}
+
+static int settled(const runner *r)
+{
+    return r->last.change <= PREFERENCE_SETTLED && !r->unstable;
+}
+
+/* Is another mesh too much? */
+static int exhausted(const scene *s, const runner *r)
+{
+    const int tells = r->tried < 2 ||
+                      (isfinite(r->last.change) && !r->unstable); /* what finer ones would settle */
+    return r->tried >= s->meshes &&
+           (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
+}
+
+static void refine(const scene *s, runner *r)
+{
+    cell_result *now = &r->cell[r->tried % 2];
+    fault f;
+    cell_result_free(now);
+    memset(now, 0, sizeof *now);
+    r->before = r->elements;
+    r->request.elements = r->elements = next_mesh(s, r);
+    cell_run(&r->request, now, &f); /* one that fails is not settled */
+    if (r->tried > 0)
+        r->last = step_between(s, &r->cell[(r->tried + 1) % 2], now);
+    r->unstable |= met_unstable(&now->solve);
+    r->cost = price_cost(&r->chosen, now);
+    r->next = 2 * r->cost;
+    r->tried++;
+}
+
+/* Takes a step with whoever has the cheapest one before it, until one has settled; NULL: none does
+ * within bounds. */
+static runner *race(const scene *s, runner of[], int count)
+{
+    for (;;) {
+        runner *cheapest = NULL;
+        for (int i = 0; i < count; i++)
+            if (!exhausted(s, &of[i]) && (cheapest == NULL || of[i].next < cheapest->next))
+                cheapest = &of[i];
+        if (cheapest == NULL)
+            return NULL;
+        refine(s, cheapest);
+        if (settled(cheapest))
+            return cheapest;
     }
-    cell_result_free(&cell[0]);
-    cell_result_free(&cell[1]);
-    tell_elements(s, mesh, &last, unstable, why);
-    return s->mesh[mesh];
+}
+
+static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
+{
+    if (r->last.change <= PREFERENCE_SETTLED && !r->unstable)
+        snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
+                 100 * r->last.change, r->before);
+    else if (isfinite(r->last.change) && r->last.which >= 0)
+        snprintf(why, FAULT_TEXT, "the finest mesh that was tried; %s still changed by %.2g %%",
+                 s->quantity[r->last.which].name, 100 * r->last.change);
+    else
+        snprintf(why, FAULT_TEXT, "the finest mesh that was tried%s",
+                 r->unstable ? "; coarser ones met unstable states" : "");
+}
+
+/* Of none that settled: the one that changed least. */
+static const runner *calmest(const runner of[], int count)
+{
+    const runner *out = &of[0];
+    for (int i = 1; i < count; i++)
+        if (of[i].last.change < out->last.change)
+            out = &of[i];
+    return out;
+}
+
+int preference_elements(const cell_request *request, const formulation *chosen,
+                        char why[FAULT_TEXT])
+{
+    runner one;
+    begin(&one, request, chosen);
+    race(request->scene, &one, 1);
+    tell_elements(request->scene, &one, why);
+    end(&one);
+    return one.elements;
+}
+
+status preference_both(const cell_request *request, const rule_subject *where, const rule *rules,
+                       int count, preference *out, fault *f)
+{
+    candidates all;
+    TRY(find(request->scene, where, rules, count, &all, out->why_formulation, f));
+    runner *of = malloc(((size_t)all.count + 1) * sizeof *of);
+    if (of == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+    for (int i = 0; i < all.count; i++) {
+        formulation one;
+        formulation_default(all.type[i], &one);
+        begin(&of[i], request, &one);
+    }
+    const runner *first = race(request->scene, of, all.count),
+                 *best = first != NULL ? first : calmest(of, all.count);
+    out->chosen = best->chosen;
+    out->elements = best->elements;
+    tell_elements(request->scene, best, out->why_elements);
+    if (first != NULL && all.count > 1) {
+        const size_t used = strlen(out->why_formulation);
+        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", settled first of %d",
+                 all.count);
+    }
+    for (int i = 0; i < all.count; i++)
+        end(&of[i]);
+    free(of);
+    return STATUS_OK;
 }

@@ -7,17 +7,33 @@
 
 /* Of those that offer all that the scene needs: with no rule of the ledger that says of a quantity
  * here that its limit is wrong or biased; of the scene's theory of shear; of the fewest such rules
- * elsewhere; of the highest order in statics; the first by name. rules NULL: the ledger is not
- * known. REFUSED: none offers what the scene needs. why: one line on the choice. */
+ * elsewhere; of the highest order in what is asked; the first by name. rules NULL: the ledger is
+ * not known. REFUSED: none offers what the scene needs. why: one line on the choice. */
 status preference_formulation(const scene *, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
-/* Change from one of the scene's meshes to the next that counts as none, relative. */
+/* Change from one mesh to the next that counts as none, relative. */
 #define PREFERENCE_SETTLED 1e-3
+/* Behind the scene's meshes, where values change still, the elements are doubled until that many,
+ * or until a mesh may cost so much counted work [s]. */
+#define PREFERENCE_FINEST 1024
+#define PREFERENCE_COST   2.0
 
-/* The coarsest of the scene's meshes whose values all differ from those of the mesh before it by
- * less than PREFERENCE_SETTLED, or the finest. Solves the meshes until then; request: the cell but
- * for its elements. */
-int preference_elements(const cell_request *, char why[FAULT_TEXT]);
+/* The coarsest mesh whose values all differ from those of the mesh before it by less than
+ * PREFERENCE_SETTLED, or the finest that was tried. Solves the meshes until then; request: the cell
+ * but for its elements. */
+int preference_elements(const cell_request *, const formulation *chosen, char why[FAULT_TEXT]);
+
+typedef struct preference {
+    formulation chosen;
+    int elements;
+    char why_formulation[FAULT_TEXT], why_elements[FAULT_TEXT];
+} preference;
+/* Both at once: of the formulations that preference_formulation holds to be as sound as the first
+ * one, at most five and two of a family, the first that settles where the cheapest next mesh is
+ * always solved before dearer ones, by counted work (timing/price.h). request: the cell but for
+ * formulation and elements. */
+status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
+                       int count, preference *out, fault *f);
 
 #endif

@@ -72,8 +72,10 @@ static history history_of(const series *s, int quantity)
     return h;
 }
 
-static element_analysis analysis_of(const scene *s, const scene_quantity *q)
+element_analysis verdict_analysis(const scene *s, const scene_quantity *q)
 {
+    if (q->analysis >= s->analyses)
+        return ELEMENT_STATICS;
     const scene_analysis *a = &s->analysis[q->analysis];
     if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a))
         return ELEMENT_VIBRATION;
@@ -86,10 +88,8 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     const scene *here = &s->point[one->point].scene;
     const scene_quantity *q = &here->quantity[quantity];
     const history h = history_of(one, quantity);
-    const element_analysis analysis =
-        q->analysis < here->analyses ? analysis_of(here, q) : ELEMENT_STATICS;
     const element_order order =
-        element_order_in(one->formulation.type, analysis, one->formulation.option);
+        element_order_in(one->formulation.type, verdict_analysis(here, q), one->formulation.option);
     const limit_sequence sequence = {.count = one->meshes - left_out,
                                      .n = h.n,
                                      .value = h.value,

@@ -54,6 +54,8 @@ typedef struct verdict {
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
+/* What the order of a quantity depends on. */
+element_analysis verdict_analysis(const scene *, const scene_quantity *);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* The truth that a formulation is judged by: of the same model and of its own theory of shear; or

@@ -1,5 +1,7 @@
 #include "harness/request/solution.h"
 
+#include <string.h>
+
 #include "harness/judge/preference.h"
 #include "harness/model/features.h"
 #include "harness/study/narrow.h"
@@ -9,7 +11,8 @@ static cell_request cell_of(const solution_request *r, const scene *s)
 {
     cell_request out = {
         .scene = s, .elements = r->elements, .keep_all = r->keep_all, .threads = r->threads};
-    cell_formulation(&out, &r->formulation);
+    if (r->formulation.type != NULL)
+        cell_formulation(&out, &r->formulation);
     out.solve.steps_between = r->steps;
     return out;
 }
@@ -22,15 +25,23 @@ static status choose(solution_request *r, const rule *rules, int count, int elem
     TRY(narrow_scene(s, r->type, r->parameter, &r->formulation, r->select, f));
     if (r->systems)
         scene_demand(s, FEATURE_MASS);
-    if (r->formulation.type == NULL) {
-        const rule_subject where = {
-            .type = r->type, .parameter = r->parameter, .features = features_needed(s)};
-        TRY(preference_formulation(s, &where, rules, count, &r->formulation, why->formulation, f));
+    const rule_subject where = {
+        .type = r->type, .parameter = r->parameter, .features = features_needed(s)};
+    const cell_request cell = cell_of(r, s);
+    if (r->formulation.type == NULL && elements && r->elements == 0) {
+        preference both;
+        TRY(preference_both(&cell, &where, rules, count, &both, f));
+        r->formulation = both.chosen;
+        r->elements = both.elements;
+        memcpy(why->formulation, both.why_formulation, sizeof why->formulation);
+        memcpy(why->elements, both.why_elements, sizeof why->elements);
+        return STATUS_OK;
     }
-    if (elements && r->elements == 0) {
-        const cell_request cell = cell_of(r, s);
-        r->elements = preference_elements(&cell, why->elements);
-    }
+    if (r->formulation.type == NULL)
+        return preference_formulation(s, &where, rules, count, &r->formulation, why->formulation,
+                                      f);
+    if (elements && r->elements == 0)
+        r->elements = preference_elements(&cell, &r->formulation, why->elements);
     return STATUS_OK;
 }
 

@@ -22,6 +22,25 @@ class Solve(ProgramTest):
             self.assertTrue(truths)
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
+    def test_cost(self):
+        """The formulation costs at most twice what the cheapest for 0.1 % does, as converge says,
+        which runs all of them."""
+        for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
+                     "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
+            chosen = self.record("solve", case)["formulation"]
+            answers = self.record("converge", case, "--error", "0.1%")["answers"]
+            cost = {a["formulation"]: a["cost"] for a in answers if not a["defect"]}
+            self.assertIn(chosen, cost, case)
+            self.assertLessEqual(cost[chosen], 2 * min(cost.values()), f"{case}: {chosen}, {cost}")
+
+    def test_finer_than_the_meshes_of_a_scene(self):
+        """Elements are doubled until values have settled."""
+        text = LEAF.read_text(encoding="utf-8")
+        path = self.folder / "coarse.yaml"
+        path.write_text(re.sub(r"(?m)^meshes: .*$", "meshes: [1]", text), encoding="utf-8")
+        told = re.match(r"-f \S+: .*\n-n (\d+): no value changed", self.answered("solve", "--scene", path).stdout)
+        self.assertGreater(int(told.group(1)), 1)
+
     def test_steps(self):
         """How many were chosen and how many tries of longer ones failed stands in the first
         lines, as the steps themselves say."""
