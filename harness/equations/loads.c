@@ -18,14 +18,14 @@ static const double potential = 1e-12;
 
 /* What of the loads along members goes to the ends of elements: weights where mass is lumped there,
  * all where a motion has to conserve energy; in states that motions start from, too. */
-static model_lumps lumps_of(const scene *s, int analysis)
+static int lumps_of(const scene *s, int analysis)
 {
     const scene_analysis *a = &s->analysis[analysis];
-    model_lumps lumps = LUMPS_NOTHING;
+    int lumps = LUMPS_NOTHING;
     if (a->kind == SCENE_MOTION && a->of.motion.mass == SCENE_LUMPED)
         lumps = a->of.motion.scheme == SCENE_CONSERVING ? LUMPS_LOADS : LUMPS_WEIGHTS;
     for (int later = analysis + 1; later < s->analyses; later++) {
-        const model_lumps then =
+        const int then =
             s->analysis[later].follows == analysis ? lumps_of(s, later) : LUMPS_NOTHING;
         lumps = then > lumps ? then : lumps;
     }

@@ -135,7 +135,7 @@ typedef struct mesh_damping {
 } mesh_damping;
 
 /* What of the loads along members goes to the ends of elements, halves to both. */
-typedef enum model_lumps { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS } model_lumps;
+enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
 struct model {
     const scene *scene;
@@ -177,7 +177,7 @@ struct model {
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
     double held_path; /* path parameter at which those stay in time that have no such function */
     int unloaded;     /* neither loads nor drivers act */
-    model_lumps lumps;
+    int lumps;        /* LUMPS_* */
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;
