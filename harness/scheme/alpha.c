@@ -16,6 +16,7 @@ typedef struct alpha {
     stage stage;
     work *work;
     size_t strains;                  /* of elements that are damped: elements x strains, or 0 */
+    double *mean;                    /* [strains] their rates over a step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
@@ -59,7 +60,8 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
     damping_follow(s->stage.c->model, g, to->strain, kinematics_strains(from->state));
 }
 
-/* Rates at the end, and what they have lost by the trapezoidal rule. */
+/* Rates at the end, and what was lost by those of the mean: where something has no inertia, rates
+ * at the ends of steps swing about them. */
 static void damp(alpha *s, const instant *from, double h, instant *to)
 {
     const double *e0 = kinematics_strains(from->state), *e1 = kinematics_strains(to->state);
@@ -69,13 +71,12 @@ static void damp(alpha *s, const instant *from, double h, instant *to)
         return;
     for (size_t i = 0; i < s->strains; i++) {
         const double gained = e1[i] - e0[i];
+        s->mean[i] = gained / h;
         to->strain[i] += g * gained;
         to->strain2[i] =
             part * (gained - h * from->strain[i]) - (0.5 - s->beta) / s->beta * from->strain2[i];
     }
-    to->dissipated += h / 2 *
-                      (damping_power(s->stage.c->model, from->strain) +
-                       damping_power(s->stage.c->model, to->strain));
+    to->dissipated += h * damping_power(s->stage.c->model, s->mean);
 }
 
 /* Rotations beyond a radian in one step are not followed. */
@@ -133,6 +134,7 @@ static void release(scheme *base)
     alpha *s = (alpha *)base;
     stage_free(&s->stage);
     free(s->a0);
+    free(s->mean);
     free(s);
 }
 
@@ -157,7 +159,8 @@ status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
                  .gamma = gamma,
                  .beta = half * half,
                  .a0 = calloc(4 * n, sizeof(double))};
-    if (s->a0 == NULL)
+    s->mean = calloc(s->strains + 1, sizeof *s->mean);
+    if (s->a0 == NULL || s->mean == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     s->v0 = s->a0 + n;
     s->inc = s->v0 + n;
