@@ -8,6 +8,7 @@
 #include "harness/algebra/memory.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/motion/account.h"
 #include "harness/motion/balance.h"
 #include "harness/motion/checks.h"
 #include "harness/motion/frames.h"
@@ -47,8 +48,10 @@ typedef struct motion {
     outcome_motion *out;
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
     int looked_ahead;                                      /* 1: ahead is known */
-    double largest;                                        /* energy so far [J] */
-    int quiet; /* steps since what acts was last smooth no longer */
+    account account;
+    double rounding; /* [J] energy that is none */
+    int quiet;       /* steps since what acts was last smooth no longer */
+    int unjudged;    /* steps whose balance was not yet looked at */
 } motion;
 
 static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
@@ -73,7 +76,7 @@ static status record_step(motion *w, const step_record *record, double error, fa
     else
         TRY(balance_at(w, &w->now, w->balance, f));
     w->looked_ahead = 0;
-    w->largest = fmax(w->largest, w->balance[SCENE_ENERGY]);
+    account_take(&w->account, w->out->steps, w->balance);
     w->quiet += w->out->steps > 0 || w->from == NULL;
     memcpy(one.balance, w->balance, sizeof one.balance);
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
@@ -103,20 +106,27 @@ static int allowed(motion *w, double step, double error)
     return error <= w->how->tolerance;
 }
 
-/* Generalized-alpha may make energy from nothing where modes are not resolved: 1 of what there is
- * in a hundred is too much for one step. Steps that stay as they are, and the first ones behind a
- * jump of what acts, are not looked at. */
+/* The first steps behind a jump of what acts make energy by alpha however short they are. */
+static int looks(const motion *w)
+{
+    return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
+}
+
+/* Steps make energy from nothing where modes are not resolved; shorter ones make less. *grows: more
+ * than may be, by this step or with those before it. Steps that stay as they are are not looked at.
+ */
 static status watch(motion *w, int *grows, fault *f)
 {
-    enum { FIRST = 10 };
-    const double most = 0.01;
     *grows = 0;
-    if (w->how->scheme != SCENE_ALPHA || w->how->tolerance <= 0 || w->quiet < FIRST)
+    if (!looks(w))
         return STATUS_OK;
     TRY(balance_at(w, &w->next, w->ahead, f));
     w->looked_ahead = 1;
-    *grows = w->ahead[SCENE_DRIFT] - w->balance[SCENE_DRIFT] >
-             most * fmax(w->largest, w->ahead[SCENE_ENERGY]);
+    account ahead = w->account;
+    account_take(&ahead, w->out->steps, w->ahead);
+    const double most = account_most(&ahead, account_gained, w->rounding),
+                 drift = w->ahead[SCENE_DRIFT], gain = drift - w->balance[SCENE_DRIFT];
+    *grows = gain > most || (gain > 0 && drift > most);
     return STATUS_OK;
 }
 
@@ -176,6 +186,18 @@ static status jump(motion *w, fault *f)
     return peaks_here(&w->peaks, &w->now, w->balance, 0, f);
 }
 
+/* Of the instant that a step has come to. The first ones behind the begin and behind a jump of what
+ * acts are judged by those that follow, unless jumps are too many for that. */
+static status judge(motion *w, double end, fault *f)
+{
+    if (w->quiet <= ACCOUNT_STEPS && w->unjudged < 2 * ACCOUNT_STEPS && w->now.time < end) {
+        w->unjudged++;
+        return STATUS_OK;
+    }
+    w->unjudged = 0;
+    return account_judge(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
+}
+
 static status integrate(motion *w, fault *f)
 {
     const scene_path *path = &w->how->path;
@@ -186,13 +208,14 @@ static status integrate(motion *w, fault *f)
     while (w->now.time < end) {
         const double kink = kinks_next(w->c->model, w->now.time);
         TRY(take_step(w, fmin(end, kink), f));
+        TRY(judge(w, end, f));
         w->quiet *= w->now.time != kink;
         if (w->now.time == kink)
             TRY(jump(w, f));
         TRY(stations_here(&w->stations, &w->now, w->balance, f));
     }
     return resume_keep(w->c, w->analysis, &w->now,
-                       &(resume_control){w->h, w->largest, w->out->origin, w->quiet}, w->out, f);
+                       &(resume_control){w->h, w->account, w->out->origin, w->quiet}, w->out, f);
 }
 
 /* Where the motion before it stopped; of another scheme or step: in the same scene only. */
@@ -206,7 +229,7 @@ static status go_on(motion *w, fault *f)
     w->out->origin = control.origin;
     if (former->step == w->how->step && former->tolerance == w->how->tolerance)
         w->h = control.step;
-    w->largest = control.largest;
+    w->account = control.account;
     w->quiet = control.quiet;
     return former->scheme != w->how->scheme
                ? launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f)
@@ -259,6 +282,7 @@ static status solve(motion *w, fault *f)
     TRY(damping_begin(w->c->model, &w->damping, f));
     TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
+    w->rounding = balance_rounding(m);
     TRY(integrator_alloc(&request, &w->scheme, f));
     TRY(instant_alloc(m, &w->now, f));
     TRY(instant_alloc(m, &w->next, f));

@@ -50,7 +50,8 @@ static status copy(const model *m, int analysis, const instant *now, const resum
                          .step = control->step,
                          .work = now->work,
                          .dissipated = now->dissipated,
-                         .largest = control->largest,
+                         .largest = control->account.largest,
+                         .turned = control->account.turned,
                          .origin = control->origin,
                          .stress = now->stress,
                          .contraction = now->contraction,
@@ -131,6 +132,6 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     now->dissipated = e->dissipated;
     now->stress = e->stress;
     now->contraction = e->contraction;
-    *control = (resume_control){e->step, e->largest, e->origin, e->quiet};
+    *control = (resume_control){e->step, {e->largest, e->turned, e->work}, e->origin, e->quiet};
     return STATUS_OK;
 }

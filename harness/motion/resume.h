@@ -2,15 +2,16 @@
 #ifndef BEAMWORK_RESUME_H
 #define BEAMWORK_RESUME_H
 
+#include "harness/motion/account.h"
 #include "harness/scheme/instant.h"
 #include "harness/solver/context.h"
 
 /* What its steps depend on. */
 typedef struct resume_control {
-    double step;    /* [s] the next one */
-    double largest; /* [J] energy so far */
-    double origin;  /* [J] energy at the begin */
-    int quiet;      /* steps since what acts was last smooth no longer */
+    double step; /* [s] the next one */
+    account account;
+    double origin; /* [J] energy at the begin */
+    int quiet;     /* steps since what acts was last smooth no longer */
 } resume_control;
 
 /* For a motion of the scene that goes on from this one, or, of the last one, for another run

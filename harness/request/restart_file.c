@@ -11,8 +11,8 @@
 #include "harness/truth/checksum.h"
 #include "harness/truth/handles.h"
 
-static const char kind[] = "beamwork-motion-end-2";
-enum { RUN = 3, NUMBERS = 16, MOST_ENDS = 1000 };
+static const char kind[] = "beamwork-motion-end-3";
+enum { RUN = 3, NUMBERS = 17, MOST_ENDS = 1000 };
 
 static void to_numbers(const outcome_end *e, double out[NUMBERS])
 {
@@ -31,7 +31,8 @@ static void to_numbers(const outcome_end *e, double out[NUMBERS])
                                   (double)e->coordinates,
                                   (double)e->strains,
                                   (double)e->released,
-                                  (double)e->between};
+                                  (double)e->between,
+                                  e->turned};
     memcpy(out, list, sizeof list);
 }
 
@@ -52,7 +53,8 @@ static void of_numbers(const double in[NUMBERS], outcome_end *e)
                        .coordinates = (size_t)in[12],
                        .strains = (size_t)in[13],
                        .released = (size_t)in[14],
-                       .between = (size_t)in[15]};
+                       .between = (size_t)in[15],
+                       .turned = in[16]};
 }
 
 static void put_values(record *r, const char *name, size_t count, const double value[])
@@ -159,7 +161,7 @@ static status read_end(const source *from, int i, outcome_end *out, fault *f)
     double *numbers = take_values(from, name, NUMBERS);
     int good = numbers != NULL && whole(numbers[0], MOST_ENDS) && whole(numbers[10], 1e9) &&
                isfinite(numbers[1]) && numbers[2] > 0 && isfinite(numbers[2]);
-    for (int k = 11; good && k < NUMBERS; k++)
+    for (int k = 11; good && k < NUMBERS - 1; k++)
         good = whole(numbers[k], 1e12);
     if (good) {
         of_numbers(numbers, out);

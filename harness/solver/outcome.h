@@ -95,6 +95,7 @@ typedef struct outcome_end {
     double path;                /* of the state */
     double work, dissipated;    /* [J] since the begin */
     double largest, origin;     /* [J] largest energy so far; that of the begin */
+    double turned;              /* [J] sum of the work of all steps, whatever their signs */
     double stress, contraction; /* of arrival.h */
     int quiet;                  /* steps since what acts was last smooth no longer */
     size_t states, coordinates, strains, released, between;

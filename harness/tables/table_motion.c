@@ -4,6 +4,7 @@
 
 #include "cases/scene/along_path.h"
 #include "cases/scene/names.h"
+#include "harness/motion/account.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 2 };
@@ -78,6 +79,29 @@ static void energy_line(FILE *to, const extent *e)
     paragraph_end(&words, at, INDENT);
 }
 
+/* Energy that the integrator has lost, the largest part of what there was. */
+static void damping_line(FILE *to, const extent *e)
+{
+    account so_far = {.largest = 0};
+    double part = 0, lost = 0, of = 0, when = 0;
+    for (int i = e->first; i < e->end; i++) {
+        const outcome_step *one = &e->record[i].at;
+        account_take(&so_far, i - e->first, one->balance);
+        const double size = account_size(&so_far), missing = -one->balance[SCENE_DRIFT];
+        if ((i - e->first < ACCOUNT_STEPS && i < e->end - 1) || !(missing > part * size))
+            continue;
+        part = missing / size;
+        lost = missing;
+        of = size;
+        when = one->time;
+    }
+    if (part > account_stated)
+        paragraph_say(to, fprintf(to, "numerical damping: "), INDENT,
+                      "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
+                      "less with a smaller step or tolerance",
+                      when, lost, 100 * part, of);
+}
+
 /* How far a vector moves from what it is at the begin. */
 static double change_of(const extent *e, int of)
 {
@@ -136,6 +160,7 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
         steps_line(to, &e, path->value[path->stations - 1]);
         jump_lines(to, s, r->motion[e.first].path);
         energy_line(to, &e);
+        damping_line(to, &e);
         momentum_line(to, &e);
     }
     if (r->motions > 0)
