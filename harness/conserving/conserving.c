@@ -128,12 +128,11 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     conserving_damped(s, from, h, to);
     to->time = record->path;
     to->work += conserving_impulses(s, from, h, to);
-    double square = 0; /* of the trapezoidal rule: h^2/12 (a1 - a) */
-    for (int c = 0; c < s->free; c++) {
-        const double one = h * h / 12 * (to->a[c] - from->a[c]);
-        square += s->weight[c] * one * one;
-    }
-    *error = sqrt(square);
+    if (!s->massive.ready)
+        TRY(massive_of(m, s->of.masses, from->state, &s->massive, f));
+    for (int c = 0; c < s->free; c++) /* of the trapezoidal rule: h^2/12 (a1 - a) */
+        s->dx[c] = h * h / 12 * (to->a[c] - from->a[c]);
+    *error = massive_norm(&s->massive, m, s->weight, s->dx);
     return STATUS_OK;
 }
 
@@ -146,6 +145,7 @@ static void release(scheme *base)
     free(s->W);
     free(s->evaluation);
     complement_free(s->complement);
+    massive_free(&s->massive);
     free(s);
 }
 

@@ -7,6 +7,7 @@
 #include "harness/model/model_impl.h"
 #include "harness/model/spring.h"
 #include "harness/scheme/complement.h"
+#include "harness/scheme/massive.h"
 #include "harness/scheme/scheme.h"
 #include "harness/solver/arrival.h"
 
@@ -22,6 +23,7 @@ typedef struct conserving {
                      ends keep to themselves the increments, of balls c */
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */
     double *weight;
+    massive massive;
     int strains;      /* most of an element or a spring */
     double *W;        /* [deformables x strains^2] mean of P'' at the ends of the step */
     double *C;        /* [deformables x strains^2] P''(e_n) */

@@ -9,12 +9,14 @@
 #include "harness/model/model_impl.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
+#include "harness/scheme/massive.h"
 #include "harness/scheme/stage.h"
 
 typedef struct alpha {
     scheme base;
     stage stage;
     work *work;
+    massive massive;
     size_t strains;                  /* of elements that are damped: elements x strains, or 0 */
     double *mean;                    /* [strains] their rates over a step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
@@ -39,15 +41,18 @@ static void relate(alpha *s, const instant *from, double h, stage_rates *r)
     }
 }
 
-static double error_of(const alpha *s, const instant *from, const instant *to, double h)
+static status error_of(alpha *s, const instant *from, const instant *to, double h, double *error,
+                       fault *f)
 {
+    const model *m = s->stage.c->model;
     const double part = h * h * fabs(s->beta + (s->mass - s->force) / 2 - 1 / 6.0);
-    double square = 0;
-    for (int i = 0; i < s->stage.free; i++) {
-        const double one = part * (to->algorithm[i] - from->algorithm[i]);
-        square += s->weight[i] * one * one;
-    }
-    return sqrt(square);
+    double *one = s->v0;
+    if (!s->massive.ready)
+        TRY(massive_of(m, s->stage.masses, from->state, &s->massive, f));
+    for (int i = 0; i < s->stage.free; i++)
+        one[i] = part * (to->algorithm[i] - from->algorithm[i]);
+    *error = massive_norm(&s->massive, m, s->weight, one);
+    return STATUS_OK;
 }
 
 /* Strains of what is damped move as positions do: what their rates are without the increment. */
@@ -125,14 +130,14 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     to->time = time;
     to->work = from->work + work_trapezoid(s->work, from, to, s->inc);
     damp(s, from, h, to);
-    *error = error_of(s, from, to, h);
-    return STATUS_OK;
+    return error_of(s, from, to, h, error, f);
 }
 
 static void release(scheme *base)
 {
     alpha *s = (alpha *)base;
     stage_free(&s->stage);
+    massive_free(&s->massive);
     free(s->a0);
     free(s->mean);
     free(s);
