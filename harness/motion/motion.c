@@ -6,6 +6,7 @@
 
 #include "elements/math/larger.h"
 #include "harness/algebra/memory.h"
+#include "harness/equations/linearise.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/account.h"
@@ -253,8 +254,10 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
     memset(frame, 0, sizeof *frame);
     w->h = w->how->step;
     TRY(find_end(w, f));
-    if (w->from != NULL || follows == SCENE_NONE)
-        return w->from != NULL ? go_on(w, f) : STATUS_OK;
+    if (w->from != NULL)
+        return go_on(w, f);
+    if (follows == SCENE_NONE) /* members may have strains by themselves */
+        return linearise_make_compatible(w->c->model, w->now.state, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
     if (before->status != STATUS_OK || path->reached < path->stations)
