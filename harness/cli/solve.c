@@ -18,6 +18,24 @@
 #include "harness/tables/table_follow.h"
 #include "harness/tables/table_solution.h"
 
+/* One solution from what is asked for to what is known of it. */
+typedef struct work {
+    solution_request what;
+    solution_choice why;
+    char note[DEFAULTS_NOTE];
+    restart from;
+    sweep s;
+    truths t;
+} work;
+
+static void work_free(work *w)
+{
+    sweep_free(&w->s);
+    truths_free(&w->t);
+    restart_free(&w->from);
+    solution_choice_free(&w->why);
+}
+
 /* note: lines on what was chosen for the user, before what is read by people. */
 static status write_to(FILE *to, const command_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
@@ -121,7 +139,7 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
     TRY(files_check(r, 0, case_input_truths_path(r), f));
-    TRY(defaults_fill(r, type, note, f));
+    TRY(defaults_fill(r, type, note, NULL, f));
     cell_formulation(&what.cell, &r->formulation[0]);
     what.cell.elements = r->mesh[0];
     what.cell.solve.steps_between = r->steps;
@@ -165,22 +183,25 @@ static status check_matrices(const command_request *r, const scene *s, fault *f)
 }
 
 /* What is needed before the solution; solve_request frees it. */
-static status prepare(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
-                      restart *from, solution_request *what, sweep *s, truths *t, fault *f)
+static status prepare(command_request *r, const case_type *type, work *w, fault *f)
 {
+    if (r->error != NULL && (r->meshes > 0 || r->restart != NULL))
+        return fault_set(f, STATUS_REFUSED,
+                         "--error is met by the choice of the mesh: leave it out, or %s",
+                         r->meshes > 0 ? "-n" : "--restart");
     TRY(files_check(r, r->shapes > 0, case_input_truths_path(r), f));
-    const status known = case_input_truths(r, t, f);
+    const status known = case_input_truths(r, &w->t, f);
     if (known != STATUS_OK && r->truths == NULL && r->scene == NULL)
         fprintf(stderr, "beamwork: without truths: %s\n", f->text); /* a solution needs none */
     else
         TRY(known);
     if (r->restart != NULL)
-        TRY(take_restart(r, from, f));
-    TRY(defaults_fill(r, type, note, f));
-    *what = defaults_request(r, type);
-    TRY(solution_plan(what, s, f));
-    TRY(check_matrices(r, &s->point[0].scene, f));
-    return prepare_ends(r, from, what, &s->point[0].scene, f);
+        TRY(take_restart(r, &w->from, f));
+    TRY(defaults_fill(r, type, w->note, &w->why, f));
+    w->what = defaults_request(r, type);
+    TRY(solution_plan(&w->what, &w->s, f));
+    TRY(check_matrices(r, &w->s.point[0].scene, f));
+    return prepare_ends(r, &w->from, &w->what, &w->s.point[0].scene, f);
 }
 
 /* Of motions that came to their ends. */
@@ -195,12 +216,11 @@ static status write_ends(const command_request *r, const solution_request *what,
     return STATUS_OK;
 }
 
-static status write_all(const command_request *r, const char *note, const solution_request *what,
-                        const sweep *s, const truths *t, fault *f)
+static status write_all(const command_request *r, const work *w, fault *f)
 {
-    TRY(write_out(r, note, s, t, f));
-    TRY(write_ends(r, what, s, f));
-    return write_matrices(r, s, f);
+    TRY(write_out(r, w->note, &w->s, &w->t, f));
+    TRY(write_ends(r, &w->what, &w->s, f));
+    return write_matrices(r, &w->s, f);
 }
 
 /* What has no value does not take the others with it, and is told all the same. That a mesh has no
@@ -218,29 +238,25 @@ static int tell_missing(status solved, const cell_result *cell, const fault *f)
 }
 
 /* Solved in this process. */
-static int solve_and_write(const command_request *r, const char *note, const solution_request *what,
-                           sweep *s, const truths *t)
+static int solve_and_write(const command_request *r, work *w)
 {
     fault f = {""}, unwritten = {""};
-    case_input_tell_analysis(r, &s->point[0].scene);
-    guard_formulation(&what->formulation, r->time_limit);
-    supports_told(r->scene, r->parameter, &what->formulation, &s->point[0].scene);
-    const status solved = solution_run(what, s, &f);
-    const cell_result *cell = &s->series[0].cell[0];
+    const scene *s = &w->s.point[0].scene;
+    case_input_tell_analysis(r, s);
+    guard_formulation(&w->what.formulation, r->time_limit);
+    supports_told(r->scene, r->parameter, &w->what.formulation, s);
+    const status solved = solution_run(&w->what, &w->why, &w->s, &f);
+    const cell_result *cell = &w->s.series[0].cell[0];
     if (solved == STATUS_FAULT || (solved == STATUS_REFUSED && cell_values(cell) == 0))
         return message_fail(solved, f.text);
-    const status written = write_all(r, note, what, s, t, &unwritten);
+    const status written = write_all(r, w, &unwritten);
     return written != STATUS_OK ? message_fail(written, unwritten.text)
                                 : tell_missing(solved, cell, &f);
 }
 
 static int solve_request(command_request *r)
 {
-    sweep s = {0};
     fault f = {""};
-    truths t = {0};
-    char note[DEFAULTS_NOTE];
-    restart from = {.ends = 0};
     const case_type *type = case_input_find(r);
     if (type == NULL)
         return r->refusal;
@@ -251,13 +267,10 @@ static int solve_request(command_request *r)
         return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
         return message_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
-    solution_request what;
-    const status ready = prepare(r, type, note, &from, &what, &s, &t, &f);
-    const int code =
-        ready == STATUS_OK ? solve_and_write(r, note, &what, &s, &t) : message_fail(ready, f.text);
-    sweep_free(&s);
-    truths_free(&t);
-    restart_free(&from);
+    work w = {.from = {.ends = 0}};
+    const status ready = prepare(r, type, &w, &f);
+    const int code = ready == STATUS_OK ? solve_and_write(r, &w) : message_fail(ready, f.text);
+    work_free(&w);
     return code;
 }
 
@@ -266,9 +279,11 @@ int cli_solve(int count, char **arguments)
     return command_run(
         "solve", "CASE",
         "Solves one case with one formulation and one mesh and shows every quantity with its "
-        "error. Without -n elements are refined until no value changes by more than 0.1 % from "
-        "the mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s of counted "
-        "work. Without -f as well it is done with up to five formulations that offer what the "
+        "error. Without -n elements are refined until no value changes by more than 0.1 % "
+        "(--error) from the mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s "
+        "of counted work; where values change still, the status is not_converged. Digits end where "
+        "values change. Without -f as well it is done with up to five formulations that offer what "
+        "the "
         "case needs and have no known defect there, the cheapest next mesh first, and the first "
         "that settles is taken; with -n the one of the highest order. The output says which, and "
         "why. An analysis that no quantity reads is not run, unless a "
@@ -279,5 +294,5 @@ int cli_solve(int count, char **arguments)
         "beamwork solve c_column -k buckling_load\n"
         "beamwork solve pendulum -f collocation -n 8 --set time=1 --ends pendulum.h5\n"
         "beamwork solve pendulum --set time=2 --restart pendulum.h5",
-        "fnskFoKSPRVtTYL45.", count, arguments, solve_request);
+        "fnskFoKSPRVtTYL45e.", count, arguments, solve_request);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "harness/command/case_input.h"
+#include "harness/command/errors.h"
 #include "harness/request/solution.h"
 
 solution_request defaults_request(const command_request *r, const case_type *type)
@@ -48,17 +49,19 @@ static void take(command_request *r, const solution_request *chosen, const solut
 }
 
 static status choose(command_request *r, const case_type *type, int elements,
-                     char note[DEFAULTS_NOTE], fault *f)
+                     char note[DEFAULTS_NOTE], solution_choice *why, fault *f)
 {
     truths ledger = {0};
-    solution_choice why;
+    int levels;
     solution_request wanted = defaults_request(r, type);
+    if (elements && r->error != NULL)
+        TRY(errors_parse(r->error, 1, &wanted.error, &levels, f));
     if (r->formulations == 0)
         truths_read_rules(case_input_truths_path(r), &ledger, NULL); /* it may be missing */
-    const status outcome = solution_choose(&wanted, ledger.rule, ledger.rules, elements, &why, f);
+    const status outcome = solution_choose(&wanted, ledger.rule, ledger.rules, elements, why, f);
     truths_free(&ledger);
     TRY(outcome);
-    take(r, &wanted, &why, note);
+    take(r, &wanted, why, note);
     return STATUS_OK;
 }
 
@@ -66,11 +69,21 @@ status defaults_formulation(command_request *r, const case_type *type, char note
                             fault *f)
 {
     note[0] = '\0';
-    return r->formulations > 0 ? STATUS_OK : choose(r, type, 0, note, f);
+    solution_choice why = {.formulation = ""};
+    return r->formulations > 0 ? STATUS_OK : choose(r, type, 0, note, &why, f);
 }
 
-status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE], fault *f)
+status defaults_fill(command_request *r, const case_type *type, char note[DEFAULTS_NOTE],
+                     solution_choice *why, fault *f)
 {
+    solution_choice own = {.formulation = ""};
     note[0] = '\0';
-    return r->formulations > 0 && r->meshes > 0 ? STATUS_OK : choose(r, type, 1, note, f);
+    if (why != NULL)
+        *why = (solution_choice){.formulation = ""};
+    if (r->formulations > 0 && r->meshes > 0)
+        return STATUS_OK;
+    const status outcome = choose(r, type, 1, note, why != NULL ? why : &own, f);
+    if (why == NULL)
+        solution_choice_free(&own);
+    return outcome;
 }

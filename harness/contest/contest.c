@@ -72,7 +72,7 @@ static status against_meshes(command_request *r, const case_type *type, int is_p
 {
     scene s = {0};
     char note[DEFAULTS_NOTE];
-    TRY(defaults_fill(r, type, note, f));
+    TRY(defaults_fill(r, type, note, NULL, f));
     if (r->format[0] == 't')
         fputs(note, stdout);
     const status outcome = (is_program ? against_program : compete)(r, type, &s, f);

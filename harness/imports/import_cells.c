@@ -107,7 +107,7 @@ static int make_cells(const scene *s, series *one)
             return 0;
         r->quantities = s->quantities;
         for (int q = 0; q < s->quantities; q++) {
-            r->quantity[q].value = r->quantity[q].x = NAN;
+            r->quantity[q].value = r->quantity[q].x = r->quantity[q].change = NAN;
             r->quantity[q].status = STATUS_NO_VALUE;
             strcpy(r->quantity[q].reason, "not in the file");
         }

@@ -9,6 +9,7 @@
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
+#include "harness/judge/change.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 #include "harness/timing/price.h"
@@ -197,41 +198,6 @@ status preference_formulation(const scene *s, const rule_subject *where, const r
     return STATUS_OK;
 }
 
-/* Largest relative change of a value, and of which quantity (-1: none changed); infinite where one
- * has none that the other has. */
-static double change_of(const scene *s, const solve_result *a, const solve_result *b, int *which)
-{
-    double largest = 0;
-    *which = -1;
-    for (int q = 0; q < s->quantities; q++) {
-        const double x = q < a->quantities ? a->quantity[q].value : (double)NAN,
-                     y = q < b->quantities ? b->quantity[q].value : (double)NAN;
-        if (s->quantity[q].reduction == SCENE_CURVE || (isnan(x) && isnan(y)))
-            continue;
-        const double change =
-            isnan(x) || isnan(y) ? INFINITY : fabs(verdict_error(&s->quantity[q], y, x));
-        if (change > largest) {
-            largest = change;
-            *which = q;
-        }
-    }
-    return largest;
-}
-
-/* Of a mesh from the one before it. */
-typedef struct step {
-    double change; /* INFINITY: not known */
-    int which;     /* quantity, -1: none */
-} step;
-
-static step step_between(const scene *s, const cell_result *before, const cell_result *now)
-{
-    step out = {INFINITY, -1};
-    if (cell_values(before) > 0 && cell_values(now) > 0)
-        out.change = change_of(s, &before->solve, &now->solve, &out.which);
-    return out;
-}
-
 /* Of a path of which a coarse mesh may follow another branch. */
 static int met_unstable(const solve_result *r)
 {
@@ -245,24 +211,35 @@ static int met_unstable(const solve_result *r)
 typedef struct runner {
     cell_request request;
     formulation chosen;
-    cell_result cell[2]; /* of the last meshes, in turn */
-    step last;
+    cell_result cell[2];         /* of the last meshes, in turn */
+    double asked;                /* change that counts as none */
+    change last;                 /* from mesh to mesh */
     int tried, before, elements; /* meshes; elements of the last two */
     int unstable;                /* one met unstable states, which finer ones may not pass */
     double cost, next;           /* of the last mesh; what the next one may cost [s] */
 } runner;
 
-static void begin(runner *r, const cell_request *request, const formulation *chosen)
+static status begin(runner *r, const cell_request *request, const formulation *chosen, double asked,
+                    fault *f)
 {
+    const int quantities = request->scene->quantities;
     memset(r, 0, sizeof *r);
     r->request = *request;
     r->chosen = *chosen;
+    r->asked = asked;
     cell_formulation(&r->request, chosen);
-    r->last = (step){INFINITY, -1};
+    r->last = (change){.largest = INFINITY, .which = -1};
+    r->last.of_each = malloc(((size_t)quantities + 1) * sizeof *r->last.of_each);
+    if (r->last.of_each == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+    for (int i = 0; i < quantities; i++)
+        r->last.of_each[i] = NAN;
+    return STATUS_OK;
 }
 
 static void end(runner *r)
 {
+    free(r->last.of_each);
     cell_result_free(&r->cell[0]);
     cell_result_free(&r->cell[1]);
 }
@@ -273,16 +250,17 @@ static int next_mesh(const scene *s, const runner *r)
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
 }
 
-static int settled(const runner *r)
+static int settled(const scene *s, const runner *r)
 {
-    return r->last.change <= PREFERENCE_SETTLED && !r->unstable;
+    const int sure = !r->unstable && !r->last.missing;
+    return r->last.largest <= r->asked && (sure || r->tried >= s->meshes);
 }
 
 /* Is another mesh too much? */
 static int exhausted(const scene *s, const runner *r)
 {
-    const int tells = r->tried < 2 ||
-                      (isfinite(r->last.change) && !r->unstable); /* what finer ones would settle */
+    const int tells = r->tried < 2 || (isfinite(r->last.largest) &&
+                                       !r->unstable); /* what finer ones would settle */
     return r->tried >= s->meshes &&
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
@@ -297,7 +275,7 @@ static void refine(const scene *s, runner *r)
     r->request.elements = r->elements = next_mesh(s, r);
     cell_run(&r->request, now, &f); /* one that fails is not settled */
     if (r->tried > 0)
-        r->last = step_between(s, &r->cell[(r->tried + 1) % 2], now);
+        change_between(s, &r->cell[(r->tried + 1) % 2], now, &r->last);
     r->unstable |= met_unstable(&now->solve);
     r->cost = price_cost(&r->chosen, now);
     r->next = 2 * r->cost;
@@ -316,70 +294,95 @@ static runner *race(const scene *s, runner of[], int count)
         if (cheapest == NULL)
             return NULL;
         refine(s, cheapest);
-        if (settled(cheapest))
+        if (settled(s, cheapest))
             return cheapest;
     }
 }
 
 static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
 {
-    if (r->last.change <= PREFERENCE_SETTLED && !r->unstable)
+    if (settled(s, r))
         snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
-                 100 * r->last.change, r->before);
-    else if (isfinite(r->last.change) && r->last.which >= 0)
-        snprintf(why, FAULT_TEXT, "the finest mesh that was tried; %s still changed by %.2g %%",
-                 s->quantity[r->last.which].name, 100 * r->last.change);
+                 100 * r->last.largest, r->before);
+    else if (isfinite(r->last.largest) && r->last.which >= 0)
+        snprintf(why, FAULT_TEXT,
+                 "the finest mesh that was tried; %s still changed by %.2g %% from n = %d",
+                 s->quantity[r->last.which].name, 100 * r->last.largest, r->before);
     else
         snprintf(why, FAULT_TEXT, "the finest mesh that was tried%s",
                  r->unstable ? "; coarser ones met unstable states" : "");
 }
 
 /* Of none that settled: the one that changed least. */
-static const runner *calmest(const runner of[], int count)
+static runner *calmest(runner of[], int count)
 {
-    const runner *out = &of[0];
+    runner *out = &of[0];
     for (int i = 1; i < count; i++)
-        if (of[i].last.change < out->last.change)
+        if (of[i].last.largest < out->last.largest)
             out = &of[i];
     return out;
 }
 
-int preference_elements(const cell_request *request, const formulation *chosen,
-                        char why[FAULT_TEXT])
+/* What a runner found; its changes go to *out. */
+static void keep(const scene *s, runner *r, preference *out)
+{
+    out->chosen = r->chosen;
+    out->elements = r->elements;
+    out->short_of = !settled(s, r) && r->last.which >= 0;
+    out->change = r->last.of_each;
+    r->last.of_each = NULL;
+    tell_elements(s, r, out->why_elements);
+}
+
+void preference_free(preference *p)
+{
+    free(p->change);
+    p->change = NULL;
+}
+
+status preference_elements(const cell_request *request, const formulation *chosen, double asked,
+                           preference *out, fault *f)
 {
     runner one;
-    begin(&one, request, chosen);
+    *out = (preference){.why_formulation = ""};
+    TRY(begin(&one, request, chosen, asked, f));
     race(request->scene, &one, 1);
-    tell_elements(request->scene, &one, why);
+    keep(request->scene, &one, out);
     end(&one);
-    return one.elements;
+    return STATUS_OK;
+}
+
+/* Of all candidates, the first that settles. */
+static void choose(const scene *s, runner of[], int count, preference *out)
+{
+    runner *first = race(s, of, count);
+    keep(s, first != NULL ? first : calmest(of, count), out);
+    if (first != NULL && count > 1) {
+        const size_t used = strlen(out->why_formulation);
+        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", settled first of %d", count);
+    }
 }
 
 status preference_both(const cell_request *request, const rule_subject *where, const rule *rules,
-                       int count, preference *out, fault *f)
+                       int count, double asked, preference *out, fault *f)
 {
     candidates all;
+    int begun = 0;
+    status outcome = STATUS_OK;
+    *out = (preference){.why_formulation = ""};
     TRY(find(request->scene, where, rules, count, &all, out->why_formulation, f));
     runner *of = malloc(((size_t)all.count + 1) * sizeof *of);
     if (of == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a choice");
-    for (int i = 0; i < all.count; i++) {
+    for (; begun < all.count && outcome == STATUS_OK; begun++) {
         formulation one;
-        formulation_default(all.type[i], &one);
-        begin(&of[i], request, &one);
+        formulation_default(all.type[begun], &one);
+        outcome = begin(&of[begun], request, &one, asked, f);
     }
-    const runner *first = race(request->scene, of, all.count),
-                 *best = first != NULL ? first : calmest(of, all.count);
-    out->chosen = best->chosen;
-    out->elements = best->elements;
-    tell_elements(request->scene, best, out->why_elements);
-    if (first != NULL && all.count > 1) {
-        const size_t used = strlen(out->why_formulation);
-        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", settled first of %d",
-                 all.count);
-    }
-    for (int i = 0; i < all.count; i++)
+    if (outcome == STATUS_OK)
+        choose(request->scene, of, all.count, out);
+    for (int i = 0; i < begun; i++)
         end(&of[i]);
     free(of);
-    return STATUS_OK;
+    return outcome;
 }

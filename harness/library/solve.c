@@ -17,6 +17,7 @@ static status read_options(const char *json, solution_request *out, fault *f)
                                  {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
                                  {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
                                  {"threads", OPTION_WHOLE, &out->threads, 1, TEAM_MOST},
+                                 {"error", OPTION_SHARE, &out->error, 0, 0},
                                  {.name = NULL}};
     json_t *kept;
     const status outcome = options_read(json, table, &kept, f);
@@ -37,16 +38,16 @@ static status know(bw_result *r, const double parameter[], fault *f)
 }
 
 /* Formulation and elements, given or chosen. */
-static status choose(const bw_result *r, const char *name, solution_request *out, fault *f)
+static status choose(const bw_result *r, const char *name, solution_request *out,
+                     solution_choice *why, fault *f)
 {
-    solution_choice why;
     const truths *ledger = NULL;
     if (name != NULL)
         TRY(formulation_parse(name, &out->formulation, f));
     else
         source_known(r->from, &ledger, NULL);
     return solution_choose(out, ledger != NULL ? ledger->rule : NULL,
-                           ledger != NULL ? ledger->rules : 0, 1, &why, f);
+                           ledger != NULL ? ledger->rules : 0, 1, why, f);
 }
 
 static double error_of(const subject *s)
@@ -78,13 +79,13 @@ static status compare(bw_result *r, fault *f)
 
 /* *solved: how the solution ended, in f too. */
 static status fill(bw_result *r, const bw_scene *from, const char *name, solution_request *what,
-                   status *solved, fault *f)
+                   solution_choice *why, status *solved, fault *f)
 {
     fault lost = {""};
     TRY(know(r, from->parameter, f));
-    TRY(choose(r, name, what, f));
+    TRY(choose(r, name, what, why, f));
     TRY(solution_plan(what, &r->sweep, f));
-    *solved = solution_run(what, &r->sweep, f);
+    *solved = solution_run(what, why, &r->sweep, f);
     if (*solved == STATUS_REFUSED || *solved == STATUS_FAULT)
         return *solved;
     const status compared = compare(r, &lost);
@@ -112,7 +113,9 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
     if (r == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a result");
     r->from = source_hold(from->from);
-    const status filled = fill(r, from, name, &what, &solved, f);
+    solution_choice why = {.formulation = ""};
+    const status filled = fill(r, from, name, &what, &why, &solved, f);
+    solution_choice_free(&why);
     if (filled == STATUS_OK)
         *out = r;
     else

@@ -1,5 +1,7 @@
 #include "harness/request/solution.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/judge/preference.h"
@@ -17,10 +19,29 @@ static cell_request cell_of(const solution_request *r, const scene *s)
     return out;
 }
 
+void solution_choice_free(solution_choice *why)
+{
+    free(why->change);
+    why->change = NULL;
+}
+
+/* What was preferred becomes what is asked for. */
+static void take(solution_request *r, preference *p, solution_choice *why)
+{
+    r->formulation = p->chosen;
+    r->elements = p->elements;
+    memcpy(why->formulation, p->why_formulation, sizeof why->formulation);
+    memcpy(why->elements, p->why_elements, sizeof why->elements);
+    why->short_of = p->short_of;
+    why->change = p->change;
+    p->change = NULL;
+}
+
 /* With a scene that solution_choose frees. */
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)
 {
+    const double asked = r->error > 0 ? r->error : PREFERENCE_ERROR;
     TRY(cell_scene(r->type, r->parameter, NULL, s, f));
     TRY(narrow_scene(s, r->type, r->parameter, &r->formulation, r->select, f));
     if (r->systems)
@@ -28,20 +49,15 @@ static status choose(solution_request *r, const rule *rules, int count, int elem
     const rule_subject where = {
         .type = r->type, .parameter = r->parameter, .features = features_needed(s)};
     const cell_request cell = cell_of(r, s);
-    if (r->formulation.type == NULL && elements && r->elements == 0) {
-        preference both;
-        TRY(preference_both(&cell, &where, rules, count, &both, f));
-        r->formulation = both.chosen;
-        r->elements = both.elements;
-        memcpy(why->formulation, both.why_formulation, sizeof why->formulation);
-        memcpy(why->elements, both.why_elements, sizeof why->elements);
-        return STATUS_OK;
-    }
-    if (r->formulation.type == NULL)
+    preference found;
+    if (r->formulation.type == NULL && !(elements && r->elements == 0))
         return preference_formulation(s, &where, rules, count, &r->formulation, why->formulation,
                                       f);
-    if (elements && r->elements == 0)
-        r->elements = preference_elements(&cell, &r->formulation, why->elements);
+    if (r->formulation.type == NULL)
+        TRY(preference_both(&cell, &where, rules, count, asked, &found, f));
+    else
+        TRY(preference_elements(&cell, &r->formulation, asked, &found, f));
+    take(r, &found, why);
     return STATUS_OK;
 }
 
@@ -49,7 +65,7 @@ status solution_choose(solution_request *r, const rule *rules, int count, int el
                        solution_choice *why, fault *f)
 {
     scene s = {0};
-    *why = (solution_choice){"", ""};
+    *why = (solution_choice){.formulation = ""};
     if (r->formulation.type != NULL && (!elements || r->elements > 0))
         return STATUS_OK;
     const status outcome = choose(r, rules, count, elements, &s, why, f);
@@ -66,9 +82,27 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-status solution_run(const solution_request *r, sweep *s, fault *f)
+/* What the choice of the mesh knows of the values. */
+static status tell_change(const solution_request *r, const solution_choice *why, solve_result *out,
+                          fault *f)
+{
+    const double asked = r->error > 0 ? r->error : PREFERENCE_ERROR;
+    for (int i = 0; i < out->quantities && why->change != NULL; i++)
+        out->quantity[i].change = why->change[i];
+    if (!why->short_of || out->status != STATUS_OK)
+        return out->status;
+    out->status = STATUS_NOT_CONVERGED;
+    snprintf(
+        out->reason, sizeof out->reason,
+        "with the mesh: %.200s, and %.3g %% is asked for; -n %d goes on, --error asks for less",
+        why->elements, 100 * asked, 2 * r->elements);
+    return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
+}
+
+status solution_run(const solution_request *r, const solution_choice *why, sweep *s, fault *f)
 {
     cell_request request = cell_of(r, &s->point[0].scene);
+    cell_result *out = &s->series[0].cell[0];
     request.solve.shapes = r->shapes;
     request.solve.systems = r->systems;
     request.solve.keep_ends = r->keep_ends;
@@ -77,5 +111,6 @@ status solution_run(const solution_request *r, sweep *s, fault *f)
     request.solve.looks = 1;
     request.solve.restarts = r->restarts;
     request.solve.restart = r->restart;
-    return cell_run(&request, &s->series[0].cell[0], f);
+    TRY(cell_run(&request, out, f));
+    return tell_change(r, why, &out->solve, f);
 }

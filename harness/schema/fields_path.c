@@ -73,6 +73,10 @@ static const schema_field fields_of_quantity[] = {
      "estimate of its round-off, or of what reading a motion between its steps adds, by the value; "
      "0: none was made",
      VALUE(rounding)},
+    {"change", "1", FIELD_DOUBLE,
+     "of a mesh that solve chose: change from the mesh before it, by the value; of a curve, by its "
+     "largest",
+     VALUE(change)},
     {"near_zero", OWN_UNIT, FIELD_DOUBLE, "values below it count as zero",
      OF(QUANTITY, scene_quantity, near_zero)},
     {"prediction", OWN_UNIT, FIELD_DOUBLE, "of an analytic model, not judged",

@@ -50,6 +50,8 @@ typedef struct quantity_result {
     double x;        /* abscissa where a maximum or minimum was found */
     double rounding; /* critical loads, frequencies: estimate of |error| by round-off; of a motion
                         what reading it between its steps adds; in parts of the value; else 0 */
+    double change;   /* from the mesh that was solved before, by the value; of a curve, by its
+                        largest; NAN: not known */
     curve curve;     /* of SCENE_CURVE, else 0 points */
     char reason[FAULT_TEXT];       /* why there is no value */
     char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */

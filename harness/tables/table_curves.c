@@ -51,14 +51,33 @@ static void write_name(FILE *to, const char *name, const char *unit)
         fputc(' ', to);
 }
 
+static double largest_of(int points, const double value[])
+{
+    double largest = 0;
+    for (int i = 0; i < points; i++)
+        largest = isfinite(value[i]) ? fmax(largest, fabs(value[i])) : largest;
+    return largest;
+}
+
 /* 0 where the value is round-off beside the largest one. */
 static double without_noise(int points, const double value[], int at)
 {
     const double noise = 1e-13;
-    double largest = 0;
-    for (int i = 0; i < points; i++)
-        largest = isfinite(value[i]) ? fmax(largest, fabs(value[i])) : largest;
-    return fabs(value[at]) < noise * largest ? 0 : value[at];
+    return fabs(value[at]) < noise * largest_of(points, value) ? 0 : value[at];
+}
+
+/* To the digit that the mesh may change. */
+static void write_value(FILE *to, const quantity_result *r, int at)
+{
+    const curve *c = &r->curve;
+    const double value = without_noise(c->points, c->value, at),
+                 apart = r->change * largest_of(c->points, c->value);
+    char text[ROUNDING_TEXT];
+    if (apart > pow(10, 2 - DIGITS) * fabs(value)) {
+        rounding_known(value, apart, text);
+        fprintf(to, "%*s", COLUMN, text);
+    } else
+        table_digits(to, COLUMN, value, DIGITS);
 }
 
 /* Curves list[count] over the abscissa of the first. */
@@ -77,8 +96,7 @@ static void write_block(FILE *to, const scene *s, const solve_result *r, int cou
         const int at = rows > 1 ? (int)((long)i * (first->points - 1) / (rows - 1)) : 0;
         table_value(to, COLUMN, X_DIGITS, 'g', without_noise(first->points, first->x, at));
         for (int k = 0; k < count; k++)
-            table_digits(to, COLUMN,
-                         without_noise(first->points, curve_of(s, r, list[k])->value, at), DIGITS);
+            write_value(to, &r->quantity[list[k]], at);
         if (path != SCENE_NONE)
             fprintf(to, "%8s",
                     table_stability_word(history_stability_at(

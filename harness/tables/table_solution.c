@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/judge/change.h"
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
@@ -13,7 +14,8 @@
 #include "harness/truth/truth.h"
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
-static const double least_rounding = 1e-11; /* of any value that is computed */
+static const double least_rounding = 1e-11, /* of any value that is computed */
+    noise = 1e-4;                           /* of round-off in the scale of values that are zero */
 
 /* Analytic models beside the elements; they judge nothing. */
 static void predictions(FILE *to, const point *p, const truths *t)
@@ -41,7 +43,18 @@ static int is_told(const solve_result *r, int index)
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
 }
 
-/* To the digit that round-off leaves. */
+/* What round-off and the mesh may change in a value. */
+static double uncertainty_of(const scene *s, int index, const solve_result *r)
+{
+    const quantity_result *v = &r->quantity[index];
+    const double scale = change_scale(s, index, r),
+                 of_rounding =
+                     fmax(fabs(v->value) * fmax(v->rounding, least_rounding), scale * noise),
+                 of_mesh = fmax(fabs(v->value), scale) * v->change;
+    return isfinite(of_mesh) ? fmax(of_rounding, of_mesh) : of_rounding;
+}
+
+/* To the digit that these leave. */
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
     const series *one = &s->series[0];
@@ -56,7 +69,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
                         is_told(&one->cell[0].solve, index) ? "likewise" : v->reason);
         return;
     }
-    table_known(to, VALUE, v->value, fabs(v->value) * fmax(v->rounding, least_rounding));
+    table_known(to, VALUE, v->value, uncertainty_of(&p->scene, index, &one->cell[0].solve));
     fprintf(to, " %-*s", UNIT, q->unit);
     table_percent(to, row != NULL ? verdict_error(q, v->value, row->value) : NAN);
     fprintf(to, "%s%s", row != NULL ? " against " : "", row != NULL ? row->kind : "");

@@ -78,7 +78,7 @@ static void of_case(const case_type *type)
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
-    char why[FAULT_TEXT];
+    preference found;
     fault f = {""};
     scene s;
     int here = -1;
@@ -87,7 +87,9 @@ static void of_meshes(const case_type *type)
     const chosen first = choose(&s, type, value, NULL, 0);
     cell_request one = {.scene = &s};
     cell_formulation(&one, &first.one);
-    const int n = preference_elements(&one, &first.one, why), finest = s.mesh[s.meshes - 1];
+    gsl_test(preference_elements(&one, &first.one, PREFERENCE_ERROR, &found, &f) != STATUS_OK,
+             "%s: %s", type->name, f.text);
+    const int n = found.elements, finest = s.mesh[s.meshes - 1];
     for (int i = 0; i < s.meshes; i++)
         here = s.mesh[i] == n ? i : here;
     gsl_test(here < 0 && (n < finest || n % finest != 0), "%s: n = %d of its meshes", type->name,
@@ -97,14 +99,15 @@ static void of_meshes(const case_type *type)
     gsl_test(cell_run(&one, &a, &f) != STATUS_OK, "%s: it solves %s", type->name, f.text);
     one.elements = here < 0 ? n / 2 : here > 0 ? s.mesh[here - 1] : n;
     const status before = cell_run(&one, &b, &f);
-    for (int q = 0; q < s.quantities && strncmp(why, "no value", 8) == 0; q++)
+    for (int q = 0; q < s.quantities && !found.short_of; q++)
         if (s.quantity[q].reduction != SCENE_CURVE && isfinite(a.solve.quantity[q].value))
             gsl_test(before != STATUS_OK || here == 0 ||
                          !(fabs(verdict_error(&s.quantity[q], a.solve.quantity[q].value,
-                                              b.solve.quantity[q].value)) <= PREFERENCE_SETTLED),
+                                              b.solve.quantity[q].value)) <= PREFERENCE_ERROR),
                      "%s: %s has settled", type->name, s.quantity[q].name);
     cell_result_free(&a);
     cell_result_free(&b);
+    preference_free(&found);
     scene_free(&s);
 }
 
