@@ -173,8 +173,8 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &result->quantity[i];
         context_set_frame(&c, s->quantity[i].analysis);
-        q->change = NAN;
         extract_quantity(&c, &s->quantity[i], q);
+        q->change = NAN;
         if (q->status == STATUS_FAULT && result->status == STATUS_OK) {
             result->status = STATUS_FAULT;
             snprintf(result->reason, sizeof result->reason, "%s", q->reason);

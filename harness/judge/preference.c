@@ -259,8 +259,7 @@ static int settled(const scene *s, const runner *r)
 /* Is another mesh too much? */
 static int exhausted(const scene *s, const runner *r)
 {
-    const int tells = r->tried < 2 || (isfinite(r->last.largest) &&
-                                       !r->unstable); /* what finer ones would settle */
+    const int tells = r->tried < 2 || isfinite(r->last.largest); /* what finer ones would settle */
     return r->tried >= s->meshes &&
            (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
 }
