@@ -81,11 +81,11 @@ BW_API void bw_scene_free(bw_scene *scene); /* NULL: nothing; its results stay *
 /* Solves one cell. formulation: as -f says it ("beamw:mass=lumped"); NULL: chosen as `beamwork
  * solve` does. elements: of each member; 0: the coarsest mesh at which no value changes by more
  * than "error" from the one before; NOT_CONVERGED where the finest still does. options (NULL:
- * none): a JSON
- * object with any of "keep_all" (true: nothing is left out), "steps" (between stations, to begin
- * with: easy ones are made longer), "shapes" (most states of a path whose shapes are kept; of
- * a motion so many instants, 60 where 5 or fewer are asked for), "threads", "error" (0.001). After NOT_CONVERGED,
- * SINGULAR and NO_VALUE *out is a result all the same, with what could be found. */
+ * none): a JSON object with any of "keep_all" (true: nothing is left out), "steps" (between
+ * stations, to begin with: easy ones are made longer), "shapes" (most states of a path whose shapes
+ * are kept; of a motion so many instants, 60 where 5 or fewer are asked for), "threads", "error"
+ * (default 0.001). After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result all the same, with
+ * what could be found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
 BW_API void bw_result_free(bw_result *result); /* NULL: nothing */
