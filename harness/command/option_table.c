@@ -78,7 +78,8 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, against)},
     {"error", 'e', "R[,R...]",
      "converge, sweep: error that is asked for (default 1%); solve: change from mesh to mesh "
-     "that counts as none (default 0.1%); bench --against: errors at which to compare, such as 1%,0.1% (default: those of 10, 1, 0.1 and 0.01 % that both reach)",
+     "that counts as none (default 0.1%); bench --against: errors at which to compare, such as "
+     "1%,0.1% (default: those of 10, 1, 0.1 and 0.01 % that both reach)",
      offsetof(command_request, error)},
     {"threads", 't', "N",
      "threads that share the loop over elements (default 1); results are the same", 0},
