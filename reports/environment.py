@@ -4,6 +4,7 @@ import json
 import pathlib
 
 NAVIGATION = [("environment.html", "environment")]
+OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
 # (command of make, files that it leaves beside the results, what they add)
 ADDS = (
     ("bench", ("bench.h5", ), "times with their noise"),
@@ -46,7 +47,7 @@ def noise(site):
 
 
 def write(site):
-    names = [n for n in site.about if n in (site.bench or site.about)]
+    names = [n for n in site.about if n in (site.bench or site.about) and n not in OUTCOME]
     site.write("environment.html",
                "environment.html",
                names=names,

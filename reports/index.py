@@ -47,7 +47,7 @@ def write(site):
     rows = trust.table(site.cases, compared.problems, compared.keys)
     lines = {found.case.name: found for found in heat.lines(site.cases)}
     written = {file for file, _ in site.navigation}
-    site.write("index.html", "index.html", cases=site.cases, lines=lines, level=LEVEL,
+    site.write("index.html", "index.html", about=site.about, cases=site.cases, lines=lines, level=LEVEL,
                agreed=agreed.rows([c for c in site.cases if c.name not in lines], LEVEL),
                places=[place for place in PLACES if place[0].partition("#")[0] in written],
                groups=kinds.grouped(site.cases, site.results),

@@ -59,6 +59,15 @@ int certificate_holds(const certificate *c)
     return certificate_counted(c, CLAIM_BROKEN) == 0;
 }
 
+const claim *certificate_broken(const certificate *c)
+{
+    for (int i = 0; i < CERTIFICATE_PARTS; i++)
+        for (int k = 0; k < c->part[i].claims.count; k++)
+            if (c->part[i].claims.claim[k].outcome == CLAIM_BROKEN)
+                return &c->part[i].claims.claim[k];
+    return NULL;
+}
+
 static void run_part(certificate *of, int part)
 {
     certificate_part *p = &of->part[part];
@@ -161,16 +170,17 @@ static int idle(const tester all[], int jobs)
 static status run_all(const certificate_request *r, certificate *all, tester team[], int jobs,
                       fault *f)
 {
-    const int tasks = r->count * CERTIFICATE_PARTS;
+    const int parts = r->contract_only ? CHECKS_FAMILIES : CERTIFICATE_PARTS,
+              tasks = r->count * parts;
     int next = 0, running = 0;
     while (next < tasks || running > 0) {
         const int free_one = idle(team, jobs);
-        if (next < tasks && all[next / CERTIFICATE_PARTS].late != NULL) {
-            pass_over(&all[next / CERTIFICATE_PARTS], next % CERTIFICATE_PARTS);
+        certificate *of = next < tasks ? &all[next / parts] : NULL;
+        if (of != NULL && of->late != NULL) {
+            pass_over(of, next % parts);
             next++;
-        } else if (next < tasks && free_one >= 0) {
-            TRY(start(&team[free_one], &all[next / CERTIFICATE_PARTS], next % CERTIFICATE_PARTS,
-                      r->time_limit, f));
+        } else if (of != NULL && free_one >= 0) {
+            TRY(start(&team[free_one], of, next % parts, r->time_limit, f));
             next++;
             running++;
         } else {

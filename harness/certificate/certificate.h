@@ -25,6 +25,7 @@ typedef struct certificate {
 typedef struct certificate_request {
     const formulation *chosen;   /* [count] */
     int count, jobs, time_limit; /* time_limit: [s] of one part; 0: none */
+    int contract_only;           /* 1: nothing is measured */
 } certificate_request;
 
 /* certificates_free in any case. */
@@ -39,5 +40,7 @@ int certificate_counted(const certificate *, claim_outcome);
 int certificate_compared(const certificate *);
 /* 1: no claim is broken. */
 int certificate_holds(const certificate *);
+/* The first claim that is broken; NULL: none. */
+const claim *certificate_broken(const certificate *);
 
 #endif

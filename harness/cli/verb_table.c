@@ -74,7 +74,7 @@ static const manual_row statuses[] = {
     {"0", "as expected"},
     {"1", "a verdict differs (solve: not converged or singular)"},
     {"2", "refused input"},
-    {"3", "nothing was checked"},
+    {"3", "nothing was judged"},
     {"4", "file, disk or memory"},
     {"5", "incomplete: interrupted (what was judged is in *.partial.*), or parts are missing; the "
           "same command goes on"},

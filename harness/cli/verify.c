@@ -4,6 +4,7 @@
 
 #include "harness/algebra/clock.h"
 #include "harness/cli/cli.h"
+#include "harness/command/named.h"
 #include "harness/command/own_tables.h"
 #include "harness/command/scenes.h"
 #include "harness/command/supports_told.h"
@@ -33,6 +34,10 @@ static void show(const command_request *r, const sweep *s, const judgement *j, c
 {
     const screen look = screen_of(stdout);
     char sentence[SENTENCE_OF_RUN];
+    if (r->exit_zero)
+        fputs("exploring: the exit status is 0 whatever the verdicts are (--exit-zero)\n\n",
+              stdout);
+    table_breaches(stdout, look, j);
     if (!r->quiet && shows_limits(r, o)) {
         table_verdicts(stdout, s, j);
         table_run_details(stdout, s, j);
@@ -76,10 +81,10 @@ static int tell(const command_request *r, const sweep *s, const judgement *j, co
     }
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
-        fprintf(stderr, "beamwork: nothing was checked: no verdict against a truth; see %s\n",
+        fprintf(stderr, "beamwork: nothing was judged: no verdict against a truth; see %s\n",
                 r->scene_count > 0 ? "'truths' in 'beamwork scene --keys'"
                                    : "'beamwork list' and -k");
-    return code;
+    return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
 /* Other programs as contestants; those of no point of this run are told. */
@@ -159,7 +164,7 @@ static status run_and_judge(const command_request *r, const scenes *own,
     TRY(add_all_beside(r, &v->sweep, f));
     TRY(verification_files_open(&v->files, &v->sweep, &v->judgement, f));
     if (asked)
-        TRY(verification_judge(whole, &v->truths, &v->sweep, &v->judgement, f));
+        TRY(verification_judge(request, whole, &v->truths, &v->sweep, &v->judgement, f));
     else
         TRY(verification_run(request, whole, &reader, &v->truths, &v->sweep, &v->judgement, f));
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
@@ -178,6 +183,7 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
                                    .doublings = r->doublings,
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
+                                   .named = named_alone(r),
                                    .shapes = states,
                                    .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL};
     TRY(check_files(r, own, f));
@@ -229,14 +235,19 @@ int cli_verify(int count, char **arguments)
 {
     return command_run(
         "verify", "",
-        "Judges every formulation on every case and parameter point that has a truth. Exit "
-        "status: 0 every verdict as expected, 1 one differs, 2 refused, 3 nothing was "
-        "checked, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged "
-        "until then is in files named .partial. With --shard K/N --into FOLDER: computes a part, "
-        "0 when all of it is there, 5 when some is missing (start it again); 'beamwork merge' "
-        "judges"
+        "Judges every formulation on every case and parameter point that has a truth. A "
+        "formulation "
+        "that -f names or --element loads gates: against the findings of the ledger that are its "
+        "own, which may be none, and by the contract of the interface (element-test), which is "
+        "looked at first. One of the tree that nobody named and the project has not accepted yet "
+        "does not. Exit status: 0 every verdict as expected, 1 one differs (one that is undecided, "
+        "too, where no finding expects it) or a contract is broken, 2 refused, 3 nothing was "
+        "judged, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged until "
+        "then is in files named .partial; with --exit-zero 0 in the place of 1 and 3. With --shard "
+        "K/N --into FOLDER: computes a part, 0 when all of it is there, 5 when some is missing "
+        "(start it again); 'beamwork merge' judges"
         "\vbeamwork verify -k \"c_column and collocation\"\n"
         "beamwork verify --shard 1/4 --into parts\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvqpW.ZiCbw", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvqpW.ZiCbw0", count, arguments, verify_request);
 }

@@ -65,6 +65,7 @@ typedef struct command_request {
     int takes_tables;         /* 1: --truths may name tables too; the verb lists the key '.' */
     const char *map;          /* of columns without a header */
     int gate;                 /* 1: their verdicts count */
+    int exit_zero;            /* 1: verdicts do not change the exit status */
     const char *to;           /* program that a deck is for */
     int schema, keys;         /* 1: describe the keys of scene files as JSON Schema, as a list */
     const char *shard, *into; /* K/N of the work, into which folder */

@@ -1,6 +1,7 @@
 #include "harness/command/named.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "harness/catalogue/formulation_list.h"
 #include "harness/catalogue/formulations.h"
@@ -49,4 +50,12 @@ void named_formulation(command_request *r, const char *text)
     if (r->named_formulations == COMMAND_MAX_FORMULATIONS)
         message_refuse("too many formulations; give fewer -f, or 'all'");
     r->named_formulation[r->named_formulations++] = text;
+}
+
+int named_alone(const command_request *r)
+{
+    for (int i = 0; i < r->named_formulations; i++)
+        if (strcmp(r->named_formulation[i], "all") == 0)
+            return 0;
+    return r->named_formulations > 0;
 }

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "harness/algebra/memory.h"
-#include "harness/catalogue/formulations.h"
 #include "harness/judge/agreements.h"
 #include "harness/judge/coverage.h"
 #include "harness/judge/missed.h"
@@ -111,18 +110,6 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
-/* Another program's, that is shown and does not count? */
-static int imports_inform(const series *one)
-{
-    return one->imported != NULL && !one->imported->gates;
-}
-
-/* Of a formulation that does not gate yet? */
-static int is_new(const series *one)
-{
-    return one->imported == NULL && formulations_is_new(one->formulation.type);
-}
-
 /* Has a series that was imported a value of the quantity at all? */
 static int is_imported(const series *one, int quantity)
 {
@@ -134,19 +121,21 @@ static int is_imported(const series *one, int quantity)
 
 static void judge_quantity(const sweep *s, truths *t, int index, int quantity, judgement *out)
 {
-    const point *p = &s->point[s->series[index].point];
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    const int gates = sweep_gates(s, one);
     verdict *v = &out->verdict[out->verdicts++];
     v->series = index;
     v->quantity = quantity;
     verdict_reach(s, t, v);
     expect(s, t, v);
-    if (imports_inform(&s->series[index])) {
+    if (!gates && one->imported != NULL) { /* shown, and does not count */
         v->expected = v->kind;
         v->matches = 1;
         return;
     }
-    if (is_new(&s->series[index])) {
-        v->needs_finding = !v->matches && v->truth != NULL;
+    v->needs_finding = (s->named || !gates) && !v->matches && v->truth != NULL;
+    if (!gates) {
         out->is_new += v->truth != NULL && v->kind != VERDICT_SKIP;
         out->proposed += v->needs_finding;
         v->expected = v->kind;
@@ -155,7 +144,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
     out->by_kind[v->kind]++;
     out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
     out->unexpected += !v->matches;
-    mark_met(t, p, &s->series[index].formulation, p->scene.quantity[quantity].name,
+    mark_met(t, p, &one->formulation, p->scene.quantity[quantity].name,
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
@@ -229,7 +218,7 @@ status judgement_add(const sweep *s, truths *t, int series_index, judgement *out
     const int first = out->verdicts;
     judge_series(s, t, series_index, out);
     TRY(agreements_add(s, t, series_index, out, f));
-    if (one->imported == NULL && !formulations_is_new(one->formulation.type))
+    if (one->imported == NULL && sweep_gates(s, one))
         TRY(check_cells(s, series_index, out, f));
     return coverage_count(s, first, out, f);
 }
@@ -256,12 +245,23 @@ void judgement_free(judgement *j)
     free(j->agreement);
     free(j->coverage);
     free(j->flaw);
+    free(j->breach);
     memset(j, 0, sizeof *j);
 }
 
 int judgement_exit(const judgement *j)
 {
+    if (j->breaches > 0)
+        return JUDGED_DIFFERS;
     if (j->judged + j->agreements == 0)
-        return 3;
-    return j->unexpected + j->disagreements + j->unobserved + j->unmet + j->flaws > 0 ? 1 : 0;
+        return JUDGED_NOTHING;
+    return j->unexpected + j->disagreements + j->unobserved + j->unmet + j->flaws > 0
+               ? JUDGED_DIFFERS
+               : JUDGED_AS_EXPECTED;
+}
+
+const char *judgement_outcome(const judgement *j)
+{
+    const int code = judgement_exit(j);
+    return code == JUDGED_NOTHING ? "nothing was judged" : code == JUDGED_DIFFERS ? "fail" : "pass";
 }

@@ -18,6 +18,12 @@ typedef struct flaw {
     char why[FAULT_TEXT];
 } flaw;
 
+/* A formulation that does not keep the contract of the interface (elements/element.h). */
+typedef struct breach {
+    char formulation[FORMULATION_KEY];
+    char why[FAULT_TEXT]; /* the first claim that is broken */
+} breach;
+
 enum { COVERAGE_MESHES = 4 };
 
 /* How often the limits of a formulation on a case lie within their uncertainty of an exact truth,
@@ -37,6 +43,8 @@ typedef struct judgement {
     agreement *agreement;
     coverage *coverage;
     flaw *flaw; /* [flaws] */
+    int breaches;
+    breach *breach; /* [breaches] */
     int by_kind[VERDICT_KINDS];
     int unexpected; /* verdicts that differ from the expected one */
     int is_new;     /* verdicts of new formulations, which do not gate ... */
@@ -65,7 +73,11 @@ void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
 /* All three. */
 status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
 void judgement_free(judgement *j);
-/* Exit code: 0 as expected, 1 a verdict differs, 3 nothing was checked. */
+enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
+/* Exit code: 0 as expected, 1 something that gates differs, 3 nothing was judged. Everything that
+ * says how a run ended asks here. */
 int judgement_exit(const judgement *j);
+/* "pass", "fail", "nothing was judged". */
+const char *judgement_outcome(const judgement *j);
 
 #endif

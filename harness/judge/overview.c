@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
-
 /* Formulations with options beyond this have one column with all their options. */
 enum { MOST_COLUMNS = 10 };
 /* More cases than that: those that pass share lines. */
@@ -82,16 +80,16 @@ static int row_of(const overview *o, const case_type *type)
     return i;
 }
 
-static int is_new(const series *one)
+static int is_new(const sweep *s, const series *one)
 {
-    return one->imported == NULL && formulations_is_new(one->formulation.type);
+    return one->imported == NULL && !sweep_gates(s, one);
 }
 
 static void add_columns(const sweep *s, overview *out, int of_new)
 {
     for (int i = 0; i < s->seriess; i++) {
         const char *name = name_of(&s->series[i], out->joined);
-        if (is_new(&s->series[i]) == of_new && column_of(out, name) == out->columns)
+        if (is_new(s, &s->series[i]) == of_new && column_of(out, name) == out->columns)
             out->column[out->columns++] = name;
     }
 }
@@ -185,6 +183,14 @@ int overview_passes(const overview *o, int row)
         passes &= c->mark <= OVERVIEW_PASS && !c->unexpected;
     }
     return passes;
+}
+
+int overview_judged(const overview *o, int row)
+{
+    int judged = 0;
+    for (int i = 0; i < o->columns; i++)
+        judged |= overview_at(o, row, i)->mark >= OVERVIEW_PASS;
+    return judged;
 }
 
 int overview_shown(const overview *o, int row)

@@ -45,6 +45,8 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* 1: nothing but passes in that row, and what is not judged. */
 int overview_passes(const overview *, int row);
+/* 1: something in that row is judged. */
+int overview_judged(const overview *, int row);
 /* Has a row a line of its own? All have where they are few; else those that pass share lines, so
  * that the rest is one screen. */
 int overview_shown(const overview *, int row);

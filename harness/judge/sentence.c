@@ -133,6 +133,8 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
 static void failures(const judgement *j, char *text, size_t size)
 {
     int parts = 0;
+    count_part(text, size, &parts, j->breaches, "formulation breaks the contract of the interface",
+               "formulations break the contract of the interface");
     count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
                "verdicts differ from the expected ones");
     count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
@@ -210,7 +212,7 @@ static void expected_findings(const judgement *j, char *text, size_t size)
 
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size)
 {
-    const int checked = j->judged + j->agreements > 0, bad = judgement_exit(j) == 1;
+    const int bad = judgement_exit(j) == 1, checked = bad || j->judged + j->agreements > 0;
     char more[FAULT_TEXT * 4] = "";
     text[0] = '\0';
     if (!checked)

@@ -47,8 +47,8 @@ typedef struct verdict {
     /* 1: the limit differs from the truth by less than the truth is uncertain */
     int below_digits;
     int matches;       /* 1: verdict as expected */
-    int needs_finding; /* 1: of a new formulation, which does not gate: in the ledger it would need
-                          a rule */
+    int needs_finding; /* 1: of a formulation that is new or was named: no pass, and no rule of the
+                          ledger says so */
     const rule *rule;  /* the one that explains what is not a pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;

@@ -7,8 +7,9 @@
 #include "harness/study/worker.h"
 
 status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], int *count,
-                         fault *f)
+                         int *named, fault *f)
 {
+    int all = 0;
     char one[FORMULATION_KEY + 64];
     *count = 0;
     for (const char *at = names != NULL ? names : ""; *at != '\0';) {
@@ -19,8 +20,11 @@ status contestants_parse(const char *names, formulation list[CONTESTANTS_MOST], 
         snprintf(one, sizeof one, "%.*s", length, at);
         if (length > 0)
             TRY(formulation_list_add(one, CONTESTANTS_MOST, list, count, f));
+        all |= strcmp(one, "all") == 0;
         at += length;
     }
+    if (named != NULL)
+        *named = *count > 0 && !all;
     return STATUS_OK;
 }
 

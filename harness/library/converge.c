@@ -43,7 +43,7 @@ static status prepare(study *s, const char *names, const char *meshes, const cha
                                  {"stop", OPTION_FILE, &s->stop, 1, INT_MAX},
                                  {.name = NULL}};
     TRY(options_read(options, table, &s->kept, f));
-    TRY(contestants_parse(names, s->formulation, &s->formulations, f));
+    TRY(contestants_parse(names, s->formulation, &s->formulations, NULL, f));
     if (s->formulations == 0)
         TRY(formulation_list_add("all", CONTESTANTS_MOST, s->formulation, &s->formulations, f));
     if (meshes != NULL)

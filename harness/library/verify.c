@@ -48,7 +48,7 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
                                  {.name = NULL}};
     place where;
     TRY(options_read(options, table, &v->kept, f));
-    TRY(contestants_parse(names, v->formulation, &r->formulations, f));
+    TRY(contestants_parse(names, v->formulation, &r->formulations, &r->named, f));
     r->formulation = v->formulation;
     if (v->scene != NULL) {
         v->type[0] = source_case(v->scene->from);

@@ -198,6 +198,15 @@ static json_t *assumptions_of(const sweep *s)
     return all;
 }
 
+static json_t *breaches_of(const judgement *j)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < j->breaches; i++)
+        json_array_append_new(all, json_pack("{s:s, s:s}", "formulation", j->breach[i].formulation,
+                                             "reason", j->breach[i].why));
+    return all;
+}
+
 /* All but the verdicts. */
 static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
 {
@@ -220,6 +229,8 @@ static json_t *around_verdicts(const sweep *s, const judgement *j, const environ
                   e->compiler, "clock", e->clock, "cells", sweep_cells(s), "noise_cells",
                   noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
                   j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
+    json_object_set_new(root, "outcome", json_string(judgement_outcome(j)));
+    json_object_set_new(root, "broken_contracts", breaches_of(j));
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
     json_object_set_new(root, "contradictory_cells", json_integer(j->flaws));
     json_object_set_new(root, "counts", counts);

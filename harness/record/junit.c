@@ -123,9 +123,11 @@ typedef struct junit_counts {
 /* Of what will be written, by the same rules. */
 static junit_counts count_all(const sweep *s, const judgement *j)
 {
-    junit_counts c = {.tests = j->verdicts + j->agreements + 3 + (s->unfinished > 0),
-                      .failures = (j->unobserved > 0) + (j->unmet > 0) + (j->flaws > 0) +
-                                  (s->unfinished > 0)};
+    const int nothing = judgement_exit(j) == JUDGED_NOTHING;
+    junit_counts c = {.tests = j->verdicts + j->agreements + j->breaches + 3 + nothing +
+                               (s->unfinished > 0),
+                      .failures = j->breaches + nothing + (j->unobserved > 0) + (j->unmet > 0) +
+                                  (j->flaws > 0) + (s->unfinished > 0)};
     for (int i = 0; i < j->verdicts; i++) {
         c.skipped += is_skipped(&j->verdict[i]);
         c.failures += !j->verdict[i].matches;
@@ -143,6 +145,14 @@ static void write_ledger(FILE *to, const char *name, int failures, const char *w
     fprintf(to, "  </testcase>\n");
 }
 
+static void write_breach(FILE *to, const breach *b)
+{
+    fprintf(to, "  <testcase classname=\"contract\" name=\"%s\">\n   <failure message=\"",
+            b->formulation);
+    escaped(to, b->why);
+    fprintf(to, "\"/>\n  </testcase>\n");
+}
+
 void junit_write(FILE *to, const sweep *s, const judgement *j)
 {
     const junit_counts c = count_all(s, j);
@@ -155,9 +165,13 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
         write_verdict(to, s, &j->verdict[i]);
     for (int i = 0; i < j->agreements; i++)
         write_agreement(to, s, &j->agreement[i]);
+    for (int i = 0; i < j->breaches; i++)
+        write_breach(to, &j->breach[i]);
     write_ledger(to, "findings", j->unobserved, "findings were not observed");
     write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
     write_ledger(to, "cells", j->flaws, "cells contradict themselves");
+    if (judgement_exit(j) == JUDGED_NOTHING)
+        write_ledger(to, "run", 1, "run judged nothing: no verdict against a reference value");
     if (s->unfinished > 0)
         write_ledger(to, "run", s->unfinished,
                      s->partial ? "cells were not done: batches are missing"

@@ -125,10 +125,22 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
+/* Cases without a row, of which something is judged or nothing. */
+static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
+{
+    int named = 0;
+    for (int r = 0; r < o->rows; r++)
+        if (!overview_shown(o, r) && overview_judged(o, r) == judged) {
+            if (named == 0)
+                fprintf(to, "\n%s", what);
+            fprintf(to, "%s%s", named++ > 0 ? ", " : ": ", o->row[r]->name);
+        }
+    fputs(named > 0 ? ".\n" : "", to);
+}
+
 /* A row for each case, a column for each formulation. */
 static void write_overview(FILE *to, const overview *o)
 {
-    int passing = 0;
     fprintf(to, "\n| case");
     for (int c = 0; c < o->columns; c++) {
         fprintf(to, " | ");
@@ -142,11 +154,8 @@ static void write_overview(FILE *to, const overview *o)
     for (int r = 0; r < o->rows; r++)
         if (overview_shown(o, r))
             write_row(to, o, r);
-    for (int r = 0; r < o->rows; r++)
-        if (!overview_shown(o, r))
-            fprintf(to, "%s%s",
-                    passing++ > 0 ? ", " : "\nAll pass in what is judged: ", o->row[r]->name);
-    fprintf(to, passing > 0 ? ".\n" : "");
+    write_unshown(to, o, 1, "All pass in what is judged");
+    write_unshown(to, o, 0, "Nothing is judged");
     write_legend(to, o);
 }
 
@@ -208,12 +217,10 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
                     const environment *e)
 {
     char sentence[SENTENCE_OF_RUN];
-    const int bad = j->unexpected > 0 || j->disagreements > 0 || j->unobserved > 0 ||
-                    j->unmet > 0 || j->flaws > 0;
-    const char *outcome = bad ? "not as expected" : "as expected";
-    if (j->judged == 0)
-        outcome = "nothing was checked";
-    fprintf(to, "## beamwork: %s%s\n\n", words_before(s), outcome);
+    fprintf(to, "## beamwork: %s%s\n\n", words_before(s), judgement_outcome(j));
+    for (int i = 0; i < j->breaches; i++)
+        fprintf(to, "**%s breaks the contract of the interface**: %s\n\n", j->breach[i].formulation,
+                j->breach[i].why);
     fprintf(to,
             "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
             "stored discrete values agree",

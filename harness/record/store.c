@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/judge/sentence.h"
 #include "harness/record/record_rows.h"
 #include "harness/record/store_shapes.h"
 #include "harness/record/vtkhdf.h"
@@ -225,6 +226,15 @@ void store_case(store *to, const case_type *of)
     put_case(&to->file, to->cases, &g, of);
 }
 
+/* How the run ended, as its last line says it. */
+static void put_outcome(record *r, const sweep *s, const judgement *j)
+{
+    char sentence[SENTENCE_OF_RUN];
+    sentence_of_run(s, j, sentence, sizeof sentence);
+    record_text(r, r->file, "outcome", judgement_outcome(j));
+    record_text(r, r->file, "sentence", sentence);
+}
+
 /* All cases that are not there yet, and what is said of the run. */
 static void finish(store *to, const environment *e)
 {
@@ -243,6 +253,8 @@ status store_close(store *to, const char *path, const environment *e, fault *f)
     if (path != NULL) {
         record_count(&to->file, to->file.file, "unfinished_cells", to->sweep->unfinished);
         finish(to, e);
+        if (to->judged != NULL)
+            put_outcome(&to->file, to->sweep, to->judged);
     } else
         H5Gclose(to->cases);
     return record_close(&to->file, path, f);

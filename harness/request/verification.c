@@ -1,7 +1,11 @@
 #include "harness/request/verification.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "harness/algebra/memory.h"
+#include "harness/catalogue/formulations.h"
+#include "harness/certificate/certificate.h"
 #include "harness/judge/families.h"
 #include "harness/study/run.h"
 
@@ -63,11 +67,61 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
     return STATUS_OK;
 }
 
-static status begin(verification *v, const sweep *s, fault *f)
+enum { MOST_OWN = 64 };
+
+/* Formulations that somebody named or loaded, each once. */
+static int find_own(const sweep *s, formulation out[MOST_OWN])
+{
+    int count = 0;
+    for (int i = 0; i < s->seriess; i++) {
+        const formulation *one = &s->series[i].formulation;
+        int known = s->series[i].imported != NULL ||
+                    !(s->named || formulations_is_loaded(one->type)) || count == MOST_OWN;
+        for (int k = 0; k < count; k++)
+            known |= strcmp(out[k].key, one->key) == 0;
+        if (!known)
+            out[count++] = *one;
+    }
+    return count;
+}
+
+static status add_breach(const certificate *c, judgement *out, fault *f)
+{
+    const claim *broken = certificate_broken(c);
+    breach one;
+    if (broken == NULL)
+        return STATUS_OK;
+    snprintf(one.formulation, sizeof one.formulation, "%s", c->chosen.key);
+    snprintf(one.why, sizeof one.why, "%s: %.240s", broken->name, broken->sentence);
+    return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
+}
+
+/* They are held against the interface before anything is run: what they give is worth nothing if
+ * they break it. */
+static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
+{
+    formulation own[MOST_OWN];
+    certificate *found = NULL;
+    const certificate_request what = {.chosen = own,
+                                      .count = find_own(s, own),
+                                      .jobs = jobs,
+                                      .time_limit = time_limit,
+                                      .contract_only = 1};
+    if (what.count == 0)
+        return STATUS_OK;
+    status outcome = certificate_find(&what, &found, f);
+    for (int i = 0; i < what.count && outcome == STATUS_OK; i++)
+        outcome = add_breach(&found[i], out, f);
+    certificate_free(found, what.count);
+    return outcome;
+}
+
+static status begin(verification *v, const sweep *s, int jobs, int time_limit, fault *f)
 {
     memset(v->judgement, 0, sizeof *v->judgement);
     TRY(families_reserve(s, 1, v->truths, f));
-    return judgement_begin(s, v->truths, v->judgement, f);
+    TRY(judgement_begin(s, v->truths, v->judgement, f));
+    return hold_contracts(s, jobs, time_limit, v->judgement, f);
 }
 
 /* With the series that are not judged yet: of a point that an interrupted run did not end. */
@@ -86,7 +140,7 @@ status verification_run(const sweep_request *request, int everything,
     const sweep_follower follower = {.context = &v, .doubts = doubts, .whole = whole};
     sweep_request followed = *request;
     followed.follower = &follower;
-    TRY(begin(&v, s, f));
+    TRY(begin(&v, s, request->jobs, request->time_limit, f));
     TRY(run_sweep(&followed, s, f));
     return end(&v, s, everything, f);
 }
@@ -100,9 +154,10 @@ status verification_cells(const sweep_request *request, truths *t, sweep *s, fau
     return run_sweep(&followed, s, f);
 }
 
-status verification_judge(int everything, truths *t, const sweep *s, judgement *out, fault *f)
+status verification_judge(const sweep_request *request, int everything, truths *t, const sweep *s,
+                          judgement *out, fault *f)
 {
     verification v = {.truths = t, .judgement = out};
-    TRY(begin(&v, s, f));
+    TRY(begin(&v, s, request->jobs, request->time_limit, f));
     return end(&v, s, everything, f);
 }

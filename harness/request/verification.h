@@ -14,7 +14,8 @@ typedef struct verification_reader {
     void (*judged)(void *context, const case_type *);
 } verification_reader;
 
-/* Runs a planned sweep (plan.h) and judges its series in their order, each when all of its point
+/* Holds the formulations that are named or loaded against the contract of the interface; then runs
+ * a planned sweep (plan.h) and judges its series in their order, each when all of its point
  * are done; the finest meshes are run again where verdicts may turn on their noise. Formulations
  * that agree become truths of scene files. whole: 1: nothing was selected away, unless the run is
  * interrupted. reader: NULL: none. judgement_free frees *out, also after a failure. */
@@ -23,7 +24,8 @@ status verification_run(const sweep_request *, int whole, const verification_rea
 
 /* The cells of a planned sweep, or of some of its series, and their noise: not judged. */
 status verification_cells(const sweep_request *, truths *, sweep *, fault *);
-/* Judges a sweep whose cells have been run. */
-status verification_judge(int whole, truths *, const sweep *, judgement *out, fault *);
+/* Judges a sweep whose cells have been run for the request. */
+status verification_judge(const sweep_request *, int whole, truths *, const sweep *, judgement *out,
+                          fault *);
 
 #endif

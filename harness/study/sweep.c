@@ -1,5 +1,6 @@
 #include "harness/study/sweep.h"
 
+#include "harness/catalogue/formulations.h"
 #include "harness/model/features.h"
 
 #include <stdlib.h>
@@ -30,6 +31,14 @@ int sweep_selects(const sweep *s, const point *p, const formulation *chosen, con
     char text[SWEEP_TEXT];
     sweep_text(p, chosen, quantity, text);
     return s->select == NULL || select_matches(s->select, text) > 0;
+}
+
+int sweep_gates(const sweep *s, const series *one)
+{
+    const element_type *type = one->formulation.type;
+    if (one->imported != NULL)
+        return one->imported->gates;
+    return s->named || formulations_is_loaded(type) || !formulations_is_new(type);
 }
 
 int sweep_cells(const sweep *s)

@@ -51,6 +51,7 @@ typedef struct sweep {
     const case_type *const *cases;
     const formulation *given;
     int givens;
+    int named;       /* of the request */
     int shapes;      /* of the request */
     int whole_only;  /* 1: what a formulation does not offer keeps it from running */
     int values_only; /* 1: what only curves and matrices show is not computed */
@@ -91,6 +92,8 @@ typedef struct sweep_request {
     int doublings;    /* so many meshes beyond the scene's finest, each of twice the elements */
     int formulations; /* restrict to these, or 0: all */
     const formulation *formulation;
+    int named; /* 1: these were asked for by name: they gate, also where the project has not
+                  accepted them yet */
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */
     int shapes;
@@ -105,6 +108,9 @@ void sweep_text(const point *, const formulation *, const char *quantity, char t
 /* Does the sweep's selection hold for a quantity? */
 int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity);
 
+/* Do the verdicts of a series count? Those of formulations that are accepted, that somebody named
+ * or loaded, and of other programs where that was asked. */
+int sweep_gates(const sweep *, const series *);
 /* What running one mesh of a series means. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
 int sweep_cells(const sweep *s); /* that are run here */

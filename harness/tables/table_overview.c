@@ -147,21 +147,28 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Cases that pass everywhere, where they have no rows. */
-static void print_passing(FILE *to, const overview *o)
+/* Cases without a row, of which something is judged or nothing. */
+static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;
     int all = 0, named = 0;
     for (int r = 0; r < o->rows; r++)
-        all += !overview_shown(o, r);
+        all += !overview_shown(o, r) && overview_judged(o, r) == judged;
     if (all == 0)
         return;
     FILE *list = paragraph_begin(&words, to);
-    fprintf(list, "%d more pass in all that is judged: ", all);
+    fprintf(list, "%d %s: ", all, what);
     for (int r = 0; r < o->rows; r++)
-        if (!overview_shown(o, r))
+        if (!overview_shown(o, r) && overview_judged(o, r) == judged)
             fprintf(list, "%s%s", named++ > 0 ? ", " : "", o->row[r]->name);
     paragraph_end(&words, 0, 0);
+}
+
+/* Cases that pass everywhere, where they have no rows. */
+static void print_passing(FILE *to, const overview *o)
+{
+    print_unshown(to, o, 1, "more pass in all that is judged");
+    print_unshown(to, o, 0, "more have nothing that is judged");
 }
 
 /* "text", behind what is in the line already or in a new one. */

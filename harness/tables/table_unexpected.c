@@ -169,6 +169,18 @@ static void print_unmet(FILE *to, const truths *t, int *number)
     }
 }
 
+void table_breaches(FILE *to, screen look, const judgement *j)
+{
+    for (int i = 0; i < j->breaches; i++) {
+        screen_put(to, look, SCREEN_BAD, "BROKEN CONTRACT");
+        fputs(" of ", to);
+        paragraph_say(to, 19, INDENT, "%s: %s ('beamwork element-test' says all)",
+                      j->breach[i].formulation, j->breach[i].why);
+    }
+    if (j->breaches > 0)
+        fputc('\n', to);
+}
+
 void table_unexpected(FILE *to, screen look, const sweep *s, const judgement *j, const truths *t)
 {
     int number = 0;

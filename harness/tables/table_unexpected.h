@@ -8,6 +8,8 @@
 #include "harness/tables/screen.h"
 
 /* Nothing where all is as expected. */
+/* Formulations that break the contract of the interface: before all else. */
+void table_breaches(FILE *to, screen, const judgement *j);
 void table_unexpected(FILE *to, screen, const sweep *s, const judgement *j, const truths *t);
 
 #endif

@@ -117,7 +117,7 @@ def convergence(shown):
 def outcome(shown):
     """PASS, FAIL or that nothing was judged, and the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
-    word = "PASS" if shown.passed else "FAIL" if shown.unexpected else "nothing was judged"
+    word = {"pass": "PASS", "fail": "FAIL"}.get(shown.outcome, shown.outcome)
     return f"{word}: {counted}"
 
 

@@ -72,7 +72,9 @@ class Verdicts(Records):
     Keys: case, parameters, formulation, quantity, verdict, expected, as_expected, message, limit,
     limit_uncertainty, truth, error (relative) and all that `verify --json` writes.
 
-    passed: something was judged, and nothing is unexpected.  unexpected: those records.  counts: {verdict: how many}.
+    passed: the outcome of the run is "pass", as `verify` ends with status 0: something was judged, and nothing that
+    gates differs.  outcome: "pass", "fail" or "nothing was judged".  broken_contracts: formulations that break the
+    interface, and how.  unexpected: records that differ.  counts: {verdict: how many}.
     document: all as `beamwork verify --json` writes it."""
 
     def __init__(self, document):
@@ -80,7 +82,9 @@ class Verdicts(Records):
         self.document = document
         self.counts = document.get("counts", {})
         self.unexpected = Records(r for r in self if not r.get("as_expected", True))
-        self.passed = bool(document.get("judged")) and not document.get("unexpected")
+        self.outcome = document["outcome"]
+        self.passed = self.outcome == "pass"
+        self.broken_contracts = document["broken_contracts"]
 
     def __repr__(self):
         return f"<Verdicts, {display.outcome(self)}>"

@@ -126,9 +126,13 @@ static void passing(void)
     make(&b, MOST, 4, "beam");
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
+    for (int c = 0; c < 4; c++) /* no pass of it is in a sentence that says so */
+        b.cell[4 * 11 + c] =
+            (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);
     gsl_test(strstr(text, "\ncase_7 ") == NULL || strstr(text, "\ncase_9 ") == NULL, "rows");
-    gsl_test(count(text, "62 more pass in all that is judged: case_0, case_1,") != 1, "the others");
+    gsl_test(count(text, "61 more pass in all that is judged: case_0, case_1,") != 1, "the others");
+    gsl_test(count(text, "\n1 more have nothing that is judged: case_11\n") != 1, "not judged");
     gsl_test(count(text, "ok") != 6 + 1, "%d marks, and the words of one", count(text, "ok"));
     int lines = 0;
     for (const char *c = text; *c != '\0'; c++)
