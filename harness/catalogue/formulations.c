@@ -8,7 +8,7 @@ enum { MOST_ACCEPTED = 256 };
 
 static const element_type *loaded[FORMULATIONS_MOST_LOADED + 1];
 static const element_type *accepted[MOST_ACCEPTED + 1];
-static int are_told, all_are_accepted;
+static int are_told;
 
 const element_type *formulations_at(int i)
 {
@@ -42,8 +42,6 @@ int formulations_is_loaded(const element_type *t)
 
 int formulations_is_new(const element_type *t)
 {
-    if (all_are_accepted)
-        return 0;
     return formulations_is_loaded(t) || (are_told && !is_among(accepted, t));
 }
 
@@ -56,11 +54,6 @@ void formulations_accept(const char *name)
         count++;
     if (t != NULL && !is_among(accepted, t) && count < MOST_ACCEPTED)
         accepted[count] = t;
-}
-
-void formulations_accept_all(void)
-{
-    all_are_accepted = 1;
 }
 
 /* Words that stand where the name of a formulation may stand. */

@@ -12,14 +12,12 @@ const element_type *formulations_at(int i);
 const element_type *formulations_named(const char *name, size_t length);
 /* Was it loaded from outside? */
 int formulations_is_loaded(const element_type *t);
-/* 1: the project has not accepted it, and its verdicts do not gate: it was loaded, or it is not
- * among those that formulations_accept names; until that names any, all of the tree's are
- * accepted. */
+/* 1: the project has not accepted it: it was loaded, or it is not among those that
+ * formulations_accept names; until that names any, all of the tree's are accepted. Its verdicts
+ * gate where somebody loaded or named it (sweep_gates). */
 int formulations_is_new(const element_type *t);
-/* One that gates (reference/accepted.csv); a name that is not here is passed over. */
+/* One that is accepted (reference/accepted.csv); a name that is not here is passed over. */
 void formulations_accept(const char *name);
-/* From now on all gate, by findings of one's own. */
-void formulations_accept_all(void);
 /* Adds one; refuses a name that is there, and words that mean more than one (all). The type stays
  * the caller's. */
 status formulations_add(const element_type *t, fault *f);

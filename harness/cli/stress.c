@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
+#include "harness/command/named.h"
 #include "harness/extremes/extreme_json.h"
 #include "harness/extremes/extreme_table.h"
 #include "harness/record/output.h"
@@ -36,6 +37,7 @@ static status run(const command_request *r, extreme_sweep *s, spread_end *end, f
                                      .jobs = r->jobs,
                                      .formulations = r->formulations,
                                      .formulation = r->formulation,
+                                     .named = named_alone(r),
                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     TRY(files_check(r, 0, case_input_truths_path(r), f));
     TRY(extreme_work_run(r, &request, case_input_truths_path(r), s, end, f));

@@ -93,7 +93,7 @@ const verb_option option_table[OPTION_MOST] = {
      "them, again for another",
      0},
     {"findings", 'W', "FILE.csv",
-     "findings of your own beside the ledger: new formulations gate by them; again for another", 0},
+     "findings of your own beside the ledger; again for another", 0},
     {"scene", 'Y', "FILE",
      "a scene of your own in YAML, in the place of a case (verify: or a folder of them; again for "
      "another)",

@@ -1,6 +1,5 @@
 #include "harness/command/own_tables.h"
 
-#include "harness/catalogue/formulations.h"
 #include "harness/command/files.h"
 #include "harness/project/own_findings.h"
 #include "harness/project/own_truths.h"
@@ -34,8 +33,6 @@ status own_tables_findings(const command_request *r, const case_type *const run[
         TRY(own_findings_read(r->findings[i], run, t, &m, f));
         TRY(refuse(&m, f));
     }
-    if (r->findings_count > 0)
-        formulations_accept_all();
     return STATUS_OK;
 }
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
 #include "harness/truth/columns.h"
 
 static status read_rows(columns *r, extreme_sweep *out)
@@ -100,7 +99,8 @@ static void set_expected(extreme_sweep *s, extreme_outcome *o)
         }
     o->as_expected = o->finding != NULL ? strcmp(o->finding->outcome, outcome_name(o->kind)) == 0
                                         : outcome_is_good(o->kind);
-    if (!o->as_expected && formulations_is_new(s->formulation[o->formulation].type)) {
+    const series one = {.formulation = s->formulation[o->formulation]};
+    if (!o->as_expected && !sweep_gates(&s->first, &one)) {
         o->as_expected = 1;
         s->is_new++;
     }

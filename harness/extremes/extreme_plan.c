@@ -122,6 +122,7 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
         return STATUS_FAULT;
     TRY(set_parameters(e, type, x, parameter, f));
     out->first.whole_only = 1;
+    out->first.named = request->named;
     TRY(plan_add(&out->first, type, parameter, &edit, &mesh, 1, f));
     point *p = &out->first.point[out->first.points - 1];
     p->condition = 1;

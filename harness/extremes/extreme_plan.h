@@ -8,6 +8,7 @@ typedef struct extreme_request {
     const char *select; /* expression over "name/group/case/formulation", or NULL */
     int jobs, formulations;
     const formulation *formulation; /* restrict to these; 0: all */
+    int named;                      /* 1: these were asked for by name: they gate */
     FILE *progress;
     int first, last; /* only these of the table, without the last; last 0: all */
     /* In the place of run_sweep: first for the cells, then for their neighbours; NULL: none */

@@ -10,7 +10,7 @@ enum { SENTENCE_OF_RUN = 1000 };
 
 /* The whole run in one sentence, which begins with PASS or FAIL (INTERRUPTED where it was,
  * INCOMPLETE where batches are missing) and says what of it was expected although it is not a pass;
- * empty where nothing was checked. */
+ * empty where nothing was judged. */
 void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);
 
 #endif

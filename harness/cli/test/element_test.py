@@ -37,13 +37,13 @@ class Example(Loaded):
     def test_named_before_it_is_loaded(self):
         self.answered("solve", "-f", "timoshenko", "elastica", "-n", "8", "--element", self.object)
 
-    def test_does_not_gate(self):
-        """A stiffness that is wrong by 1 % is told, and written as a finding; the run passes."""
+    def test_gates(self):
+        """A stiffness that is wrong by 1 % is told, and written as a finding; the run fails."""
         wrong = self.example(("c->young * c->Iy / l3", "1.01 * c->young * c->Iy / l3"))
         needed = self.folder / "needed.csv"
         out = self.answered("verify", "--element", wrong, "-f", "timoshenko", "-k",
-                            "tapered_cantilever/default", "--propose", needed).stdout
-        self.assertRegex(" ".join(out.split()), r"not gated: \d+ of \d+ verdicts? of")
+                            "tapered_cantilever/default", "--propose", needed, code=1).stdout
+        self.assertRegex(out, r"\nFAIL: \d+ verdicts? differs? from the expected")
         self.assertIn("deflection_z", needed.read_text(encoding="utf-8"))
         self.assertIn("wrong limit", needed.read_text(encoding="utf-8"))
 

@@ -13,7 +13,8 @@
 /* Counts of which each alone fails the gate. */
 static const size_t failing[] = {
     offsetof(judgement, unexpected), offsetof(judgement, disagreements),
-    offsetof(judgement, unobserved), offsetof(judgement, unmet), offsetof(judgement, flaws)};
+    offsetof(judgement, unobserved), offsetof(judgement, unmet),
+    offsetof(judgement, flaws),      offsetof(judgement, breaches)};
 /* Counts of what was checked: with none of these there is no answer. */
 static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
 enum {
@@ -32,7 +33,8 @@ static int is_among(size_t offset, int count, const size_t list[])
 static int is_pointer(size_t offset)
 {
     static const size_t pointer[] = {offsetof(judgement, verdict), offsetof(judgement, agreement),
-                                     offsetof(judgement, coverage), offsetof(judgement, flaw)};
+                                     offsetof(judgement, coverage), offsetof(judgement, flaw),
+                                     offsetof(judgement, breach)};
     for (size_t i = 0; i < sizeof pointer / sizeof pointer[0]; i++)
         if (offset >= pointer[i] && offset < pointer[i] + sizeof(void *))
             return 1;
@@ -59,10 +61,16 @@ static void exit_codes(void)
             set(&j, at, 1);
             gsl_test_int(judgement_exit(&j), is_among(at, FAILING, failing),
                          "the count at byte %d alone", (int)at);
+            gsl_test(strcmp(judgement_outcome(&j), judgement_exit(&j) ? "fail" : "pass") != 0,
+                     "its word");
         }
         judgement none = {0};
         set(&none, at, 1);
-        gsl_test_int(judgement_exit(&none), is_among(at, CHECKING, checking) ? 0 : 3,
+        const int broken = at == offsetof(judgement, breaches); /* fails without a verdict */
+        gsl_test_int(judgement_exit(&none),
+                     is_among(at, CHECKING, checking) ? 0
+                     : broken                         ? 1
+                                                      : 3,
                      "nothing else: the count at byte %d", (int)at);
     }
     gsl_test(walked < FAILING + CHECKING + VERDICT_KINDS, "%d counts", walked);

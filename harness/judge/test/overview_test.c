@@ -215,8 +215,16 @@ static void new_ones(void)
     overview_free(&o);
     gsl_test(formulations_add(&mine, &f) != STATUS_OK, "added: %s", f.text);
     gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
-    gsl_test(o.columns != 3 || o.accepted != 2 || strcmp(o.column[2], "a") != 0,
-             "the new one is the last");
+    gsl_test(o.columns != 3 || o.accepted != 3, "what is loaded gates");
+    overview_free(&o);
+    formulations_accept("mine");
+    gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
+    gsl_test(o.columns != 3 || o.accepted != 1 || strcmp(o.column[0], "a") != 0,
+             "the new ones are the last");
+    overview_free(&o);
+    r.s.named = 1;
+    gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
+    gsl_test(o.columns != 3 || o.accepted != 3, "what is named gates");
     overview_free(&o);
 }
 

@@ -45,7 +45,7 @@ int main(void)
     judgement j = {.verdicts = 1, .verdict = &v, .judged = 1, .unexpected = 1};
     flaw flaws[2] = {{.series = 0}};
     char *text = written(&s, &j);
-    holds(text, "## beamwork: not as expected");
+    holds(text, "## beamwork: fail");
     holds(text, "1 verdicts against truths in 0 cells: 1 differ");
     holds(text, "| case_of_test | a=1 | `beam:option=2` | load | **wrong limit** | pass | 2.5 | 2 "
                 "| +25 % | left \\| right below |");
@@ -57,7 +57,7 @@ int main(void)
     v.matches = 1;
     j.unexpected = 0;
     text = written(&s, &j);
-    holds(text, "## beamwork: as expected");
+    holds(text, "## beamwork: pass");
     gsl_test(strstr(text, "**wrong limit**") != NULL, "nothing differs: no table of differences");
     holds(text, "| `beam:option=2` |  |  | 1 |");
     holds(text, "PASS: every verdict is as expected");
@@ -66,7 +66,7 @@ int main(void)
 
     j.unobserved = 3;
     text = written(&s, &j);
-    holds(text, "## beamwork: not as expected");
+    holds(text, "## beamwork: fail");
     holds(text, "3 findings were not observed");
     free(text);
 
@@ -74,14 +74,21 @@ int main(void)
     j.flaws = 2;
     j.flaw = flaws;
     text = written(&s, &j);
-    holds(text, "## beamwork: not as expected");
+    holds(text, "## beamwork: fail");
     holds(text, "2 cells contradict themselves");
     holds(text, "| case_of_test | **!c2** |\n");
     free(text);
 
+    breach broken = {"mine", "energy: it is none"};
+    j = (judgement){.judged = 1, .breaches = 1, .breach = &broken};
+    text = written(&s, &j);
+    holds(text,
+          "## beamwork: fail\n\n**mine breaks the contract of the interface**: energy: it is none");
+    free(text);
+
     j = (judgement){.verdicts = 0};
     text = written(&s, &j);
-    holds(text, "## beamwork: nothing was checked");
+    holds(text, "## beamwork: nothing was judged");
     free(text);
     return gsl_test_summary();
 }
