@@ -230,6 +230,9 @@ typedef struct element_type {
     /* With LIMIT_TENSION: length of the element over the largest one that the axial force of its
      * stresses allows; 0: any. */
     double (*tension)(const element_data *, const double sigma[]);
+    /* A formulation kept as it was printed: the equation and what is wrong in it, one line. It is
+     * never ranked, chosen or counted in an agreement. NULL: none. */
+    const char *misprint;
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,

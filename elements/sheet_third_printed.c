@@ -12,4 +12,5 @@ const element_type element_sheet_third_printed = {
     .source = "N Eqs. 37, 44-52, 55-65 as printed",
     SHEET_THIRD_TYPE,
     .prepare = prepare,
+    .misprint = "N Eq. 49: the sign of u_y",
 };

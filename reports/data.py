@@ -106,6 +106,8 @@ def unranked(declared):
     """Why the costs of a formulation rank nothing, by its row of /declarations; else nothing."""
     if declared.get("differences"):
         return "by differences"
+    if declared.get("misprint"):
+        return "kept with its misprint"
     return "in another process" if declared.get("process") else ""
 
 

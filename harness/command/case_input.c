@@ -170,6 +170,8 @@ static status add_truths(const command_request *r, truths *t, fault *f)
                             : r->case_count == 1 ? case_find(r->case_name, f)
                                                  : NULL;
     if (r->scene != NULL)
+        truths_read_rules(case_input_truths_path(r), t, NULL); /* a scene needs none */
+    if (r->scene != NULL)
         TRY(scene_file_truths_add(r->scene, r->parameter, t, f));
     else
         TRY(truths_read_case(case_input_truths_path(r), type, t, f));

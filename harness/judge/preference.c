@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"
 #include "harness/judge/change.h"
@@ -20,25 +19,13 @@ typedef struct standing {
     int against[REASONS];
 } standing;
 
-static const verdict_kind defects[] = {VERDICT_BIASED, VERDICT_WRONG_LIMIT,
-                                       VERDICT_BIASED_AS_PREDICTED, VERDICT_WRONG_AS_PREDICTED};
-enum { DEFECTS = sizeof defects / sizeof defects[0] };
-
-static int tells_defect(const rule *r)
-{
-    int tells = 0;
-    for (int i = 0; i < DEFECTS; i++)
-        tells |= choice_index(r->verdicts, verdict_name(defects[i])) >= 0;
-    return tells;
-}
-
 /* Does the rule say so of a quantity of the scene? */
 static int holds_here(const rule *r, const scene *s, rule_subject at)
 {
     for (int q = 0; q < s->quantities; q++)
-        for (int i = 0; i < DEFECTS; i++) {
+        for (int i = 0; i < VERDICT_DEFECTS; i++) {
             at.quantity = s->quantity[q].name;
-            at.verdict = verdict_name(defects[i]);
+            at.verdict = verdict_name(verdict_defects[i]);
             if (rules_hold(r, &at))
                 return 1;
         }
@@ -79,7 +66,7 @@ static standing standing_of(const scene *s, const element_type *type, const rule
     rule_subject at = *where;
     at.formulation = type->name;
     for (int i = 0; i < count; i++) {
-        const int defect = tells_defect(&rules[i]);
+        const int defect = verdict_tells_defect(&rules[i]);
         out.against[AGAINST_HERE] += defect && holds_here(&rules[i], s, at);
         out.against[AGAINST_ELSEWHERE] += defect && rules_speak_of(&rules[i], type->name);
     }
@@ -143,7 +130,7 @@ static int take_next(const scene *s, const rule_subject *where, const rule *rule
     *chosen = NULL;
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
-        if (formulations_is_new(type) || is_taken(all, type) ||
+        if (formulations_is_new(type) || type->misprint != NULL || is_taken(all, type) ||
             !can_run(s, type, other)) /* defects of new ones are not known */
             continue;
         const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);

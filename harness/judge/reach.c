@@ -86,6 +86,8 @@ const char *reach_unranked(const element_type *type)
         return "";
     if (process_serves(type))
         return "in another process";
+    if (type->misprint != NULL)
+        return "kept with its misprint";
     return adapters_words(type)[0] != '\0' ? "by differences" : "";
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/choice.h"
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
 #include "harness/truth/truth_index.h"
@@ -24,6 +25,17 @@ static const char *const names[VERDICT_KINDS] = {"pass",
 static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
 /* so many uncertainties from the truth, a limit is another one */
 static const double surely = 3;
+
+const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
+    VERDICT_BIASED, VERDICT_WRONG_LIMIT, VERDICT_BIASED_AS_PREDICTED, VERDICT_WRONG_AS_PREDICTED};
+
+int verdict_tells_defect(const rule *r)
+{
+    int tells = 0;
+    for (int i = 0; i < VERDICT_DEFECTS; i++)
+        tells |= choice_index(r->verdicts, verdict_name(verdict_defects[i])) >= 0;
+    return tells;
+}
 
 const char *verdict_name(verdict_kind kind)
 {

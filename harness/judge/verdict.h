@@ -54,6 +54,11 @@ typedef struct verdict {
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
+/* Verdicts on a limit that is another one than the truth. */
+enum { VERDICT_DEFECTS = 4 };
+extern const verdict_kind verdict_defects[VERDICT_DEFECTS];
+/* Does the rule explain one of them? */
+int verdict_tells_defect(const rule *);
 /* What the order of a quantity depends on. */
 element_analysis verdict_analysis(const scene *, const scene_quantity *);
 /* Limit of a quantity of a series, without its `left_out` finest meshes. */

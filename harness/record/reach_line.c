@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "harness/judge/rounding.h"
-#include "harness/process/process.h"
 #include "harness/timing/price.h"
 
 static void write_reached(FILE *to, const sweep *s, const reached *r)
@@ -14,10 +13,8 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
     fprintf(to, "%s n = %d", one->formulation.key, one->mesh[r->mesh]);
     if (isfinite(r->cost))
         fprintf(to, " (%.2g ms)", 1e3 * r->cost);
-    else if (process_serves(one->formulation.type))
-        fputs(" (in another process: no rank)", to);
     else
-        fputs(" (its derivatives are differences: no rank)", to);
+        fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
 /* Those with a defect, the ones of the same words together. */

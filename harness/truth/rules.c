@@ -126,6 +126,17 @@ int rules_speak_of(const rule *r, const char *formulation)
     return list_has_formulation(r->formulations, formulation);
 }
 
+unsigned rules_features(const rule *r)
+{
+    char word[WORD];
+    unsigned out = 0;
+    term t;
+    for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
+        if (term_parse(word, &t) && !t.negated)
+            out |= t.feature;
+    return out;
+}
+
 void rules_foretell(rule *r, const rule_subject *s)
 {
     char word[WORD], here[WORD];

@@ -42,6 +42,8 @@ int rules_hold(const rule *, const rule_subject *);
 /* Is the formulation (its key) among those of the rule? */
 int rules_speak_of(const rule *, const char *formulation);
 
+/* Features of a scene that it asks for, in its condition; 0: none. */
+unsigned rules_features(const rule *);
 /* Notes that a verdict met a prediction which the rule names. */
 void rules_foretell(rule *, const rule_subject *);
 /* The first term of the condition that is neither a feature nor compares a parameter of its cases,

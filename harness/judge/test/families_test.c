@@ -13,12 +13,14 @@ static const int mesh[MESHES] = {2, 4, 8, 16, 32};
 static const parameter_type parameter[] = {{.name = NULL}};
 static const case_type made_up = {
     .name = "made_up", .summary = "of the test", .source = "none", .parameters = {parameter}};
-static const element_type type[] = {{.name = "red_one", .family = "red", .abi = ELEMENT_ABI},
-                                    {.name = "red_two", .family = "red", .abi = ELEMENT_ABI},
-                                    {.name = "blue_one", .family = "blue", .abi = ELEMENT_ABI},
-                                    {.name = "green_one", .family = "green", .abi = ELEMENT_ABI},
-                                    {.name = "blue_two", .family = "blue", .abi = ELEMENT_ABI}};
-enum { RED_ONE, RED_TWO, BLUE_ONE, GREEN_ONE, BLUE_TWO };
+static const element_type type[] = {
+    {.name = "red_one", .family = "red", .abi = ELEMENT_ABI},
+    {.name = "red_two", .family = "red", .abi = ELEMENT_ABI},
+    {.name = "blue_one", .family = "blue", .abi = ELEMENT_ABI},
+    {.name = "green_one", .family = "green", .abi = ELEMENT_ABI},
+    {.name = "blue_two", .family = "blue", .abi = ELEMENT_ABI},
+    {.name = "misprinted", .family = "grey", .misprint = "Eq. 1", .abi = ELEMENT_ABI}};
+enum { RED_ONE, RED_TWO, BLUE_ONE, GREEN_ONE, BLUE_TWO, MISPRINTED };
 
 /* A sweep of one point and quantity, its series added one by one. */
 typedef struct bench {
@@ -77,7 +79,7 @@ static void one_family_is_none(void)
     make(&b);
     add(&b, RED_ONE, 3, 0.1);
     add(&b, RED_TWO, 3, 0.2);
-    gsl_test(families_limit_of(&b.s, 0, 0).families != 1, "two of one family are one family");
+    gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families != 1, "two of one family are one family");
     fault f;
     gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 0,
              "one family gives no reference");
@@ -92,7 +94,7 @@ static void two_families(void)
     add(&b, RED_ONE, 3.1, 0.1);
     add(&b, RED_TWO, 3, 0.1);
     add(&b, BLUE_ONE, 3.001, 0.1);
-    const families_limit l = families_limit_of(&b.s, 0, 0);
+    const families_limit l = families_limit_of(&b.s, 0, 0, &b.t);
     gsl_test(l.families != 2 || l.disputed, "two families agree: %d", l.families);
     gsl_test(!(fabs(l.value - 3) < 2e-3) || !(l.uncertainty >= 1e-3 && l.uncertainty < 2e-3),
              "their limit %.6g, its uncertainty is their spread: %.2g", l.value, l.uncertainty);
@@ -122,7 +124,7 @@ static void known_badly(void)
         b.quantity[0][k].value = 3 * (1 + (k % 2 ? 1e-4 : -1e-4));
     add(&b, RED_ONE, 3, 0.1);
     add(&b, BLUE_ONE, 3.000003, 0.1);
-    const families_limit l = families_limit_of(&b.s, 0, 0);
+    const families_limit l = families_limit_of(&b.s, 0, 0, &b.t);
     gsl_test(l.families != 3, "three families agree: %d", l.families);
     gsl_test(!(fabs(l.value - 3) < 1e-5) || !(l.uncertainty >= 3e-6 && l.uncertainty < 5e-5),
              "the limit of those who know, %.8g, and how well they do: %.2g", l.value,
@@ -137,14 +139,56 @@ static void disputes(void)
     make_two(&b);
     add(&b, RED_TWO, 3.2, 0.1);
     add(&b, BLUE_TWO, 3.2, 0.1);
-    gsl_test(!families_limit_of(&b.s, 0, 0).disputed, "two limits with two families each");
+    gsl_test(!families_limit_of(&b.s, 0, 0, &b.t).disputed, "two limits with two families each");
     fault f;
     gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 0,
              "a dispute gives no reference");
     add(&b, GREEN_ONE, 3.2, 0.1);
-    const families_limit l = families_limit_of(&b.s, 0, 0);
+    const families_limit l = families_limit_of(&b.s, 0, 0, &b.t);
     gsl_test(l.disputed || l.families != 3 || !(fabs(l.value - 3.2) < 1e-3),
              "the limit of more families: %d, %.6g", l.families, l.value);
+    finish(&b);
+}
+
+/* Who knows it best is the centre; who is off by more than it is uncertain by is named. */
+static void known_best(void)
+{
+    bench b;
+    fault f;
+    make(&b);
+    add(&b, RED_ONE, 3, 0.1);
+    add(&b, BLUE_ONE, 3, 1e-4);
+    add(&b, GREEN_ONE, 3.01, 1e-3);
+    const families_limit l = families_limit_of(&b.s, 0, 0, &b.t);
+    gsl_test(l.families != 2 || l.others != 1 || l.other[0] != 2, "%d agree, %d are named",
+             l.families, l.others);
+    gsl_test(!(fabs(l.value - 3) <= l.uncertainty) || !(l.uncertainty < 1e-5),
+             "%.10g +- %.1g: by those who know it", l.value, l.uncertainty);
+    gsl_test(families_add_truths(&b.s, 0, &b.t, &f) != STATUS_OK || b.t.rows != 1 ||
+                 strstr(b.t.row[0].source, "agree, not green_one") == NULL,
+             "%s", b.t.rows == 1 ? b.t.row[0].source : "no reference");
+    finish(&b);
+}
+
+/* Who is kept with its misprint, or is known to be wrong in what the scene has, does not vote. */
+static void known_wrong(void)
+{
+    char formulations[] = "red_one", condition[] = "shear", verdicts[] = "wrong limit|undecided";
+    rule known = {.formulations = formulations, .condition = condition, .verdicts = verdicts};
+    truths ledger = {.rule = &known, .rules = 1};
+    bench b;
+    make(&b);
+    add(&b, RED_ONE, 3, 0.1);
+    add(&b, MISPRINTED, 3, 0.1);
+    gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families >= 2, "a misprint is no witness");
+    add(&b, BLUE_ONE, 3, 0.1);
+    gsl_test_int(families_limit_of(&b.s, 0, 0, &b.t).families, 2, "two witnesses");
+    const int without = families_limit_of(&b.s, 0, 0, &ledger).families;
+    gsl_test_int(without, 2, "nothing shears here");
+    scene_demand(&b.p.scene, FEATURE_SHEAR);
+    gsl_test(families_limit_of(&b.s, 0, 0, &ledger).families >= 2, "known to be wrong in shear");
+    verdicts[0] = '\0';
+    gsl_test_int(families_limit_of(&b.s, 0, 0, &ledger).families, 2, "undecided at worst");
     finish(&b);
 }
 
@@ -154,10 +198,10 @@ static void uncertain(void)
     bench b;
     make_two(&b);
     b.one[1].meshes = 1;
-    gsl_test(families_limit_of(&b.s, 0, 0).families > 1, "one mesh shows no limit");
+    gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families > 1, "one mesh shows no limit");
     b.one[1].meshes = MESHES;
     b.quantity[1][MESHES - 1].value = 3.3;
-    gsl_test(families_limit_of(&b.s, 0, 0).families > 1, "a mesh that jumps shows none");
+    gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families > 1, "a mesh that jumps shows none");
     finish(&b);
 }
 
@@ -201,6 +245,8 @@ int main(void)
     two_families();
     known_badly();
     disputes();
+    known_best();
+    known_wrong();
     uncertain();
     reach();
     return gsl_test_summary();
