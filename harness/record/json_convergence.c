@@ -98,7 +98,8 @@ static json_t *sentence_of(const sweep *s, const truths *t, double level)
     return out;
 }
 
-/* Formulations within the level, in the order of the line; rank 0: its verdict is not a pass. */
+/* Formulations within the level, in the order of the line; rank 0: its verdict is not a pass, or
+ * its cost ranks nothing. */
 static json_t *answers_of(const sweep *s, const truths *t, double level)
 {
     json_t *out = json_array();
@@ -112,11 +113,12 @@ static json_t *answers_of(const sweep *s, const truths *t, double level)
         const series *one = &s->series[list[i].series];
         const verdict *bad = list[i].defect;
         json_array_append_new(
-            out, json_pack("{s:s,s:i,s:o,s:i,s:b,s:s}", "formulation", one->formulation.key,
-                           "elements", one->mesh[list[i].mesh], "cost",
-                           isfinite(list[i].cost) ? json_real(list[i].cost) : json_null(), "rank",
-                           bad == NULL ? i + 1 : 0, "tie", ties > 1 && i < ties, "defect",
-                           bad == NULL ? "" : verdict_name(bad->kind)));
+            out,
+            json_pack("{s:s,s:i,s:o,s:i,s:b,s:s}", "formulation", one->formulation.key, "elements",
+                      one->mesh[list[i].mesh], "cost",
+                      isfinite(list[i].cost) ? json_real(list[i].cost) : json_null(), "rank",
+                      bad == NULL && isfinite(list[i].cost) ? i + 1 : 0, "tie",
+                      ties > 1 && i < ties, "defect", bad == NULL ? "" : verdict_name(bad->kind)));
     }
     free(all);
     free(list);

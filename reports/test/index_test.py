@@ -74,7 +74,7 @@ class Small(ProgramTest):
     def test_a_scene_without_truths(self):
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(LEAF, encoding="utf-8")
-        run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
+        run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw_consistent", "-o", results)
         self.assertEqual(report(results, site).returncode, 0)
         page = self.whole((site / "index.html").read_text(encoding="utf-8"))
         self.assertIn("No quantity of these results has a truth", page)
