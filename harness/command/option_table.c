@@ -92,8 +92,7 @@ const verb_option option_table[OPTION_MOST] = {
      "verify, solve, converge, bench and truth also take a FILE.csv: truths of your own beside "
      "them, again for another",
      0},
-    {"findings", 'W', "FILE.csv",
-     "findings of your own beside the ledger; again for another", 0},
+    {"findings", 'W', "FILE.csv", "findings of your own beside the ledger; again for another", 0},
     {"scene", 'Y', "FILE",
      "a scene of your own in YAML, in the place of a case (verify: or a folder of them; again for "
      "another)",
