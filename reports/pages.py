@@ -12,6 +12,9 @@ of the site, of the bar (navigation.py) and of links (has_page in templates).
 """
 import importlib
 import multiprocessing
+import os
+import pathlib
+import tempfile
 
 from reports.site import Site
 
@@ -63,7 +66,18 @@ def present(site):
 
 
 def build(results, truths, folder, bench=None, others=(), sweeps=()):
-    """Writes the whole site; returns the number of tasks."""
+    """Writes the whole site, or nothing; returns the number of tasks."""
+    folder = pathlib.Path(folder).absolute()
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as part:
+        count = _write(results, truths, part, bench, others, sweeps)
+        folder.mkdir(exist_ok=True)
+        for file in pathlib.Path(part).iterdir():
+            os.replace(file, folder / file.name)
+    return count
+
+
+def _write(results, truths, folder, bench, others, sweeps):
     site = Site(results, truths, folder, bench, others, sweeps)
     modules = present(site)
     for module in modules:

@@ -29,6 +29,8 @@ def limit(v):
     """A limit to the digits that are known, and one more, with its uncertainty."""
     if not math.isfinite(v.limit):
         return "–"
+    if not math.isfinite(v.limit_uncertainty):
+        return f"{v.limit:.7g}, not known how well"
     known = math.log10(abs(v.limit) /
                        v.limit_uncertainty) if v.limit and v.limit_uncertainty > 0 else 10
     return f"{v.limit:.{max(2, min(12, math.ceil(known) + 2))}g} ± {v.limit_uncertainty:.1g}"
@@ -139,9 +141,8 @@ class Site:
         """Renders a template into a page of the site."""
         path = os.path.join(self.folder, name)
         text = self.templates.get_template(template).render(self_name=name, **context)
-        with open(f"{path}.part", "w", encoding="utf-8") as out:
+        with open(path, "w", encoding="utf-8") as out:
             out.write(markers.with_markers(text))
-        os.replace(f"{path}.part", path)
 
     def points(self, key, columns, rows, title=""):
         """What plot() wants for a curve whose marks say more than where they are: with the pointer

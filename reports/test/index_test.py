@@ -1,8 +1,9 @@
 """The first page: what its lists are made of; nothing is empty where there is little to show."""
 import re
+import sys
 import unittest
 
-from harness.test.program import ProgramTest, drawn, report, run
+from harness.test.program import ROOT, TRUTHS, ProgramTest, drawn, report, run
 from harness.test.scenes import LEAF
 from reports import agreed, data, kinds
 from reports.test.results import case, series
@@ -82,6 +83,28 @@ class Small(ProgramTest):
         self.assertNotIn("<figure>", page)
         self.assertIn("No quantity of these results has one", self.whole(
             (site / "profiles.html").read_text(encoding="utf-8")))
+
+    def test_one_mesh(self):
+        """Its values have no limit that is known, nor an order: a whole site all the same."""
+        scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
+        scene.write_text(LEAF + "meshes: [4]\n", encoding="utf-8")
+        run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
+        done = report(results, site)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("not known how well", (site / "mine.html").read_text(encoding="utf-8"))
+
+    def test_whole_or_none(self):
+        """A page that fails leaves what was there before, and nothing beside it."""
+        site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation")
+        before = {file.name: file.read_bytes() for file in site.iterdir()}
+        code = ("import sys\nfrom reports import glossary, pages\n"
+                "glossary.tasks = lambda site: [lambda: 1/0]\n"
+                "pages.build(sys.argv[1], sys.argv[2], sys.argv[3])\n")
+        for folder in (site, self.folder / "new"):
+            done = run("-B", "-c", code, self.folder / "results.h5", TRUTHS, folder, program=sys.executable, cwd=ROOT)
+            self.assertIn("ZeroDivisionError", done.stderr)
+        self.assertEqual({file.name: file.read_bytes() for file in site.iterdir()}, before)
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["results.h5", "site"])
 
     def test_one_formulation(self):
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation")
