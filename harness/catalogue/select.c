@@ -27,6 +27,19 @@ static int next_is(scanner *s, const char *word)
 
 static int expression_holds(scanner *s);
 
+/* A word is looked for in the text; "=NAME" is one of the parts between its slashes. */
+static int is_called(const char *text, const char *word)
+{
+    if (word[0] != '=')
+        return strstr(text, word) != NULL;
+    for (size_t length; *text != '\0'; text += length + (text[length] == '/')) {
+        length = strcspn(text, "/");
+        if (strlen(word + 1) == length && strncmp(text, word + 1, length) == 0)
+            return 1;
+    }
+    return 0;
+}
+
 static int word_holds(scanner *s)
 {
     char word[SELECT_WORD];
@@ -39,7 +52,7 @@ static int word_holds(scanner *s)
     memcpy(word, s->at, length);
     word[length] = '\0';
     s->at += length;
-    return strstr(s->text, word) != NULL;
+    return is_called(s->text, word);
 }
 
 static int brackets_hold(scanner *s)
@@ -138,7 +151,7 @@ void select_meet(const char *expression, const char *text, select_words *words)
         return;
     for (int i = 0; i < SELECT_WORDS && (expression = next_word(expression, word)) != NULL; i++)
         if (!words->met[i])
-            words->met[i] = strstr(text, word) != NULL;
+            words->met[i] = is_called(text, word);
 }
 
 /* Cases, then formulations. */
@@ -170,7 +183,7 @@ status select_begin(const char *expression, select_words *words, fault *f)
 /* The name nearest to the first part of case/parameters/formulation that is none; NULL: none. */
 static const char *nearest(const char *word)
 {
-    for (const char *at = word; *at != '\0'; at += *at == '/') {
+    for (const char *at = word + (word[0] == '='); *at != '\0'; at += *at == '/') {
         char part[SELECT_WORD];
         const size_t length = strcspn(at, "/:");
         memcpy(part, at, length);

@@ -20,7 +20,8 @@ const verb_option option_table[OPTION_MOST] = {
      "load steps between two stations of a path, to begin with; longer where that goes well", 0},
     {"select", 'k', "EXPRESSION",
      "words joined by and, or, not, in brackets where they belong together; looked for in "
-     "case/parameters/formulation/quantity",
+     "case/parameters/formulation/quantity, where a part of a name is enough; =NAME: the whole "
+     "name",
      offsetof(command_request, select)},
     {"jobs", 'j', "N", "processes (default: one for each processor)", 0},
     {"time-limit", 'L', "SECONDS",

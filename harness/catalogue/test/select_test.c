@@ -170,6 +170,8 @@ static void unknown_words(void)
                    {"beamw and not c_column/defalut", "'c_column/defalut'"},
                    {"elastica or hexapd/default", "did you mean 'hexapod'?"},
                    {"load=4", "'load=4'"},
+                   {"=c_colunm", "did you mean 'c_column'?"},
+                   {"=column", "'=column'"},
                    {"(beamw", "malformed"}};
     fault f = {""};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
@@ -183,9 +185,26 @@ static void unknown_words(void)
     gsl_test_int(all_met(NULL, &f), STATUS_OK, "no selection");
 }
 
+/* "=NAME" is a whole part. */
+static void exact(void)
+{
+    const char *const text = "shear_elastica/GA=10/beamw:mass=lumped/u";
+    const struct {
+        const char *expression;
+        int holds;
+    } all[] = {
+        {"elastica", 1}, {"=elastica", 0}, {"=shear_elastica", 1},    {"=u", 1},
+        {"=GA=10", 1},   {"=beamw", 0},    {"=beamw:mass=lumped", 1}, {"not =elastica and =u", 1},
+        {"=", 0}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        gsl_test_int(select_matches(all[i].expression, text), all[i].holds, "'%s'",
+                     all[i].expression);
+}
+
 int main(void)
 {
     expressions();
+    exact();
     random_expressions();
     lengths();
     unknown_words();
