@@ -188,7 +188,7 @@ static void unknown_words(void)
 /* "=NAME" is a whole part. */
 static void exact(void)
 {
-    const char *const text = "shear_elastica/GA=10/beamw:mass=lumped/u";
+    const char *const one = "shear_elastica/GA=10/beamw:mass=lumped/u";
     const struct {
         const char *expression;
         int holds;
@@ -197,7 +197,7 @@ static void exact(void)
         {"=GA=10", 1},   {"=beamw", 0},    {"=beamw:mass=lumped", 1}, {"not =elastica and =u", 1},
         {"=", 0}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        gsl_test_int(select_matches(all[i].expression, text), all[i].holds, "'%s'",
+        gsl_test_int(select_matches(all[i].expression, one), all[i].holds, "'%s'",
                      all[i].expression);
 }
 
