@@ -142,7 +142,7 @@ class Planted(PluginTest):
                             ("kz = dot(section_z", "kz = dot(section_y"))
         record = self.folder / "v.json"
         self.answered("verify", "--element", made, "-f", "ancf", "-k",
-                      "tapered_cantilever/default", "--json", record)
+                      "tapered_cantilever/default", "--json", record, code=1)
         wrong = {v["quantity"] for v in read_json(record)["verdicts"]
                  if v["verdict"] == "wrong limit"}
         self.assertEqual(wrong, {"deflection_y", "deflection_z", "slope_y", "slope_z"})
