@@ -40,7 +40,8 @@ static void reverse_internal(scene_quantity *q)
     else if (odd && along == SCENE_ALONG_MIN)
         along = SCENE_ALONG_MAX;
     q->what = along == SCENE_ALONG_PLACE
-                  ? scene_internal_at(what.member, 1 - what.place, what.resultant)
+                  ? scene_beside(scene_internal_at(what.member, 1 - what.place, what.resultant),
+                                 !what.before)
                   : scene_internal_along(what.member, along, what.resultant);
     if (odd && along != SCENE_ALONG_LARGEST)
         q->factor = -q->factor;
@@ -48,9 +49,10 @@ static void reverse_internal(scene_quantity *q)
 
 static void reverse_stress(scene_quantity *q)
 {
-    const scene_stress *what = scene_stress_of(q);
-    if (!what->whole)
-        q->what = scene_stress_at(what->member, 1 - what->place, what->measure);
+    const scene_stress what = *scene_stress_of(q);
+    if (!what.whole)
+        q->what =
+            scene_beside(scene_stress_at(what.member, 1 - what.place, what.measure), !what.before);
 }
 
 /* Of a member whose ends are exchanged. */
@@ -110,10 +112,11 @@ static status reverse(scene *s, fault *f)
 }
 
 /* A place of the first member, which ends at `fraction` now: in that one, or in the second. */
-static double split_place(double place, double fraction, int second, int *member)
+static double split_place(double place, int before, double fraction, int second, int *member)
 {
-    *member = place < fraction ? 0 : second;
-    return place < fraction ? place / fraction : (place - fraction) / (1 - fraction);
+    const int first = before ? place <= fraction : place < fraction;
+    *member = first ? 0 : second;
+    return first ? place / fraction : (place - fraction) / (1 - fraction);
 }
 
 static status split_quantity(scene_quantity *q, double fraction, int second, fault *f)
@@ -128,13 +131,13 @@ static status split_quantity(scene_quantity *q, double fraction, int second, fau
                          q->name);
     if (internal) {
         const scene_internal what = *scene_internal_of(q);
-        const double place = split_place(what.place, fraction, second, &member);
-        q->what = scene_internal_at(member, place, what.resultant);
+        const double place = split_place(what.place, what.before, fraction, second, &member);
+        q->what = scene_beside(scene_internal_at(member, place, what.resultant), what.before);
     }
     if (stress) {
         const scene_stress what = *scene_stress_of(q);
-        const double place = split_place(what.place, fraction, second, &member);
-        q->what = scene_stress_at(member, place, what.measure);
+        const double place = split_place(what.place, what.before, fraction, second, &member);
+        q->what = scene_beside(scene_stress_at(member, place, what.measure), what.before);
     }
     return STATUS_OK;
 }

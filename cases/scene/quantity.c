@@ -152,6 +152,15 @@ scene_extract scene_internal_at(int member, double place, scene_resultant result
                            {.internal = {member, resultant, SCENE_ALONG_PLACE, place}}};
 }
 
+scene_extract scene_beside(scene_extract what, int before)
+{
+    if (what.kind == SCENE_STRESS)
+        what.of.stress.before = before;
+    else
+        what.of.internal.before = before;
+    return what;
+}
+
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant)
 {
     return (scene_extract){SCENE_INTERNAL, {.internal = {member, resultant, along, 0}}};

@@ -104,6 +104,7 @@ typedef struct scene_internal {
     scene_resultant resultant;
     scene_along along;
     double place; /* of SCENE_ALONG_PLACE: 0 at p .. 1 at q, of the initial length */
+    int before;   /* of what jumps there: 1 on the side of p, 0 on that of q */
 } scene_internal;
 
 /* Of all points of a section (elements/section/stress.h) [Pa]. */
@@ -118,6 +119,7 @@ typedef struct scene_stress {
     scene_stress_measure measure;
     int whole;    /* 1: of all sections of the member; 0: of the one at ... */
     double place; /* 0 at p .. 1 at q, of the initial length */
+    int before;   /* as of scene_internal */
 } scene_stress;
 
 /* Of a whole motion. */
@@ -205,12 +207,14 @@ scene_extract scene_rate(int node, int component);
 scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
-/* place: 0 at p .. 1 at q */
+/* place: 0 at p .. 1 at q, on the side of q */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
 /* Over a member: of its sections the one that has most, of SCENE_NORMAL_MIN least. */
 scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
+/* A resultant or a stress at a place, on the side of p of what jumps there (before) or of q. */
+scene_extract scene_beside(scene_extract what, int before);
 /* What scene files call it. */
 #define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
 #define SCENE_RESULTANT_CHOICES "N|Qy|Qz|Mx|My|Mz|bimoment|Mx_saint_venant|Mx_warping|Mx_wagner"

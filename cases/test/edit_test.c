@@ -258,8 +258,42 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
+/* A place keeps its side of what jumps there, seen from the other end the other one; where the
+ * member is split there the side says of which half it is. */
+static void sides(void)
+{
+    static const struct {
+        int before, member;
+        double place;
+    } half[] = {{0, 1, 0}, {1, 0, 1}};
+    for (int i = 0; i < 2; i++) {
+        scene s;
+        fault f = {""};
+        make(&s);
+        const int linear = scene_add_linear(&s), before = half[i].before;
+        scene_add_quantity(&s, "Q", "N", linear,
+                           scene_beside(scene_internal_at(0, 0.25, SCENE_QY), before));
+        scene_add_quantity(&s, "stress", "Pa", linear,
+                           scene_beside(scene_stress_at(0, 0.25, SCENE_VON_MISES), before));
+        scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_REVERSE, 0}, &f);
+        gsl_test_int(scene_internal_of(&s.quantity[0])->before, !before, "side of a resultant");
+        gsl_test_int(scene_stress_of(&s.quantity[1])->before, !before, "side of a stress");
+        scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_REVERSE, 0}, &f);
+        gsl_test(scene_edit_apply(&s, &(scene_edit){SCENE_EDIT_SPLIT, 0.25}, &f) != STATUS_OK, "%s",
+                 f.text);
+        const scene_internal *Q = scene_internal_of(&s.quantity[0]);
+        const scene_stress *of = scene_stress_of(&s.quantity[1]);
+        gsl_test(Q->member != half[i].member || Q->place != half[i].place || Q->before != before,
+                 "half of a resultant's side: member %d at %g", Q->member, Q->place);
+        gsl_test(of->member != half[i].member || of->place != half[i].place || of->before != before,
+                 "half of a stress' side: member %d at %g", of->member, of->place);
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
+    sides();
     in_millimetres();
     reversed();
     is_split();

@@ -107,12 +107,14 @@ int applied_part(const model *m, int element, const scene_load *load, double par
     const int member = m->element[element].member;
     if (!scene_load_along(load) || load->where != member)
         return 0;
-    const int first = m->first_element[member], count = m->first_element[member + 1] - first,
-              number = element - first;
+    const int number = element - m->first_element[member];
+    if (scene_load_within(load)) {
+        const int at = division_at(&m->division, member, load->range[0], 0, &part[0]);
+        part[1] = part[0];
+        return at == number;
+    }
     for (int i = 0; i < 2; i++)
-        part[i] = load->range[i] * count - number;
-    if (scene_load_within(load))
-        return (int)fmin(floor(load->range[0] * count), count - 1) == number;
+        part[i] = division_inside(&m->division, member, number, load->range[i]);
     part[0] = fmax(part[0], 0);
     part[1] = fmin(part[1], 1);
     return part[1] - part[0] > least_part;
@@ -120,13 +122,13 @@ int applied_part(const model *m, int element, const scene_load *load, double par
 
 void applied_vector(const model *m, int element, const scene_load *load, double x, double vector[3])
 {
-    const int member = m->element[element].member, first = m->first_element[member],
-              count = m->first_element[member + 1] - first;
+    const int member = m->element[element].member;
     memcpy(vector, load->vector, 3 * sizeof *vector);
     if (!load->varies)
         return;
-    const double along =
-        ((element - first + x) / count - load->range[0]) / (load->range[1] - load->range[0]);
+    const double place =
+                     division_place(&m->division, member, element - m->first_element[member], x),
+                 along = (place - load->range[0]) / (load->range[1] - load->range[0]);
     for (int i = 0; i < 3; i++)
         vector[i] += along * (load->last[i] - load->vector[i]);
 }

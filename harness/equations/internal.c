@@ -189,9 +189,10 @@ static status recover(model *m, const internal_state *s, int i, const span_grid 
     if (jump != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
                          "%s: %s begins, ends or acts inside an element of it, where resultants "
-                         "have a kink; put a node there, or let an element end there",
+                         "have a kink: it is within %g of its length of an end, or of another such "
+                         "place; put it there, or put a node of the scene at one of them",
                          scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
-                         scene_called(m->scene, SCENE_LOADS, jump).text);
+                         scene_called(m->scene, SCENE_LOADS, jump).text, DIVISION_LEAST);
     loads.acts = distributed_acts(&loads.loads);
     if (loads.nodes > 0)
         s->moving->along(s->moving->context, i, loads.density);
@@ -201,17 +202,19 @@ static status recover(model *m, const internal_state *s, int i, const span_grid 
     return span_recover(g, &problem, out, f);
 }
 
-status internal_at(model *m, const internal_state *s, int member, double place, double out[],
+status internal_at(model *m, const internal_state *s, const internal_place *at, double out[],
                    fault *f)
 {
-    const int first = m->first_element[member], count = m->first_element[member + 1] - first;
-    const int i = (int)fmin(fmax(floor(place * count), 0), count - 1);
+    const int member = at->member;
+    double x;
+    const int i =
+        m->first_element[member] + division_at(&m->division, member, at->place, at->before, &x);
     span_grid g;
     span_fields fields;
     span_grid_make(&g);
-    TRY(recover(m, s, first + i, &g, &fields, f));
-    span_at(&g, &fields, place * count - i, out);
-    const double angle = axes_turned(m, member, place, &m->element[first + i]);
+    TRY(recover(m, s, i, &g, &fields, f));
+    span_at(&g, &fields, x, out);
+    const double angle = axes_turned(m, member, at->place, &m->element[i]);
     turn_components(angle, &out[SPAN_N]);
     turn_components(angle, &out[SPAN_MX]);
     return STATUS_OK;

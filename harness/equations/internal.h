@@ -36,13 +36,20 @@ typedef struct internal_inertia {
  * that of the warping amplitude's rate). end: 0 from, 1 to. */
 void internal_at_end(model *, const internal_state *, int member, int end, double out[7]);
 
-/* The same at a place of a member, 0 from .. 1 to of its initial length, and what else span.h has:
- * out[SPAN_VALUES]. NOT_CONVERGED: as span_recover. Of a motion the mass lies evenly along an
- * element again, with accelerations that are interpolated between its nodes: the sum of its forces
- * is that of the lumped masses, which the ends have in them, so that values go through from element
- * to element, and converge as they do (order 2). Warping inertia acts at nodes. */
-status internal_at(model *, const internal_state *, int member, double place, double out[],
-                   fault *);
+/* A place of a member, 0 from .. 1 to of its initial length; before: on the side of `from` of what
+ * jumps there. */
+typedef struct internal_place {
+    int member;
+    double place;
+    int before;
+} internal_place;
+
+/* The same at a place of a member, and what else span.h has: out[SPAN_VALUES]. NOT_CONVERGED: as
+ * span_recover. Of a motion the mass lies evenly along an element again, with accelerations that
+ * are interpolated between its nodes: the sum of its forces is that of the lumped masses, which the
+ * ends have in them, so that values go through from element to element, and converge as they do
+ * (order 2). Warping inertia acts at nodes. */
+status internal_at(model *, const internal_state *, const internal_place *, double out[], fault *);
 
 /* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted
  * along the member, from its resultants [SPAN_VALUES]. */

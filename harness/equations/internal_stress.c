@@ -10,8 +10,8 @@
 /* The points of one member; those of a place of it where its section changes. */
 typedef struct member_points {
     const model *m;
-    int member, count, tapers; /* count: elements */
-    int turned;                /* the twist turns fibres */
+    int member, tapers;
+    int turned; /* the twist turns fibres */
     stress_measure what;
     section local;
     stress_points points;
@@ -25,7 +25,6 @@ static status prepare(model *m, const internal_state *s, int member, stress_meas
     TRY(features_of_section(m, profile_at(m, member, 0), &features, f));
     out->m = m;
     out->member = member;
-    out->count = m->first_element[member + 1] - m->first_element[member];
     out->tapers = scene_member_tapers(sm);
     out->turned = s->x == NULL && (features & FEATURE_WAGNER_TORQUE);
     out->what = what;
@@ -69,7 +68,8 @@ static double measured(void *context, int element, double x, const double v[])
 {
     member_points *of = context;
     fault f;
-    if (of->tapers && take_local(of, (element + x) / of->count, &f) != STATUS_OK)
+    if (of->tapers &&
+        take_local(of, division_place(&of->m->division, of->member, element, x), &f) != STATUS_OK)
         return NAN;
     const stress_resultants r = local_resultants(of, element, v);
     return (of->what == STRESS_NORMAL_MIN ? -1 : 1) * stress_of(&of->points, &r, of->what);
@@ -80,15 +80,15 @@ static double signed_value(stress_measure what, double value)
     return what == STRESS_NORMAL_MIN ? -value : value;
 }
 
-status internal_stress_at(model *m, const internal_state *s, int member, double place,
+status internal_stress_at(model *m, const internal_state *s, const internal_place *at,
                           stress_measure what, double *out, fault *f)
 {
     member_points of;
-    double v[SPAN_VALUES];
-    TRY(prepare(m, s, member, what, &of, f));
-    TRY(internal_at(m, s, member, place, v, f));
-    const int element = (int)fmin(floor(place * of.count), of.count - 1);
-    *out = signed_value(what, measured(&of, element, place * of.count - element, v));
+    double v[SPAN_VALUES], x;
+    TRY(prepare(m, s, at->member, what, &of, f));
+    TRY(internal_at(m, s, at, v, f));
+    const int element = division_at(&m->division, at->member, at->place, at->before, &x);
+    *out = signed_value(what, measured(&of, element, x, v));
     return STATUS_OK;
 }
 

@@ -7,7 +7,7 @@
 
 /* At a place of a member, 0 from .. 1 to [Pa].  REFUSED: given constants, which have no points;
  * else as internal_at. */
-status internal_stress_at(model *, const internal_state *, int member, double place, stress_measure,
+status internal_stress_at(model *, const internal_state *, const internal_place *, stress_measure,
                           double *out, fault *);
 /* Of all its sections. */
 status internal_stress_largest(model *, const internal_state *, int member, stress_measure,

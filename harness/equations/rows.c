@@ -39,13 +39,13 @@ static void put_vertex(const model *m, int vertex, row_label label, row_label ou
 
 static void put_element(const model *m, const mesh_element *el, row_label out[])
 {
-    const int first = m->first_element[el->member],
-              count = m->first_element[el->member + 1] - first;
+    const int number = (int)(el - &m->element[m->first_element[el->member]]);
     for (int k = 0; k < el->nodes; k++) {
         const int vertex = el->vertex[k], is_node = vertex < m->scene->nodes;
-        const double at = (double)(el - &m->element[first]) + (double)k / (el->nodes - 1);
+        const double at =
+            division_place(&m->division, el->member, number, (double)k / (el->nodes - 1));
         row_label label = {
-            .node = is_node ? vertex : SCENE_NONE, .member = el->member, .along = at / count};
+            .node = is_node ? vertex : SCENE_NONE, .member = el->member, .along = at};
         memcpy(label.position, m->vertex[vertex].position, sizeof label.position);
         if (!is_node)
             put_vertex(m, vertex, label, out);

@@ -14,11 +14,6 @@
 #include "harness/model/profile.h"
 #include "harness/model/release.h"
 
-static int divisions(const scene *s, int member, int elements)
-{
-    return s->member[member].divisions > 0 ? s->member[member].divisions : elements;
-}
-
 /* Of a sequence's next angle; any length. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
@@ -135,13 +130,16 @@ static mesh_triad *keep_triads(model *m, mesh_triad triad[])
     return next;
 }
 
-/* The vertices of one element of n along an arc: positions, triads, warping comes later. */
-static status add_element(model *m, const member_arc *along, int member, int number, int n,
+/* The vertices of one element along an arc: positions, triads, warping comes later. */
+static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
 {
     mesh_element *el = &m->element[m->elements];
     const scene_member *sm = &m->scene->member[member];
-    const int profile = profile_at(m, member, number);
+    const int profile = profile_at(m, member, number), n = division_elements(&m->division, member),
+              each = m->division.each[member];
+    double ends[2];
+    const int in_piece = division_piece(&m->division, member, number, ends);
     member_arc here;
     TRY(arc_of_element(m, member, profile, along, &here, f));
     const member_arc *a = &here;
@@ -160,7 +158,10 @@ static status add_element(model *m, const member_arc *along, int member, int num
             el->vertex[k] = sm->q;
         mesh_vertex *v = &m->vertex[el->vertex[k]];
         double position[3], between[3];
-        member_arc_at(a, a->length * (number * last + k) / (n * last), position, triad[k]);
+        member_arc_at(a,
+                      a->length * ends[0] +
+                          a->length * (ends[1] - ends[0]) * (in_piece * last + k) / (each * last),
+                      position, triad[k]);
         if (!at_start && !at_end) {
             v->body = el->vertex[k];
             memcpy(v->position, position, sizeof position);
@@ -188,7 +189,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
     }
     m->elements++;
     el->triad = keep_triads(m, triad);
-    return kind_of(m, sm, profile, a->length / n, 0, a->k, &el->kind, f);
+    return kind_of(m, sm, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
 
 /* Warping slot of a member's end: shared by name, own, or none. */
@@ -241,13 +242,13 @@ static int largest_name(const scene *s)
     return largest;
 }
 
-static status allocate(model *m, int elements, fault *f)
+static status allocate(model *m, fault *f)
 {
     const scene *s = m->scene;
     const double most = 1e8;
     double total = 0;
     for (int i = 0; i < s->members; i++)
-        total += divisions(s, i, elements);
+        total += (double)division_pieces(&m->division, i) * m->division.each[i];
     const double per_element = 8e3; /* bytes of an element with its share of matrices and factors,
                                        measured on straight members */
     char what[80];
@@ -274,17 +275,10 @@ static status allocate(model *m, int elements, fault *f)
 }
 
 /* The sections of all elements, and no kind of any. */
-static status profiles(model *m, int elements, fault *f)
+static status profiles(model *m, fault *f)
 {
-    const scene *s = m->scene;
-    int *count = malloc(((size_t)s->members + 1) * sizeof *count), sections;
-    if (count == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
-    for (int i = 0; i < s->members; i++)
-        count[i] = divisions(s, i, elements);
-    const status outcome = profile_count(m, count, &sections, f);
-    free(count);
-    TRY(outcome);
+    int sections;
+    TRY(profile_members(m, &sections, f));
     m->kind_of_section = malloc(((size_t)sections + 1) * sizeof *m->kind_of_section);
     if (m->kind_of_section == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
@@ -293,24 +287,20 @@ static status profiles(model *m, int elements, fault *f)
     return STATUS_OK;
 }
 
-status mesh_build(model *m, int elements, fault *f)
+status mesh_build(model *m, fault *f)
 {
     const scene *s = m->scene;
-    if (elements < 1)
-        return fault_set(f, STATUS_REFUSED, "%d elements: give at least 1", elements);
-    if (s->members < 1)
-        return fault_set(f, STATUS_REFUSED, "scene %s: it has no member", s->name);
-    TRY(allocate(m, elements, f));
-    TRY(profiles(m, elements, f));
+    TRY(allocate(m, f));
+    TRY(profiles(m, f));
     scene_vertices(m);
     int inner_vertex = s->nodes;
     for (int member = 0; member < s->members; member++) {
-        const int n = divisions(s, member, elements);
+        const int n = division_elements(&m->division, member);
         member_arc a;
         TRY(member_arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
         m->first_element[member] = m->elements;
         for (int i = 0; i < n; i++)
-            TRY(add_element(m, &a, member, i, n, inner_vertex, f));
+            TRY(add_element(m, &a, member, i, inner_vertex, f));
         inner_vertex += n * (m->nodes - 1) - 1;
         m->size = a.length > m->size ? a.length : m->size;
     }

@@ -43,14 +43,14 @@ static int stations_of(const scene_analysis *a)
 
 /* At least what the elements, the pattern of their matrices and the states kept along the path
  * take. */
-static status check_memory(const model *m, int elements, fault *f)
+static status check_memory(const model *m, fault *f)
 {
     const double entries = (double)m->coordinates * m->coordinates / 2,
                  words = 10.0 * (m->nodes - 1) + 2 * m->strains + m->inner;
     double count = 0, states = 3;
     char what[80];
     for (int i = 0; i < m->scene->members; i++)
-        count += m->scene->member[i].divisions > 0 ? m->scene->member[i].divisions : elements;
+        count += (double)division_pieces(&m->division, i) * m->division.each[i];
     for (int i = 0; i < m->scene->analyses; i++)
         states += stations_of(&m->scene->analysis[i]);
     const double each = sizeof(mesh_element) + (m->nodes - 1) * sizeof(mesh_vertex) +
@@ -97,6 +97,16 @@ static status note_means(model *m, fault *f)
     return STATUS_OK;
 }
 
+static status divide(model *m, fault *f)
+{
+    if (m->asked < 1)
+        return fault_set(f, STATUS_REFUSED, "%d elements: give at least 1", m->asked);
+    if (m->scene->members < 1)
+        return fault_set(f, STATUS_REFUSED, "scene %s: it has no member", m->scene->name);
+    TRY(division_make(m->scene, m->asked, &m->division, f));
+    return check_memory(m, f);
+}
+
 static status build(model *m, const model_request *request, fault *f)
 {
     const scene *s = request->scene;
@@ -115,8 +125,8 @@ static status build(model *m, const model_request *request, fault *f)
     m->driver_coordinate = malloc(((size_t)s->drivers + 1) * sizeof *m->driver_coordinate);
     if (m->driver_coordinate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for drivers");
-    TRY(check_memory(m, request->elements, f));
-    TRY(mesh_build(m, request->elements, f));
+    TRY(divide(m, f));
+    TRY(mesh_build(m, f));
     TRY(discrete_build(m, f));
     TRY(turns_build(m, f));
     TRY(coordinates_number(m, f));
@@ -189,6 +199,7 @@ void model_free(model *m)
     free(m->discrete);
     free(m->turn);
     free(m->first_element);
+    division_free(&m->division);
     free(m->driver_coordinate);
     free(m->work);
     free(m->undeformed.of);

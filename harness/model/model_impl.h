@@ -4,6 +4,7 @@
 
 #include "elements/field/field.h"
 #include "harness/algebra/team.h"
+#include "harness/division/division.h"
 #include "harness/model/model.h"
 
 /* An element depends on the coordinates of its nodes and on those of released ends. */
@@ -165,7 +166,8 @@ struct model {
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
     double size;             /* length of the longest member [m] */
-    int asked;               /* elements of a member */
+    int asked;               /* elements of a piece of a member */
+    division division;       /* of the members into elements */
     mesh_pattern pattern[5]; /* those of assemble.h */
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
@@ -217,7 +219,7 @@ int features_eccentric(const section *c); /* its shear centre is not its centroi
 status features_of_section(const model *m, int section, unsigned *features, fault *f);
 
 /* mesh.c */
-status mesh_build(model *m, int elements, fault *f);
+status mesh_build(model *m, fault *f);
 
 /* coordinates.c */
 status coordinates_number(model *m, fault *f);

@@ -9,7 +9,7 @@
 
 /* A change from one section of the scene to another in so many steps, from m->section[first] on. */
 typedef struct taper {
-    int p, q, steps, first;
+    int p, q, steps, even, first; /* even: of one length */
 } taper;
 
 status profile_scene(model *m, fault *f)
@@ -57,8 +57,8 @@ static status fill(model *m, int member, const taper *t, fault *f)
         section_spec spec;
         fault why = {""};
         section *c = &m->section[t->first + i];
-        section_taper_at(&s->section[t->p], &s->section[t->q], (2 * i + 1) / (2.0 * t->steps),
-                         &spec);
+        section_taper_at(&s->section[t->p], &s->section[t->q],
+                         division_place(&m->division, member, i, 0.5), &spec);
         if (section_compute(&spec, c, &why) != STATUS_OK)
             return fault_set(f, STATUS_REFUSED, "%s, between its ends: %s",
                              scene_called(m->scene, SCENE_MEMBERS, member).text, why.text);
@@ -72,18 +72,20 @@ static status fill(model *m, int member, const taper *t, fault *f)
 static int find(int tapers, const taper *list, const taper *t)
 {
     for (int i = 0; i < tapers; i++)
-        if (list[i].p == t->p && list[i].q == t->q && list[i].steps == t->steps)
+        if (list[i].p == t->p && list[i].q == t->q && list[i].steps == t->steps && list[i].even &&
+            t->even)
             return i;
     return tapers;
 }
 
-static int list_tapers(model *m, const int divisions[], taper *list, int *member, int *sections)
+static int list_tapers(model *m, taper *list, int *member, int *sections)
 {
     const scene *s = m->scene;
     int tapers = 0;
     for (int i = 0; i < s->members; i++) {
         const scene_member *sm = &s->member[i];
-        taper t = {sm->section, sm->section_q, divisions[i], *sections};
+        taper t = {sm->section, sm->section_q, division_elements(&m->division, i),
+                   division_pieces(&m->division, i) == 1, *sections};
         m->profile[i] = sm->section;
         if (!scene_member_tapers(sm))
             continue;
@@ -111,31 +113,21 @@ static status fill_all(model *m, int tapers, const taper *list, const int *membe
     return STATUS_OK;
 }
 
-status profile_members(model *m, const int divisions[], fault *f)
+status profile_members(model *m, int *sections, fault *f)
 {
     const size_t members = (size_t)m->scene->members;
-    int sections = m->scene->sections;
     taper *list = malloc((members + 1) * sizeof *list);
     int *member = malloc((members + 1) * sizeof *member);
     m->profile = malloc((members + 1) * sizeof *m->profile);
     status outcome = STATUS_FAULT;
+    *sections = m->scene->sections;
     if (list == NULL || member == NULL || m->profile == NULL) {
         fault_set(f, outcome, "out of memory for the sections of members");
     } else {
-        const int tapers = list_tapers(m, divisions, list, member, &sections);
-        outcome = tapers > 0 ? fill_all(m, tapers, list, member, sections, f) : STATUS_OK;
+        const int tapers = list_tapers(m, list, member, sections);
+        outcome = tapers > 0 ? fill_all(m, tapers, list, member, *sections, f) : STATUS_OK;
     }
     free(list);
     free(member);
     return outcome;
-}
-
-status profile_count(model *m, const int count[], int *sections, fault *f)
-{
-    *sections = m->scene->sections;
-    TRY(profile_members(m, count, f));
-    for (int i = 0; i < m->scene->members; i++)
-        if (*sections <= profile_at(m, i, count[i] - 1))
-            *sections = profile_at(m, i, count[i] - 1) + 1;
-    return STATUS_OK;
 }

@@ -50,7 +50,7 @@ static status internal_of(model *m, const scene_internal *what, const internal_s
     if ((what->place == 0 || what->place == 1) && what->resultant <= SCENE_BIMOMENT)
         internal_at_end(m, s, what->member, what->place == 1, all);
     else
-        TRY(internal_at(m, s, what->member, what->place, all, f));
+        TRY(internal_at(m, s, &(internal_place){what->member, what->place, what->before}, all, f));
     *out = all[value_of[what->resultant]];
     return STATUS_OK;
 }
@@ -66,7 +66,8 @@ status resultants_in_section(model *m, const scene_quantity *q, const internal_s
     const scene_stress *what = scene_stress_of(q);
     if (what->whole)
         return internal_stress_largest(m, s, what->member, measure[what->measure], out, f);
-    return internal_stress_at(m, s, what->member, what->place, measure[what->measure], out, f);
+    return internal_stress_at(m, s, &(internal_place){what->member, what->place, what->before},
+                              measure[what->measure], out, f);
 }
 
 typedef struct moving_state {

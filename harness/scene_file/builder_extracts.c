@@ -99,17 +99,31 @@ static double place_of(const fields *f)
     return 0;
 }
 
+/* On which side of what jumps at a place. */
+static scene_extract beside(const fields *f, scene_extract what)
+{
+    if (fields_have(f, "side") && !fields_have(f, "where"))
+        document_mistake(f->b->mistakes, document_find(f->map, "side"), 0,
+                         "side: of a place of the member, at which a load acts; say which, with "
+                         "'where', or take it away");
+    return scene_beside(what, fields_word(f, "side", "from|to", 1) == 0);
+}
+
 static scene_extract internal(const fields *f)
 {
     const int member = fields_entry(f, "member", LIST_MEMBERS);
     const scene_resultant what =
         (scene_resultant)fields_word(f, "resultant", SCENE_RESULTANT_CHOICES, 0);
     if (fields_have(f, "along"))
-        return scene_internal_along(
-            member, (scene_along)(SCENE_ALONG_MAX + fields_word(f, "along", "max|min|largest", 0)),
-            what);
-    return scene_internal_at(
-        member, fields_have(f, "where") ? place_of(f) : fields_word(f, "end", "from|to", 0), what);
+        return beside(
+            f, scene_internal_along(
+                   member,
+                   (scene_along)(SCENE_ALONG_MAX + fields_word(f, "along", "max|min|largest", 0)),
+                   what));
+    return beside(
+        f, scene_internal_at(
+               member, fields_have(f, "where") ? place_of(f) : fields_word(f, "end", "from|to", 0),
+               what));
 }
 
 /* Given constants have no points. */
@@ -132,8 +146,8 @@ static scene_extract stress(const fields *f)
     const scene_stress_measure what =
         (scene_stress_measure)fields_word(f, "measure", SCENE_STRESS_CHOICES, 0);
     check_points(f, member);
-    return fields_have(f, "where") ? scene_stress_at(member, place_of(f), what)
-                                   : scene_stress_along(member, what);
+    return beside(f, fields_have(f, "where") ? scene_stress_at(member, place_of(f), what)
+                                             : scene_stress_along(member, what));
 }
 
 static int axis_word(const fields *f, const char *key)

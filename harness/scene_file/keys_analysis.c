@@ -156,6 +156,8 @@ static const scene_key internal[] = {
     {"member", KEY_NAME, .needed = 1, .summary = "member"},
     {"end", KEY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "of the member"},
     {"where", KEY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length"},
+    {"side", KEY_WORD, .words = "from|to",
+     .summary = "of 'where', towards that node: resultants jump where a load acts", .usual = "to"},
     {"along", KEY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
      .summary = "over the member: largest and least value, or largest magnitude"},
     {"resultant", KEY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
@@ -167,6 +169,8 @@ static const scene_key stress[] = {
     {"member", KEY_NAME, .needed = 1, .summary = "member; its section not given by constants"},
     {"where", KEY_NUMBER, .summary = "0 'from' to 1 'to', of its length",
      .left_out = "all along it"},
+    {"side", KEY_WORD, .words = "from|to",
+     .summary = "of 'where', towards that node: resultants jump where a load acts", .usual = "to"},
     {"measure", KEY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
      .usual = "von_mises"},
     {.name = NULL}};

@@ -106,12 +106,12 @@ static void member(FILE *to, const scene *s, int index)
 }
 
 /* 0: its beginning, 1: its end. */
-static void place(FILE *to, double where)
+static void place(FILE *to, double where, int before)
 {
     if (where == 0 || where == 1)
         fprintf(to, " at the %s", where == 0 ? "beginning" : "end");
     else
-        fprintf(to, " at %.10g of the length", where);
+        fprintf(to, "%s at %.10g of the length", before ? " right before what acts" : "", where);
 }
 
 static void internal(FILE *to, const scene *s, const scene_internal *c)
@@ -133,7 +133,7 @@ static void internal(FILE *to, const scene *s, const scene_internal *c)
     fprintf(to, "%s%s", c->along == SCENE_ALONG_PLACE ? "" : along[c->along],
             resultant[c->resultant]);
     if (c->along == SCENE_ALONG_PLACE)
-        place(to, c->place);
+        place(to, c->place, c->before);
     else
         fputs(" along the length", to);
     member(to, s, c->member);
@@ -149,7 +149,7 @@ static void stress(FILE *to, const scene *s, const scene_stress *c)
     if (c->whole)
         fputs(" of all sections", to);
     else
-        place(to, c->place);
+        place(to, c->place, c->before);
     member(to, s, c->member);
 }
 

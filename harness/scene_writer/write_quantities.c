@@ -6,6 +6,13 @@ static void write_which(writer *w, int order)
     write_values_if(w, "which", order, 0);
 }
 
+static void write_where(writer *w, double place, int before)
+{
+    fputs(", where: ", w->to);
+    write_values_number(w, place);
+    fputs(before ? ", side: from" : "", w->to);
+}
+
 /* Which section of a member, and what of it. */
 static void write_place(writer *w, const scene_internal *c)
 {
@@ -19,8 +26,7 @@ static void write_place(writer *w, const scene_internal *c)
     } else if (c->place == 0 || c->place == 1) {
         fprintf(w->to, ", end: %s", c->place == 1 ? "to" : "from");
     } else {
-        fputs(", where: ", w->to);
-        write_values_number(w, c->place);
+        write_where(w, c->place, c->before);
     }
     fprintf(w->to, ", resultant: %s", resultant[c->resultant]);
 }
@@ -29,10 +35,8 @@ static void write_stress(writer *w, const scene_stress *c)
 {
     static const char *const measure[] = {"von_mises", "normal_max", "normal_min"};
     write_values_named(w, ", member: ", SCENE_MEMBERS, c->member);
-    if (!c->whole) {
-        fputs(", where: ", w->to);
-        write_values_number(w, c->place);
-    }
+    if (!c->whole)
+        write_where(w, c->place, c->before);
     fprintf(w->to, ", measure: %s", measure[c->measure]);
 }
 

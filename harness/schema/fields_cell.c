@@ -4,6 +4,7 @@
 
 #include "cases/scene/omission.h"
 #include "elements/feature.h"
+#include "harness/division/division_words.h"
 #include "harness/model/features.h"
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/schema/fields_keys.h"
@@ -30,6 +31,14 @@ static void get_left_out(const subject *s, field_value *out)
 static void get_warping(const subject *s, field_value *out)
 {
     warping_ends(&s->point->scene, out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_divided(const subject *s, field_value *out)
+{
+    out->room[0] = '\0';
+    if (s->series->imported == NULL)
+        division_words(&s->point->scene, s->series->mesh[s->mesh], out->room, sizeof out->room);
     out->text = out->room;
 }
 
@@ -137,6 +146,8 @@ static const schema_field fields_of_cell[] = {
     {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
     {"warping", "", FIELD_TEXT, "which ends of members hold it, share it, leave it free",
      .get = get_warping},
+    {"divided", "", FIELD_TEXT, "members that have more elements than was asked for, and why",
+     .get = get_divided},
     {"cost", "s", FIELD_DOUBLE, "counted work at the prices of the reference machine",
      .get = get_cost},
     {"priced", "", FIELD_FLAG, "its formulation has prices of its own, not those of any",

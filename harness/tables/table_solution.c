@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/judge/change.h"
+#include "harness/division/division_words.h"
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
@@ -128,6 +129,9 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     warping_ends(&p->scene, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "warping: "), INDENT, ends);
+    division_words(&p->scene, one->mesh[0], ends, sizeof ends);
+    if (ends[0] != '\0')
+        paragraph_write(to, fprintf(to, "divided: "), INDENT, ends);
     table_omitted(to, p);
     table_theory(to, &p->scene, one->formulation.type);
     table_path_events(to, &c->solve);

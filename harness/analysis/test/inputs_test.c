@@ -63,15 +63,12 @@ static void resultants(const scene_load *load, double place, double x, double ou
     }
 }
 
-/* The scene of a row with nothing but its load, if that is on a member: 1. inside: it begins, ends
- * and acts inside an element, else between two of the four. */
-static int load_alone(const scene_input *in, int inside, posed *p, scene *s, scene_load *load)
+/* The scene of a row with nothing but its load, if that is on a member: 1. */
+static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *load)
 {
     *p = pose(in->name, SCENE_OF_LINEAR, 1);
     structure(p, s);
     scene_load *own = scene_load_at(s, s->loads - 1);
-    for (int k = 0; k < 2 && !inside; k++)
-        own->range[k] = round(4 * own->range[k]) / 4;
     memset(s->load[0].vector, 0, sizeof s->load[0].vector);
     *load = *own;
     return scene_load_along(own) && own->kind != SCENE_GRAVITY;
@@ -85,7 +82,7 @@ static void reactions(const scene_input *in, const element_type *e)
     posed p;
     scene s;
     scene_load load;
-    if (!load_alone(in, 1, &p, &s, &load)) {
+    if (!load_alone(in, &p, &s, &load)) {
         scene_free(&s);
         return;
     }
@@ -112,7 +109,7 @@ static void sections(const scene_input *in, const element_type *e)
     posed p;
     scene s;
     scene_load load;
-    if (!load_alone(in, 0, &p, &s, &load) || load.lumped) {
+    if (!load_alone(in, &p, &s, &load) || load.lumped) {
         scene_free(&s);
         return;
     }
@@ -421,7 +418,8 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
     p.follows = column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT;
     p.turns = !p.follows;
     solve(&p, e, &with);
-    p.with = 0;
+    p.with = divides(in->name);
+    p.times = 0;
     solve(&p, e, &without);
     const double change = apart(&with, &without);
     gsl_test(with.values == 0 || !(change > 1e-6), "%s: %s, %s: changes the answer there (%g; %s)",
@@ -437,7 +435,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         (is_called(in, "load that stays") || is_called(in, "motion of a node") ||
          is_called(in, "axes that turn")))
         return;
-    posed p = pose(in->name, column, is_called(in, "motion of a node")); /* or held there */
+    posed p = pose(in->name, column,
+                   is_called(in, "motion of a node") /* or held there */ || divides(in->name));
     p.times = 0;
     solve(&p, e, &without);
     p = pose(in->name, column, 1);

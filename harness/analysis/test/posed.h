@@ -222,6 +222,13 @@ static int flutters(const char *name, scene_column column)
     return 0;
 }
 
+/* Does it lie at nodes of the mesh that are there for it? Then its member has other elements
+ * without it. */
+static int divides(const char *name)
+{
+    return strstr(name, "within a member") != NULL || strstr(name, "part of a member") != NULL;
+}
+
 static posed pose(const char *name, scene_column column, int with)
 {
     return (posed){.name = name,
@@ -343,6 +350,10 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
+    /* the search for a limit point wants elements of one length */
+    for (int i = 0; i < s->loads && p->column == SCENE_OF_BUCKLING_ABOUT; i++)
+        for (int k = 0; k < 2; k++)
+            s->load[i].range[k] = round(2 * s->load[i].range[k]) / 2;
     for (int i = 0; i < s->loads; i++)
         for (int k = 0; k < 3; k++) {
             const double scale =
@@ -365,7 +376,7 @@ static void answer_to(scene *s, const posed *p, const element_type *e, answer *a
     fault f = {""};
     gsl_test(scene_validate(s, &f) != STATUS_OK, "%s: %s is a scene (%s)",
              scene_column_name[p->column], p->name, f.text);
-    ask_scene(s, e, NULL, 4, a);
+    ask_scene(s, e, NULL, divides(p->name) ? 2 : 4, a);
     scene_free(s);
 }
 

@@ -174,12 +174,14 @@ static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
         return scene_internal_of(a)->member == scene_internal_of(b)->member &&
                scene_internal_of(a)->resultant == scene_internal_of(b)->resultant &&
                scene_internal_of(a)->along == scene_internal_of(b)->along &&
-               scene_internal_of(a)->place == scene_internal_of(b)->place;
+               scene_internal_of(a)->place == scene_internal_of(b)->place &&
+               scene_internal_of(a)->before == scene_internal_of(b)->before;
     case SCENE_STRESS:
         return scene_stress_of(a)->member == scene_stress_of(b)->member &&
                scene_stress_of(a)->measure == scene_stress_of(b)->measure &&
                scene_stress_of(a)->whole == scene_stress_of(b)->whole &&
-               scene_stress_of(a)->place == scene_stress_of(b)->place;
+               scene_stress_of(a)->place == scene_stress_of(b)->place &&
+               scene_stress_of(a)->before == scene_stress_of(b)->before;
     case SCENE_ORIENTATION:
         return memcmp(scene_orientation_of(a), scene_orientation_of(b),
                       sizeof(scene_orientation)) == 0;
