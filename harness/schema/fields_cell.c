@@ -6,6 +6,7 @@
 #include "elements/feature.h"
 #include "harness/division/division_words.h"
 #include "harness/model/features.h"
+#include "harness/scene_writer/on_nodes.h"
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/schema/fields_keys.h"
 #include "harness/timing/price.h"
@@ -39,6 +40,14 @@ static void get_divided(const subject *s, field_value *out)
     out->room[0] = '\0';
     if (s->series->imported == NULL)
         division_words(&s->point->scene, s->series->mesh[s->mesh], out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_lumped(const subject *s, field_value *out)
+{
+    out->room[0] = '\0';
+    if (s->series->imported == NULL)
+        on_nodes(&s->point->scene, out->room, sizeof out->room);
     out->text = out->room;
 }
 
@@ -148,6 +157,8 @@ static const schema_field fields_of_cell[] = {
      .get = get_warping},
     {"divided", "", FIELD_TEXT, "members that have more elements than was asked for, and why",
      .get = get_divided},
+    {"lumped", "", FIELD_TEXT,
+     "what of loads and mass is put on nodes by convention, with its order", .get = get_lumped},
     {"cost", "s", FIELD_DOUBLE, "counted work at the prices of the reference machine",
      .get = get_cost},
     {"priced", "", FIELD_FLAG, "its formulation has prices of its own, not those of any",

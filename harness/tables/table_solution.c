@@ -5,6 +5,7 @@
 
 #include "harness/judge/change.h"
 #include "harness/division/division_words.h"
+#include "harness/scene_writer/on_nodes.h"
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
@@ -132,6 +133,9 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     division_words(&p->scene, one->mesh[0], ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "divided: "), INDENT, ends);
+    on_nodes(&p->scene, ends, sizeof ends);
+    if (ends[0] != '\0')
+        paragraph_write(to, fprintf(to, "lumped: "), INDENT, ends);
     table_omitted(to, p);
     table_theory(to, &p->scene, one->formulation.type);
     table_path_events(to, &c->solve);
