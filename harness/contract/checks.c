@@ -13,6 +13,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"bounds", "outputs are filled whole, and nothing beside them is touched", checks_bounds},
     {"unsound", "what is no number is told, not swallowed", checks_unsound},
     {"mass", "mass matrix: symmetric, positive, mass and moments of the beam", checks_mass},
+    {"along", "loads along one element are as exact as forces at its nodes", checks_along},
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
     {"in_time", "forces of inertia in time derive from the kinetic energy", checks_in_time},

@@ -20,6 +20,7 @@ checks_run checks_bounds;      /* outputs are filled, and nothing beside them is
 checks_run checks_unsound;     /* what is no number is told, and not swallowed */
 checks_run checks_mass;        /* mass matrix: symmetric, positive, of the beam's mass */
 checks_run checks_rotating;    /* what a rotating frame does */
+checks_run checks_along;       /* loads along one element */
 checks_run checks_in_time;     /* forces of inertia in time */
 
 typedef struct checks_family {
@@ -27,7 +28,7 @@ typedef struct checks_family {
     checks_run *run;
 } checks_family;
 
-enum { CHECKS_FAMILIES = 13 };
+enum { CHECKS_FAMILIES = 14 };
 extern const checks_family checks_families[CHECKS_FAMILIES];
 
 #endif

@@ -24,6 +24,7 @@ static void strain_changed(const element_data *d, const node_state x[], strain_o
 
 STRAIN(sign_in_J, if (out->J != NULL) out->J[14 * 2 + 1] *= -1)
 STRAIN(percent_in_J, if (out->J != NULL) out->J[14 * 3 + 10] *= 1.01)
+STRAIN(turn_of_root, for (int i = 0; out->J != NULL && i < 8; i++) out->J[14 * i + 5] *= 1.01)
 STRAIN(no_H, if (out->s != NULL && out->H != NULL) memset(out->H, 0, sizeof(double[14 * 14])))
 STRAIN(term_of_H, if (out->s != NULL && out->H != NULL) out->H[14 * 4 + 4] *= 0.9)
 STRAIN(beyond_J, if (out->J != NULL) out->J[14 * 8] = 0)
@@ -209,6 +210,8 @@ static void the_rest(void)
     PLANT(strain_many, one_strain, "many", "many at once gives other strains", "of 5");
     PLANT(stress_many, one_energy, "many", "many at once gives other energies", "of 5");
     PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
+    PLANT(strain, turn_of_root, "along", "one element held at its first node",
+          "as reaction to the rotation about z of node 1");
     element_type t = changed("collocation");
     t.update = lazy;
     planted("energy", &t, "update: after", "residual");

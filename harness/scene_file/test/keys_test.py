@@ -48,6 +48,7 @@ quantities:
   load: {critical_factor: {analysis: critical}}
   point: {critical_point: {analysis: curve, kind: limit}}
   most: {stress: {analysis: path, member: ab}}
+  there: {stress: {analysis: path, member: ab, where: 0.5}}
   force: {reaction: {analysis: path, node: a, component: ux}}
   within: {internal: {analysis: path, member: ab, end: from, resultant: N}}
   k: {stiffness: {analysis: still, component: ux}}
