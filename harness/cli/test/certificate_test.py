@@ -14,6 +14,8 @@ class Certificates(Tested):
             self.assertTrue(one["kept"], one["formulation"])
             self.assertIn(one["formulation"], listed)
             self.assertGreater(one["compared"], 5000)
+            (along, ) = [p for p in one["parts"] if p["family"] == "along"]
+            self.assertEqual([c["outcome"] for c in along["claims"]], 2*["holds"])
             self.assertEqual([m["name"] for p in one["parts"] for m in p["measured"]
                               if m["wrong_limit"]], [], one["formulation"])
         self.assertGreaterEqual(len(record["certificates"]), 10)
@@ -24,6 +26,8 @@ class Certificates(Tested):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("contract: KEPT", out)
             self.assertIn("not claimed", out)
+            self.assertIn("loads along one element are as exact as forces at its nodes (96 compared)",
+                          out)
 
     def test_with_options(self):
         out = self.answered("element-test", "collocation:stages=3", "geometrically_exact:nodes=2",
