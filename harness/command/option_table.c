@@ -9,7 +9,8 @@ const verb_option option_table[OPTION_MOST] = {
      "a formulation of your own: a shared object (with a '/': ./mine.so), or a command that speaks "
      "the protocol of harness/process ('exec:python3 my_beam.py'); again for another",
      0},
-    {"elements", 'n', "N[,N...]", "elements per member", 0},
+    {"elements", 'n', "N[,N...]",
+     "elements per member; of each piece where loads begin, end or act within it", 0},
     {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another", 0},
     {"format", 'F', "text|json|csv", "form of the output (default text)", 0},
     {"output", 'o', "FILE", "write there instead of to standard output (verify: results as HDF5)",

@@ -27,9 +27,12 @@ static void put_member(words *w, const scene *s, const division *d, int member)
 {
     const int pieces = division_pieces(d, member);
     const double *place = &d->place[d->first[member] + member];
-    put(w, "%s%s has %d elements, %d in each of %d pieces: its loads begin, end or act at",
-        w->used > 0 ? "; " : "", scene_name(s, SCENE_MEMBERS, member).text,
-        division_elements(d, member), d->each[member], pieces);
+    put(w, "%s%s has ", w->used > 0 ? "; " : "", scene_name(s, SCENE_MEMBERS, member).text);
+    if (d->each[member] == 0)
+        put(w, "n elements ");
+    else
+        put(w, "%d elements, %d ", division_elements(d, member), d->each[member]);
+    put(w, "in each of %d pieces: its loads begin, end or act at", pieces);
     for (int i = 1; i < pieces && i <= MOST_PLACES; i++)
         put(w, "%s %.6g", i > 1 ? "," : "", place[i]);
     put(w, "%s of its length", pieces - 1 > MOST_PLACES ? ", .." : "");

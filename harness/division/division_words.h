@@ -7,7 +7,8 @@
 #include "cases/scene/scene.h"
 
 /* "beam has 6 elements, 2 in each of 3 pieces: its loads begin, end or act at 0.3, 0.5 of its
- * length"; of many the first ones are named.  "" where each has as many as was asked for. */
+ * length"; of many the first ones are named.  elements 0: of any number n.  "" where each has as
+ * many as was asked for. */
 void division_words(const scene *, int elements, char *text, size_t room);
 
 #endif

@@ -203,7 +203,9 @@ const scene_key keys_member[] = {
      .usual = "[0, 0, 0]"},
     {"strain", KEY_VECTOR, .count = 3, .unit = "1", .summary = "initial elongation, shears",
      .usual = "[0, 0, 0]"},
-    {"divisions", KEY_NUMBER, .summary = "elements, whatever the mesh",
+    {"divisions", KEY_NUMBER,
+     .summary =
+         "elements, whatever the mesh; of each piece where loads begin, end or act within it",
      .left_out = "as the mesh says"},
     {.name = "offset", .kind = KEY_LATER},
     {"release", KEY_MAP, .below = release,

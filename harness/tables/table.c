@@ -5,6 +5,7 @@
 
 #include "cases/scene/omission.h"
 #include "harness/catalogue/parameters.h"
+#include "harness/division/division_words.h"
 #include "harness/judge/rounding.h"
 #include "harness/model/features.h"
 #include "harness/schema/assumptions.h"
@@ -72,9 +73,19 @@ static void assumed(FILE *to, const point *p)
         paragraph_write(to, fprintf(to, "%s: ", assumptions_kind(a.kind)), INDENT, a.text);
 }
 
+/* Members that have more elements than the mesh says. */
+static void divided(FILE *to, const point *p)
+{
+    char words[FAULT_TEXT];
+    division_words(&p->scene, 0, words, sizeof words);
+    if (words[0] != '\0')
+        paragraph_write(to, fprintf(to, "divided: "), INDENT, words);
+}
+
 void table_omitted(FILE *to, const point *p)
 {
     assumed(to, p);
+    divided(to, p);
     const int whole = case_omits_nothing(p->type, p->parameter);
     char words[SCENE_OMISSION_WORDS];
     scene_omission_words(whole ? omitted_by_source(p) : features_omitted(&p->scene), words);

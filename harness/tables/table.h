@@ -17,8 +17,9 @@ void table_value(FILE *to, int width, int digits, char conversion, double value)
 /* "case: parameters" as far as they differ from the defaults. */
 void table_point(FILE *to, const point *p);
 /* A line "case (parameters), formulation". */
-/* A line on the physics that the scene leaves out, and one on the theory of shear that the
- * formulation follows where there are both shear and stability; none where there is nothing to say.
+/* A line on members that loads divide, one on the physics that the scene leaves out, and one on the
+ * theory of shear that the formulation follows where there are both shear and stability; none where
+ * there is nothing to say.
  */
 void table_omitted(FILE *to, const point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);

@@ -130,9 +130,6 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     warping_ends(&p->scene, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "warping: "), INDENT, ends);
-    division_words(&p->scene, one->mesh[0], ends, sizeof ends);
-    if (ends[0] != '\0')
-        paragraph_write(to, fprintf(to, "divided: "), INDENT, ends);
     on_nodes(&p->scene, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "lumped: "), INDENT, ends);

@@ -74,6 +74,9 @@ static void words(const scene *s)
                           "act at 0.2, 0.7 of its length; member_2 has 6 elements, 3 in each of 2 "
                           "pieces: its loads begin, end or act at 0.5 of its length") != 0,
              "words: %s", text);
+    division_words(s, 0, text, 60);
+    gsl_test(strncmp(text, "member_1 has n elements in each of 3 pieces: its loads", 54) != 0,
+             "words of any mesh: %s", text);
     division_words(s, 2, text, 40);
     gsl_test_int((int)strlen(text), 39, "words in little room");
 }
