@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "harness/judge/change.h"
-#include "harness/division/division_words.h"
 #include "harness/scene_writer/on_nodes.h"
 #include "harness/scene_writer/warping_ends.h"
 #include "harness/tables/paragraph.h"
