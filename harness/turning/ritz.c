@@ -38,6 +38,8 @@ static double complex *left_coefficients(const subspace *b, const ritz *r, int i
     return r->left + (size_t)i * (size_t)b->room;
 }
 
+enum { RITZ_BEHIND = 8 /* columns */ };
+
 static void normalise(int k, double complex c[])
 {
     double square = 0;
@@ -96,10 +98,39 @@ static void take_hermitian(const subspace *b, int found, const double mu[], cons
     }
 }
 
+/* The largest `most` eigenvalues mu, ascending, with their vectors z. zgemv of some OpenBLAS
+ * (0.3.21, Haswell) reads a few columns behind the matrices that it is given: there is room for
+ * that behind H and the work array. */
+static int largest_eigenvalues(int n, int most, double complex H[], double mu[], double complex z[],
+                               lapack_int support[], lapack_int *found)
+{
+    double complex size = 0;
+    double real_size = 0;
+    lapack_int whole_size = 0;
+    int info = (int)LAPACKE_zheevr_work(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0,
+                                        n - most + 1, n, 0, found, mu, z, n, support, &size, -1,
+                                        &real_size, -1, &whole_size, -1);
+    const size_t behind = (size_t)RITZ_BEHIND * (size_t)n, length = (size_t)creal(size);
+    double complex *work = calloc(length + behind, sizeof *work);
+    double *real_work = calloc((size_t)real_size + 1, sizeof *real_work);
+    lapack_int *whole_work = calloc((size_t)whole_size + 1, sizeof *whole_work);
+    if (work == NULL || real_work == NULL || whole_work == NULL)
+        info = -1;
+    if (info == 0)
+        info =
+            (int)LAPACKE_zheevr_work(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0, n - most + 1,
+                                     n, 0, found, mu, z, n, support, work, (lapack_int)length,
+                                     real_work, (lapack_int)real_size, whole_work, whole_size);
+    free(work);
+    free(real_work);
+    free(whole_work);
+    return info;
+}
+
 status ritz_hermitian(const subspace *b, ritz *r, fault *f)
 {
     const int k = b->count, n = 2 * k, most = r->room < n ? r->room : n;
-    double complex *H = calloc((size_t)n * (size_t)n, sizeof *H),
+    double complex *H = calloc((size_t)n * ((size_t)n + RITZ_BEHIND), sizeof *H),
                    *z = calloc((size_t)n * (size_t)most, sizeof *z);
     double *mu = calloc((size_t)n, sizeof *mu);
     double *R = calloc((size_t)k * (size_t)k + 1, sizeof *R);
@@ -108,8 +139,7 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f)
     int info = room ? root_of_mass(b, R) : -1;
     if (info == 0) {
         hermitian_matrix(b, R, H);
-        info = (int)LAPACKE_zheevr(LAPACK_COL_MAJOR, 'V', 'I', 'U', n, H, n, 0, 0, n - most + 1, n,
-                                   0, &found, mu, z, n, support);
+        info = largest_eigenvalues(n, most, H, mu, z, support, &found);
     }
     r->count = 0;
     r->size = k;
