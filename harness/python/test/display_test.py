@@ -38,7 +38,8 @@ class Shown(ModuleTest):
         records = bw.Records([{HOSTILE: HOSTILE, "<b>": 1.5}])
         verdicts = bw.Verdicts({"verdicts": [dict.fromkeys(
             ("case", "parameters", "formulation", "quantity", "verdict"), HOSTILE) |
-            {"limit": 1.0, "limit_uncertainty": 0.1, "error": None}], "counts": {HOSTILE: 1}})
+            {"limit": 1.0, "limit_uncertainty": 0.1, "error": None}], "counts": {HOSTILE: 1},
+            "outcome": HOSTILE, "broken_contracts": []})
         for thing in (bw.Convergence(document), records, verdicts):
             html = self.shown(thing)
             self.assertIn(ESCAPED, html)
