@@ -19,8 +19,8 @@ class SceneReport(ProgramTest):
     def test_without_truths(self):
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))
         scene.write_text(LEAF, encoding="utf-8")
-        done = run("verify", "--shapes", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o",
-                   results)
+        done = run("verify", "--shapes", "--scene", scene, "-f", "collocation", "-f", "beamw_consistent",
+                   "-o", results)
         self.assertEqual(done.returncode, 3, done)
         drawn = report(results, site)
         self.assertEqual(drawn.returncode, 0, drawn.stderr)

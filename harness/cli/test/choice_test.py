@@ -58,7 +58,7 @@ class Choice(ProgramTest):
     def is_cheap(self, name, chosen, answers):
         """Costs at most twice what the cheapest one does, as converge says; beyond its meshes, by
         that of the mesh before the one that was chosen. Returns whether converge has any answer."""
-        cost = {a["formulation"]: a["cost"] for a in answers["answers"] if not a["defect"]}
+        cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2.2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
         return bool(cost)

@@ -142,4 +142,4 @@ class Evaluated(Speaker):
         """A crash in every cell takes nothing from the cells of others."""
         element = self.speaker(at="if what == 2: os._exit(7)")
         self.answered("verify", "-f", "speaker", "-f", "collocation", "--element", element, "-k",
-                      "elastica/default", "-j", "2")
+                      "elastica/default", "-j", "2", code=1)
