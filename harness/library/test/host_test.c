@@ -261,8 +261,20 @@ static void mind_the_end(void)
         _exit(1);
 }
 
-int main(void)
+/* OpenBLAS 0.3.21 with threads of its own now and then gives one of several threads of a host other
+ * last digits: it has one here, which it reads when it is loaded. */
+static void begin_again(char **arguments)
 {
+    if (getenv("OPENBLAS_NUM_THREADS") != NULL)
+        return;
+    setenv("OPENBLAS_NUM_THREADS", "1", 1);
+    execv("/proc/self/exe", arguments);
+}
+
+int main(int count, char **arguments)
+{
+    begin_again(arguments);
+    (void)count;
     atexit(mind_the_end);
     char *expected = solved("c_column", "beamw", 2);
     gsl_test(expected == NULL, "c_column is solved");
