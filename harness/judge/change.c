@@ -7,7 +7,9 @@
 #include "harness/judge/curve_error.h"
 #include "harness/judge/verdict.h"
 
-static const double small_strain = 1e-11, small_part = 1e-9;
+/* Round-off is below a thousandth of these: of strains, of places and turns; and of other values.
+ */
+static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
 /* Largest extent of the places of nodes [m]. */
 static double size_of(const scene *s)
@@ -100,7 +102,7 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
         const scene_quantity *other = &s->quantity[i];
         if (other->analysis == q->analysis && strcmp(other->unit, q->unit) == 0 &&
             isfinite(r->quantity[i].value))
-            out = fmax(out, small_part * fabs(r->quantity[i].value));
+            out = fmax(out, small_beside * fabs(r->quantity[i].value));
     }
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }

@@ -16,8 +16,8 @@ typedef struct change {
 /* Of `now` from `before`, into out, whose of_each the caller has made. What says how wrong a
  * solution is (the drift of a balance of energy) is left out. */
 void change_between(const scene *s, const cell_result *before, const cell_result *now, change *out);
-/* Size [unit of the quantity] of which round-off is a small part: strains of 1e-11, turns and parts
- * of the structure's size of 1e-9, parts of 1e-9 of other values in the same unit. */
+/* Size [unit of the quantity] of which round-off is a small part: strains of 1e-14, turns and parts
+ * of the structure's size of 1e-12, parts of 1e-9 of other values in the same unit. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
 #endif

@@ -130,6 +130,19 @@ class Choice(ProgramTest):
             for name in ("collocation", "beamw", "geometrically_exact"):
                 self.assertLessEqual(self.record("solve", "--scene", path, "-f", name)["elements"], 4)
 
+    def test_small_loads(self):
+        """The mesh does not depend on the size of the loads."""
+        scene = bar(random.Random(1), "linear")
+        scene["nodes"] = {"n0": {"at": [0, 0, 0], "hold": "all"}, "n1": {"at": [1, 1, 0]}}
+        scene["members"] = {"m": {"from": "n0", "to": "n1", "section": "s", "y": [0, 1, 0], "curvature": [0, 0, 1]}}
+        scene["quantities"] = {"u": {"displacement": {"analysis": "run", "node": "n1", "component": "uy"}}}
+        path, found = self.folder / "scene.yaml", []
+        for force in (1e-9, 1e2):
+            scene["loads"] = {"P": {"force": [0, -force, 0], "on": "n1"}}
+            path.write_text(json.dumps(scene), encoding="utf-8")
+            found.append(self.record("solve", "--scene", path, "-f", "beamw_consistent")["elements"])
+        self.assertEqual(*found)
+
 
 if __name__ == "__main__":
     unittest.main()
