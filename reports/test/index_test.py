@@ -93,6 +93,14 @@ class Small(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("not known how well", (site / "mine.html").read_text(encoding="utf-8"))
 
+    def test_of_one_solution(self):
+        """Nothing was judged there, and no outcome is stored."""
+        results, site = self.folder / "one.h5", self.folder / "site"
+        run("solve", "elastica", "-f", "collocation", "-n", "2", "--shapes", "-o", results)
+        done = report(results, site)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("Outcome.", (site / "index.html").read_text(encoding="utf-8"))
+
     def test_whole_or_none(self):
         """A page that fails leaves what was there before, and nothing beside it."""
         site = drawn(self.folder, "-k", "warping_torsion/default", "-f", "collocation")
