@@ -149,7 +149,7 @@ int scene_is_passed(const scene_quantity *q, scene_analysis_kind analysis)
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant)
 {
     return (scene_extract){SCENE_INTERNAL,
-                           {.internal = {member, resultant, SCENE_ALONG_PLACE, place}}};
+                           {.internal = {member, resultant, SCENE_ALONG_PLACE, place, 0}}};
 }
 
 scene_extract scene_beside(scene_extract what, int before)
@@ -163,17 +163,17 @@ scene_extract scene_beside(scene_extract what, int before)
 
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant)
 {
-    return (scene_extract){SCENE_INTERNAL, {.internal = {member, resultant, along, 0}}};
+    return (scene_extract){SCENE_INTERNAL, {.internal = {member, resultant, along, 0, 0}}};
 }
 
 scene_extract scene_stress_along(int member, scene_stress_measure measure)
 {
-    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 1, 0}}};
+    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 1, 0, 0}}};
 }
 
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure)
 {
-    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 0, place}}};
+    return (scene_extract){SCENE_STRESS, {.stress = {member, measure, 0, place, 0}}};
 }
 
 const scene_stress *scene_stress_of(const scene_quantity *q)
