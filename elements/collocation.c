@@ -16,6 +16,7 @@ enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
 
 struct element_data {
     exact_stages stages;
+    exact_along along;
     lumped_mass mass;
     int prestressed; /* 1: prestress is there */
     double prestress[OUTER][OUTER * OUTER];
@@ -32,7 +33,8 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Frequencies: masses are lumped.  Linear buckling: the inner unknowns are those of the element
+/* Statics: under dead forces along members too; 4 at large rotations under other loads along them.
+ * Frequencies: masses are lumped.  Linear buckling: the inner unknowns are those of the element
  * without stress (elements/exact/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
@@ -62,6 +64,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 {
     out->mass = lumped_of(request->section, request->features, request->length);
     TRY(exact_stages_prepare(request, stage_count(request->options), &out->stages, f));
+    exact_along_prepare(request, &out->stages, &out->along);
     out->prestressed = (request->features & FEATURE_GEOMETRIC) != 0;
     if (out->prestressed)
         exact_prestress_derivatives(&out->stages, out->prestress);
@@ -96,6 +99,29 @@ static void stress_many(int count, const element_data *const data[], const doubl
                         const double *const inner[], stress_output out[], status outcome[])
 {
     REAL_CHOSEN(exact_lanes_stages_stress)(count, data, e, inner, out, outcome);
+}
+
+/* Those of one kind that follow each other, and want the same, go together. */
+static void along(int count, const element_data *const data[], const node_state x[],
+                  along_output out[], status outcome[])
+{
+    for (int i = 0, run; i < count; i += run) {
+        const element_data *d = data[i];
+        const node_state *at = x + (ptrdiff_t)2 * i;
+        run = 1;
+        if (out[i].e == NULL || out[i].rate != NULL) {
+            outcome[i] = (out[i].e == NULL ? exact_along_linear
+                                           : exact_along_rate)(&d->stages, &d->along, at, &out[i]);
+            continue;
+        }
+        while (i + run < count && run < LANES_TOGETHER && data[i + run] == d &&
+               out[i + run].e != NULL && out[i + run].rate == NULL)
+            run++;
+        if (run > 1)
+            REAL_CHOSEN(exact_lanes_along)
+        (&d->stages, &d->along, run, at, out + i, outcome + i);
+        else outcome[i] = REAL_CHOSEN(exact_alone_along)(&d->stages, &d->along, at, &out[i]);
+    }
 }
 
 static void geometric(const element_data *data, const double sigma[], double G[])
@@ -176,4 +202,5 @@ const element_type element_collocation = {
     .strain_many = strain_many,
     .stress_many = stress_many,
     .inertia = inertia,
+    .along = along,
 };

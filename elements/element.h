@@ -92,7 +92,7 @@ typedef enum element_analysis {
 
 /* Orders in the number of elements: the least that a smooth solution shows, and the highest that
  * any quantity can show, where leading terms vanish.  Masses lumped at nodes have two, loads along
- * members four where rotations are large. */
+ * members four where rotations are large, but for those that the element takes (along). */
 typedef struct element_order {
     int least, highest; /* of a smooth solution; of any quantity */
 } element_order;
@@ -233,6 +233,12 @@ typedef struct element_type {
     /* A formulation kept as it was printed: the equation and what is wrong in it, one line. It is
      * never ranked, chosen or counted in an agreement. NULL: none. */
     const char *misprint;
+    /* Optional: forces along elements of two nodes that keep their direction, inside the element's
+     * own equilibrium, of count elements: x[count x nodes], outcome[count]. Left out, and for loads
+     * that follow, moments, and in scenes with a motion: their work on one field of displacements
+     * between nodes, for all types alike. */
+    void (*along)(int count, const element_data *const data[], const node_state x[],
+                  along_output out[], status outcome[]);
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,

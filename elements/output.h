@@ -48,6 +48,33 @@ typedef struct force_output {
                   exponential chart */
 } force_output;
 
+/* Points of a load along an element, coordinates of its nodes. */
+enum { ELEMENT_ALONG_POINTS = 8, ELEMENT_ALONG_COORDINATES = 14 };
+
+/* What `along` takes and fills: a force per length along an element of two nodes that keeps its
+ * direction. All forces of a state are
+ *   J^T sigma + turn^T (moment + mixed^T (D(x) - e)) - ends
+ * where the frame that the strains belong to turns by turn dx in its own axes. */
+typedef struct along_output {
+    const double *force; /* in: [8 x 3] at Gauss points of [0, 1], fixed axes [N/m] */
+    const double *rate;  /* in: likewise; not NULL: sigma, moment and ends are their derivatives by
+                            its size, and nothing else counts */
+    const double *e;     /* in: [strains]; NULL: linear in the force, of the undeformed element */
+    const double *inner; /* in: [inner] */
+    double *sigma;       /* as `stress`, under the force; linear: of held nodes */
+    double *C;        /* as `stress`; linear: the stiffness of that prestress [strains x strains] */
+    double *memory;   /* as `stress` */
+    double *mixed;    /* [strains x 3] derivative of sigma by the turn [N]; linear: only with H */
+    double *followed; /* [inner x 3] of the inner unknowns by the turn, which `update` leaves out;
+                         NULL: not wanted */
+    double *H; /* [14 x 14] what the turns of the nodes add to turn^T second turn in the second
+                  derivative of the energy, exponential chart; NULL: not wanted */
+    double turn[3 * ELEMENT_ALONG_COORDINATES]; /* [3 x 14] */
+    double ends[ELEMENT_ALONG_COORDINATES];     /* what acts on the nodes at once [N, N m] */
+    double moment[3];                           /* derivative of the energy by the turn [N m] */
+    double second[9];                           /* [3 x 3] its second one [N m]; linear: zero */
+} along_output;
+
 /* What `equations_many` fills: the mixed equations of an element, condensed (N section 4). */
 typedef struct equations_output {
     double *J;               /* [strains x 7 nodes] de/dx */

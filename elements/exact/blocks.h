@@ -7,7 +7,7 @@
 
 #include "elements/math/vec3.h"
 
-enum { EXACT_BLOCKS_MAX = 11 };
+enum { EXACT_BLOCKS_MAX = 12 };
 
 /* Place of block (i, j), i <= j. */
 static inline int exact_blocks_at(int i, int j)

@@ -8,16 +8,22 @@
 #include "elements/exact/sums.h"
 #include "elements/exact/variables.h"
 
-/* X of 2 X, v, (a_p, a_q, 1). */
+/* X of 2 X, v, (a_p, a_q, 1), and of the turn of loads along. */
 typedef struct exact_collocated {
     real A[EXACT_VARIABLES_BLOCKS][9], V[EXACT_VARIABLES_BLOCKS][9], d[EXACT_STAGES_UNKNOWNS],
-        X[3][EXACT_STAGES_MAX][9];
+        X[4][EXACT_STAGES_MAX][9];
 } exact_collocated;
 
-/* e [8], inner [unknowns]: dimensionless. */
+/* Of loads along the element (along.h): what they add to F at the points, its derivative by three
+ * parameters, and the derivative of the energy by it, which is filled. */
+typedef struct exact_collocated_load {
+    real force[EXACT_STAGES_MAX][3], column[EXACT_STAGES_MAX][9], moved[EXACT_STAGES_MAX][3];
+} exact_collocated_load;
+
+/* e [8], inner [unknowns]: dimensionless. load: NULL: none. */
 static inline __attribute__((always_inline)) void
 exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], const real inner[],
-                          real A[][9])
+                          exact_collocated_load *load, real A[][9])
 {
     const int F = stages - 1, v = stages + 1, last = stages + 2;
     real at[EXACT_STAGES_MAX][3], Sz[EXACT_WARPING_MAX], gap[3];
@@ -31,14 +37,24 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
     }
     real twice = 2 * vec3_dot(inner, gap); /* the energy */
     exact_sums_geometry(stages, s, at, inner, p);
+    for (int i = 0; i < stages && load != NULL; i++) {
+        for (int j = 0; j < 3; j++)
+            load->force[i][j] += inner[j];
+        exact_milenkovic_vector(&p[i].orientation, p[i].x, load->force[i], p[i].N);
+    }
     if (s->warps)
         twice += exact_sums_warping(stages, s, p, &e[6], Sz);
     for (int i = 0; i < stages; i++) {
         exact_stage_material m;
         exact_stage_energy(&s->c, p[i].kappa, p[i].N, s->warps ? Sz[i] / s->w[i] : real_of(0), &m);
         twice += (2 * s->w[i]) * m.energy;
-        exact_stage_terms_of(&s->c, &p[i], inner, &m, s->w[i], &t[i]);
+        exact_stage_terms_of(&s->c, &p[i], load != NULL ? load->force[i] : inner, &m, s->w[i],
+                             &t[i]);
+        for (int j = 0; j < 3 && load != NULL; j++)
+            load->moved[i][j] = t[i].gradient[EXACT_STAGE_FORCE + j];
     }
+    if (load != NULL)
+        exact_sums_load(stages, s, t, load->column, A);
     exact_sums_gather(stages, s, t, A);
     for (int j = 0; j < 3; j++) {
         A[exact_blocks_at(F, last)][3 * j + 2] += gap[j];
@@ -56,18 +72,19 @@ exact_collocated_evaluate(int stages, const exact_stages *s, const real e[], con
     E[8] = twice;
 }
 
-/* One lane by the elimination with exchange of rows; 0, or the failing pivot. */
-static inline int exact_collocated_exchange(int stages, int lane, exact_collocated *w)
+/* One lane by the elimination with exchange of rows, columns: of strains, of 1 and what follows; 0,
+ * or the failing pivot. */
+static inline int exact_collocated_exchange(int stages, int columns, int lane, exact_collocated *w)
 {
-    const int blocks = exact_blocks_at(0, stages + 3);
-    double A[EXACT_VARIABLES_BLOCKS][9], S[EXACT_VARIABLES_BLOCKS][9], X[3][EXACT_STAGES_MAX][9];
+    const int outer = (columns + 2) / 3, blocks = exact_blocks_at(0, stages + outer);
+    double A[EXACT_VARIABLES_BLOCKS][9], S[EXACT_VARIABLES_BLOCKS][9], X[4][EXACT_STAGES_MAX][9];
     for (int i = 0; i < blocks; i++)
         for (int j = 0; j < 9; j++)
             A[i][j] = real_lane(&w->A[i][j], lane);
-    const int failed = exact_variables_eliminate(stages, A, S, X);
+    const int failed = exact_variables_eliminate(stages, columns, A, S, X);
     if (failed != 0)
         return failed;
-    for (int J = 0; J < 3; J++) {
+    for (int J = 0; J < outer; J++) {
         for (int I = 0; I <= J; I++)
             for (int j = 0; j < 9; j++) {
                 const int at = exact_blocks_at(stages + I, stages + J);
@@ -80,7 +97,7 @@ static inline int exact_collocated_exchange(int stages, int lane, exact_collocat
     return 0;
 }
 
-/* Of the strains i and j, 8: of 1, after elimination. */
+/* Of the strains i and j, 8: of 1, 9 to 11: of the turn of loads along, after elimination. */
 static inline double exact_collocated_entry(int stages, exact_collocated *w, int i, int j, int lane)
 {
     int row, column;
@@ -141,14 +158,14 @@ exact_collocated_run(int stages, const exact_stages *s, int run, const double *c
         for (int i = 0; i < 3 * stages; i++)
             real_put(&unknown[i], lane, inner[of][i]);
     }
-    exact_collocated_evaluate(stages, s, scaled, unknown, w.A);
+    exact_collocated_evaluate(stages, s, scaled, unknown, NULL, w.A);
     exact_blocks_eliminate(stages, stages + 3, stages + 1, w.A, w.V, w.d);
     if (out[0].memory != NULL)
         for (int J = 0; J < 3; J++)
             exact_blocks_solve(stages, stages + 1, stages + J, w.V, w.X[J]);
     for (int lane = 0; lane < run; lane++) {
         if (!exact_blocks_definite(stages, w.A, w.d, lane) &&
-            exact_collocated_exchange(stages, lane, &w) != 0) {
+            exact_collocated_exchange(stages, EXACT_STAGES_OUTER + 1, lane, &w) != 0) {
             outcome[lane] = STATUS_SINGULAR;
             continue;
         }

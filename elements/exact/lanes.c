@@ -3,6 +3,7 @@
 
 #include "elements/exact/collocated.h"
 #include "elements/exact/deformed.h"
+#include "elements/exact/loaded.h"
 #include "elements/exact/stressed.h"
 #include "elements/shared/lanes.h"
 
@@ -47,4 +48,10 @@ void REAL_NAMED(exact_lanes_stages_stress)(int count, const element_data *const 
         exact_collocated_stress((const exact_stages *)(const void *)data[i], run, e + i, inner + i,
                                 out + i, outcome + i);
     }
+}
+
+void REAL_NAMED(exact_lanes_along)(const exact_stages *s, const exact_along *a, int count,
+                                   const node_state x[], along_output out[], status outcome[])
+{
+    exact_loaded_along(s, a, count, x, out, outcome);
 }

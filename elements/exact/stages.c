@@ -59,6 +59,7 @@ static void rest_of_points(const element_request *request, exact_stages *out)
         exact_milenkovic_vector(&p[i].orientation, back, strained, axis); /* R (e_x + g) */
         for (int j = 0; j < 3; j++) {
             out->rest_kappa[i][j] = p[i].kappa[j];
+            out->rest_axis[i][j] = axis[j];
             out->rest_v[j] += out->w[i] * axis[j];
         }
     }

@@ -36,7 +36,8 @@ typedef struct exact_stages {
     double w[EXACT_STAGES_MAX], N[EXACT_STAGES_MAX][EXACT_STAGES_MAX],
         dN[EXACT_STAGES_MAX][EXACT_STAGES_MAX]; /* x and x' at the points from the variables */
     double rest_x[EXACT_STAGES_NODES][3], rest_kappa[EXACT_STAGES_MAX][3], rest_v[3];
-    int warps; /* 0: no warping energy */
+    double rest_axis[EXACT_STAGES_MAX][3]; /* R (e_x + g) at the points, without stress */
+    int warps;                             /* 0: no warping energy */
     double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX];
 } exact_stages;
 

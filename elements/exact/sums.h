@@ -174,6 +174,62 @@ static inline void exact_sums_force(int stages, const exact_stages *s, const exa
         Fv[4 * j] = real_of(1);
 }
 
+/* Block column of three parameters on which F depends at the points: column[] are the derivatives
+ * of the points' F [3 x 3]. */
+static inline void exact_sums_load(int stages, const exact_stages *s, const exact_stage_terms t[],
+                                   real column[][9], real A[][9])
+{
+    const int F = stages - 1, v = stages + 1, last = stages + 2, load = stages + 3;
+    real y[EXACT_STAGES_MAX][3], through[EXACT_STAGES_MAX][3],
+        *own = A[exact_blocks_at(load, load)], *E = A[exact_blocks_at(last, load)];
+    for (int I = 0; I <= load; I++)
+        real_zero(9, A[exact_blocks_at(I, load)]);
+    for (int i = 0; i < stages; i++)
+        for (int j = 0; j < 3; j++) {
+            y[i][j] = column[i][j] * t[i].z[EXACT_STAGE_FORCE] +
+                      column[i][3 + j] * t[i].z[EXACT_STAGE_FORCE + 1] +
+                      column[i][6 + j] * t[i].z[EXACT_STAGE_FORCE + 2];
+            through[i][j] = real_of(0);
+        }
+    for (int i = 0; i < stages && s->warps; i++) {
+        const double *S = &s->S[i * (stages + 2)];
+        for (int h = 0; h < stages; h++)
+            for (int j = 0; j < 3; j++)
+                through[i][j] += S[h] * y[h][j];
+        for (int j = 0; j < 3; j++) {
+            E[j] += S[stages] * y[i][j];
+            E[3 + j] += S[stages + 1] * y[i][j];
+        }
+    }
+    for (int i = 0; i < stages; i++) {
+        const real *z = t[i].z, *B = column[i];
+        real x[9], slope[9], force[9], xF[9], sF[9];
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++) {
+                xF[3 * j + k] = t[i].xF[3 * k + j];
+                sF[3 * j + k] = t[i].sF[3 * k + j];
+                x[3 * j + k] = z[EXACT_STAGE_MILENKOVIC + j] * through[i][k];
+                slope[3 * j + k] = z[EXACT_STAGE_SLOPE + j] * through[i][k];
+                force[3 * j + k] = z[EXACT_STAGE_FORCE + j] * through[i][k];
+            }
+        mat3_add_transpose_mul(xF, B, x);
+        mat3_add_transpose_mul(sF, B, slope);
+        mat3_add_transpose_mul(t[i].FF, B, force);
+        for (int k = 0; k < stages; k++) {
+            real *X = A[exact_blocks_at(k < stages - 1 ? k : stages, load)];
+            for (int j = 0; j < 9; j++)
+                X[j] += s->N[i][k] * x[j] + s->dN[i][k] * slope[j];
+        }
+        for (int j = 0; j < 9; j++)
+            A[exact_blocks_at(F, load)][j] += force[j];
+        mat3_add_transpose_mul(B, force, own);
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++)
+                E[6 + j] += B[3 * k + j] * t[i].gradient[EXACT_STAGE_FORCE + k];
+    }
+    real_zero(9, A[exact_blocks_at(v, load)]);
+}
+
 /* All blocks; of the strains' own, what the points and the warping energy make: those of v, and the
  * column of 1 of v and the amplitudes, stay zero. t is changed. */
 static inline void exact_sums_gather(int stages, const exact_stages *s, exact_stage_terms t[],

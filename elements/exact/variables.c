@@ -31,11 +31,12 @@ void exact_variables_matrix(int stages, double A[][9], int n, double matrix[])
     }
 }
 
-int exact_variables_eliminate(int stages, double A[][9], double S[][9],
+int exact_variables_eliminate(int stages, int columns, double A[][9], double S[][9],
                               double X[][EXACT_STAGES_MAX][9])
 {
-    const int m = 3 * stages, n = OUTER + 1;
-    double K[UNKNOWNS * UNKNOWNS], B[UNKNOWNS * (OUTER + 1)], solved[UNKNOWNS * (OUTER + 1)];
+    enum { MOST = OUTER + 4 };
+    const int m = 3 * stages, n = columns;
+    double K[UNKNOWNS * UNKNOWNS], B[UNKNOWNS * MOST], solved[UNKNOWNS * MOST];
     int pivot[UNKNOWNS], row, column;
     exact_variables_matrix(stages, A, m, K);
     for (int i = 0; i < m; i++)

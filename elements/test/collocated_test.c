@@ -60,11 +60,12 @@ static void both(int stages, unsigned features)
             e[i] = 0.003 * random_number(&seed);
         for (int i = 0; i < s.unknowns; i++)
             inner[i] = (i < 3 ? 3 : 0.0005) * random_number(&seed);
-        exact_collocated_evaluate(stages, &s, e, inner, plain.A);
+        exact_collocated_evaluate(stages, &s, e, inner, NULL, plain.A);
         exact_blocks_eliminate(stages, stages + 3, stages + 1, plain.A, plain.V, plain.d);
         definite &= exact_blocks_definite(stages, plain.A, plain.d, 0);
         memcpy(exchanged.A, plain.A, sizeof plain.A);
-        gsl_test(exact_collocated_exchange(stages, 0, &exchanged), "with exchange of rows");
+        gsl_test(exact_collocated_exchange(stages, OUTER + 1, 0, &exchanged),
+                 "with exchange of rows");
         double C[2][OUTER * OUTER];
         for (int i = 0; i < OUTER; i++)
             for (int j = 0; j < OUTER; j++) {
@@ -102,7 +103,7 @@ static void compressed(int stages)
         if (!(middle > low) || !(middle < high))
             break;
         inner[0] = -middle;
-        exact_collocated_evaluate(stages, &s, e, inner, w.A);
+        exact_collocated_evaluate(stages, &s, e, inner, NULL, w.A);
         exact_blocks_eliminate(stages, stages + 3, stages + 1, w.A, w.V, w.d);
         lost = !exact_blocks_definite(stages, w.A, w.d, 0);
         *(lost ? &high : &low) = middle;

@@ -87,6 +87,7 @@ static void wrap(const element_type *given, element_type *out)
     out->strain_many = given->strain_many != NULL ? differences_strain_many : NULL;
     out->stress_many = given->stress_many != NULL ? stress_many : NULL;
     out->force_many = NULL;
+    out->along = NULL;
     out->trouble = given->trouble != NULL ? trouble : NULL;
 }
 

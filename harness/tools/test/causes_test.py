@@ -20,7 +20,7 @@ ABOUT = {
     "own_theory",
 }
 STRESS_FUNCTION = {"data_size", "prepare", "stress", "geometric", "stress_many",
-                   "equations_many", "tension", "misprint"}
+                   "equations_many", "tension", "misprint", "along"}
 
 
 def source(formulation):
