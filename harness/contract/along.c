@@ -5,7 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
+#include "harness/adapters/chart.h"
+#include "harness/adapters/stencil.h"
 #include "harness/contract/checks.h"
+#include "harness/contract/specimens.h"
 #include "harness/model/model.h"
 
 enum { SIX = 6, END = 1 };
@@ -221,8 +226,125 @@ static void compare(const formulation *chosen, support of, const softness *soft,
     }
 }
 
+/* Loads that the element takes itself. */
+enum { X = ELEMENT_ALONG_COORDINATES, M = SPECIMEN_STRAINS, SETTLING = 40, FINER = 50 };
+
+typedef struct taken {
+    const specimen *s;
+    const node_state *x;
+    double q[3 * ELEMENT_ALONG_POINTS];
+    double *inner; /* of x, from where states near it are settled */
+} taken;
+
+/* Forces with settled inner unknowns, K too where it is wanted. */
+static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
+{
+    const specimen *s = of->s;
+    const element_data *data = s->data;
+    const double none[M] = {0};
+    double e[M], J[M * X], sigma[M], C[M * M], mixed[3 * M], H[X * X], cross[M * X], both[X * X],
+        inner[SPECIMEN_INNER], memory[SPECIMEN_MEMORY], work[M * X];
+    along_output out = {.force = of->q,
+                        .e = e,
+                        .inner = inner,
+                        .sigma = sigma,
+                        .C = C,
+                        .memory = s->memory > 0 ? memory : NULL,
+                        .mixed = mixed,
+                        .H = H};
+    status outcome = STATUS_OK;
+    s->type.strain(data, x, &(strain_output){.e = e, .J = J});
+    memcpy(inner, of->inner, (size_t)s->inner * sizeof *inner);
+    for (int i = 0; i < SETTLING; i++) {
+        s->type.along(1, &data, x, &out, &outcome);
+        if (outcome != STATUS_OK || s->inner == 0 || s->type.update == NULL ||
+            s->type.update(data, none, memory, inner) < 1e-15)
+            break;
+    }
+    TRY(outcome);
+    s->type.along(1, &data, x, &out, &outcome);
+    memset(F, 0, X * sizeof *F);
+    dense_add_transpose_mul(X, s->strains, 1, J, sigma, F);
+    dense_add_transpose_mul(X, 3, 1, out.turn, out.moment, F);
+    for (int i = 0; i < X; i++)
+        F[i] -= out.ends[i];
+    if (K == NULL)
+        return outcome;
+    memcpy(of->inner, inner, (size_t)s->inner * sizeof *inner);
+    s->type.strain(data, x, &(strain_output){.s = sigma, .H = K});
+    dense_add_congruence(s->strains, X, J, C, K, work);
+    dense_add_congruence(3, X, out.turn, out.second, K, work);
+    memset(both, 0, sizeof both);
+    dense_mul(s->strains, 3, X, mixed, out.turn, cross);
+    dense_add_transpose_mul(X, s->strains, X, J, cross, both);
+    for (int i = 0; i < X; i++)
+        for (int j = 0; j < X; j++)
+            K[i * X + j] += H[i * X + j] + both[i * X + j] + both[j * X + i];
+    return outcome;
+}
+
+static int forces_of(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const taken *of = context;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_moved(&(specimen_place){of->s, of->x}, i, si / FINER, j, sj / FINER, x);
+    return (int)forces_under(of, x, values, NULL);
+}
+
+static void check_taken(const specimen *s, claims *c)
+{
+    static const double turn[3] = {0.5, -0.6, 0.7};
+    const double l = s->request.length;
+    double K[X * X], F[X], found[X][X], none[M] = {0}, inner[SPECIMEN_INNER], C[M * M], size = 0;
+    node_state bent[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
+    taken of = {.s = s, .x = x, .inner = inner};
+    if (s->type.along == NULL || s->nodes != 2)
+        return;
+    claims_doing(c, "along%s", s->words);
+    specimen_rest(s, inner);
+    if (specimen_settled(s, none, inner, &(stress_output){.C = C}) != STATUS_OK)
+        return;
+    for (int i = 0; i < s->strains && i < SIX; i++)
+        size = size > 0 ? fmin(size, C[i * (s->strains + 1)]) : C[i * (s->strains + 1)];
+    for (int i = 0; i < 3 * ELEMENT_ALONG_POINTS; i++)
+        of.q[i] = 0.01 * size * cos(1 + 2.3 * i);
+    specimen_state(s, 0.0002, 5, bent);
+    specimen_carry(s, turn, bent, x);
+    claim *derives =
+              claims_open(c, "under a load that it takes K is the derivative of the forces", 1e-7),
+          *sums = claims_open(c, "and the load is the sum of the forces", 1e-9);
+    specimen_rest(s, inner);
+    status outcome = forces_under(&of, x, F, K);
+    for (int a = 0; a < X && outcome == STATUS_OK; a++)
+        outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
+    claims_asks(derives, outcome == STATUS_OK,
+                "along: a state under a small load is outside what it can evaluate%s", s->words);
+    for (int a = 0; a < X && outcome == STATUS_OK; a++)
+        for (int b = 0; b < X; b++) { /* the symmetric part is that of the exponential chart */
+            const double ua = chart_unit(a, l), ub = chart_unit(b, l),
+                         change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
+                         scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
+            claims_departs(
+                derives, fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
+                "along: the derivative of force %d in coordinate %d is %.6g, differences "
+                "give %.6g%s",
+                a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
+        }
+    double point[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS];
+    quadrature_points(ELEMENT_ALONG_POINTS, point, weight);
+    for (int i = 0; i < 3 && outcome == STATUS_OK; i++) {
+        double load = 0;
+        for (int j = 0; j < ELEMENT_ALONG_POINTS; j++)
+            load += l * weight[j] * of.q[3 * j + i];
+        claims_departs(sums, fabs(F[i] + F[NODE_COORDINATES + i] + load) / (size * l),
+                       "along: forces on the nodes are %.6g for a load of %.6g%s",
+                       -F[i] - F[NODE_COORDINATES + i], load, s->words);
+    }
+}
+
 void checks_along(const formulation *chosen, claims *out)
 {
+    specimens_each(chosen, out, check_taken);
     static const struct {
         const char *name;
         double q[SIX];
