@@ -193,7 +193,7 @@ static status link_element_of(model *m, const model_state *s, const member *of, 
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
-    distributed_add(m, x, i, path, along, H);
+    distributed_add(m, s, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     const link_element el = {m->nodes, m->strains, of->joint, w.J, w.C, H, r};

@@ -10,6 +10,19 @@
 #include "harness/equations/loads.h"
 #include "harness/model/release.h"
 
+/* What loads that the element takes do when its frame turns: to stresses, and to inner unknowns. */
+static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
+                        double inner[])
+{
+    double turn[3], more[ELEMENT_MAX_STRAINS];
+    dense_mul_vec(3, ELEMENT_ALONG_COORDINATES, along + SLOT_TURN, local, turn);
+    dense_mul_vec(m->strains, 3, along + SLOT_MIXED, turn, more);
+    for (int k = 0; k < m->strains; k++)
+        sigma[k] += more[k];
+    for (int k = 0; k < m->inner; k++)
+        inner[k] += vec3_dot(along + slot_followed(m) + (ptrdiff_t)3 * k, turn);
+}
+
 /* Strains, stresses and inner unknowns of one element. */
 static double advance_element(model *m, model_state *s, int i, const double dx[],
                               advance_stress *stress)
@@ -22,6 +35,8 @@ static double advance_element(model *m, model_state *s, int i, const double dx[]
     kinematics_local(m, s, el, dx, local);
     dense_mul_vec(m->strains, m->coordinates, w.J, local, de);
     dense_mul_vec(m->strains, m->strains, w.C, de, more);
+    if (m->takes && w.along[SLOT_TAKES] != 0)
+        follow_turn(m, w.along, local, more, &s->inner[(size_t)i * (size_t)m->inner]);
     for (int k = 0; k < m->strains; k++) {
         const double next = w.sigma[k] + more[k], change = fabs(next - sigma[k]);
         stress->change = change > stress->change ? change : stress->change;

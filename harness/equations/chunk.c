@@ -63,6 +63,8 @@ static void stresses_one_by_one(const model *m, const model_state *s, int count,
     for (int k = 0; k < count; k++) {
         const int i = element[k].index;
         const model_slot w = linearise_slot(m, i);
+        if (element[k].along.acts)
+            continue;
         element[k].outcome = ahead_stress(
             m, i, of_strains(m, s->e, i), inner_of(m, s, i),
             &(stress_output){
@@ -96,18 +98,61 @@ static void stresses_together(const model *m, const model_state *s, int count,
     const double *e[CHUNK_MOST], *inner[CHUNK_MOST];
     stress_output out[CHUNK_MOST];
     status outcome[CHUNK_MOST];
+    int own[CHUNK_MOST], owned = 0;
     for (int k = 0; k < count; k++) {
         const int i = element[k].index;
         const model_slot w = linearise_slot(m, i);
-        data[k] = m->kind[m->element[i].kind].data;
-        e[k] = of_strains(m, s->e, i);
-        inner[k] = inner_of(m, s, i);
-        out[k] =
+        if (element[k].along.acts)
+            continue;
+        data[owned] = m->kind[m->element[i].kind].data;
+        e[owned] = of_strains(m, s->e, i);
+        inner[owned] = inner_of(m, s, i);
+        out[owned] =
             (stress_output){.sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL};
+        own[owned++] = k;
     }
-    m->type->stress_many(count, data, e, inner, out, outcome);
-    for (int k = 0; k < count; k++)
-        element[k].outcome = outcome[k];
+    if (owned > 0)
+        m->type->stress_many(owned, data, e, inner, out, outcome);
+    for (int k = 0; k < owned; k++)
+        element[own[k]].outcome = outcome[k];
+}
+
+/* Of elements that take loads along them. */
+static void stresses_under_loads(const model *m, const model_state *s, int count,
+                                 chunk_element element[])
+{
+    const element_data *data[CHUNK_MOST];
+    node_state x[2 * CHUNK_MOST];
+    along_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    int own[CHUNK_MOST], owned = 0;
+    for (int k = 0; k < count; k++) {
+        chunk_element *c = &element[k];
+        const model_slot w = linearise_slot(m, c->index);
+        if (!c->along.acts)
+            continue;
+        data[owned] = m->kind[m->element[c->index].kind].data;
+        memcpy(x + (ptrdiff_t)2 * owned, c->x, 2 * sizeof *x);
+        out[owned] = c->along.out;
+        out[owned].e = of_strains(m, s->e, c->index);
+        out[owned].inner = inner_of(m, s, c->index);
+        out[owned].sigma = w.sigma;
+        out[owned].C = w.C;
+        out[owned].memory = w.memory;
+        out[owned].mixed = w.along + SLOT_MIXED;
+        out[owned].followed = w.along + slot_followed(m);
+        out[owned].H = c->K != NULL ? c->along.H : NULL;
+        own[owned++] = k;
+    }
+    if (owned == 0)
+        return;
+    m->type->along(owned, data, x, out, outcome);
+    for (int k = 0; k < owned; k++) {
+        element[own[k]].along.out = out[k];
+        memcpy(linearise_slot(m, element[own[k]].index).along + SLOT_TURN, out[k].turn,
+               sizeof out[k].turn);
+        element[own[k]].outcome = outcome[k];
+    }
 }
 
 /* Their equations, in one go. */
@@ -176,15 +221,22 @@ static void damp(const model *m, const model_state *s, int index)
         w.C[k] += eta * d->g * S[k];
 }
 
-void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[])
+void chunk_evaluate(const model *m, const model_state *s, double path, int count,
+                    chunk_element element[])
 {
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
     const int together = count >= REAL_CHOSEN(together_from) && chunk_size(m) > 1;
     for (int k = 0; k < count; k++) {
         kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
         element[k].complete = 0;
+        element[k].along.acts = 0;
+        if (m->takes)
+            distributed_take(m, element[k].index, path, &element[k].along);
+        if (m->takes)
+            linearise_slot(m, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
-    if (together && m->type->equations_many != NULL && !m->rotates && m->damping == NULL) {
+    if (together && m->type->equations_many != NULL && !m->rotates && m->damping == NULL &&
+        !m->takes) {
         equations_together(m, s, count, element);
         return;
     }
@@ -196,6 +248,8 @@ void chunk_evaluate(const model *m, const model_state *s, int count, chunk_eleme
         stresses_together(m, s, count, element);
     else
         stresses_one_by_one(m, s, count, element);
+    if (m->takes)
+        stresses_under_loads(m, s, count, element);
     for (int k = 0; k < count; k++)
         mix(m, s, element[k].index, deformed[k]);
     for (int k = 0; k < count && m->damping != NULL; k++)

@@ -3,6 +3,7 @@
 #ifndef BEAMWORK_MODEL_CHUNK_H
 #define BEAMWORK_MODEL_CHUNK_H
 
+#include "harness/equations/distributed.h"
 #include "harness/equations/equations_impl.h"
 
 enum {
@@ -22,6 +23,7 @@ typedef struct chunk_element {
     double *force; /* [7 nodes]: given */
     double *K;     /* [7 nodes x 7 nodes] sum sigma_i H_i; NULL: not wanted: given */
     node_state x[ELEMENT_MAX_NODES];
+    distributed_taken along; /* loads that are in its stresses */
     status outcome;
     int complete; /* 1: force is J^T sigma of the slot, and K has J^T C J too ... */
     double present[ELEMENT_MAX_COORDINATES]; /* ... and this is J^T sigma of the state */
@@ -29,6 +31,7 @@ typedef struct chunk_element {
 
 /* Strains and stresses of count elements in the state, into their slots (linearise_slot), and what
  * chunk_element says. */
-void chunk_evaluate(const model *m, const model_state *s, int count, chunk_element element[]);
+void chunk_evaluate(const model *m, const model_state *s, double path, int count,
+                    chunk_element element[]);
 
 #endif

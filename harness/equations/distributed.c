@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
 #include "harness/equations/equations_impl.h"
@@ -117,31 +118,211 @@ static int points_of(const distributed *of, const scene_load *load, double scale
     return count;
 }
 
-int distributed_add_one(const model *m, const node_state x[], int element, const scene_load *load,
-                        double scale, double forces[], double K[])
+static int taken(const model *m, int element, const scene_load *load, const double part[2])
+{
+    const section *c = &m->section[m->kind[m->element[element].kind].section];
+    double centre[3] = {0};
+    if (!m->takes || !distributed_spreads(m, load) || scene_load_within(load) ||
+        scene_load_turns(load) || load->follower)
+        return 0;
+    if (load->kind == SCENE_GRAVITY && c->matrices)
+        section_matrices_centre(c, centre);
+    return vec3_norm(load->at) + vec3_norm(centre) == 0 && !applied_inside(part[0]) &&
+           !applied_inside(part[1]);
+}
+
+int distributed_takes(const model *m, int element, const scene_load *load)
+{
+    double part[2];
+    return applied_part(m, element, load, part) && taken(m, element, load, part);
+}
+
+/* force[] += one of them times `scale`. */
+static void gather(const model *m, int element, const scene_load *load, double scale,
+                   double force[3 * ELEMENT_ALONG_POINTS])
+{
+    const distributed of = {m, element, 0};
+    double x[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS], before[9];
+    quadrature_points(ELEMENT_ALONG_POINTS, x, weight);
+    for (int k = 0; k < ELEMENT_ALONG_POINTS; k++) {
+        field_load one;
+        undeformed(&of, x[k], before);
+        load_at(&of, load, scale, x[k], before, &one);
+        for (int i = 0; i < 3; i++)
+            force[3 * k + i] += one.force[i];
+    }
+}
+
+void distributed_take(const model *m, int element, double path, distributed_taken *out)
+{
+    out->acts = 0;
+    for (int i = 0; i < m->scene->loads && m->takes; i++) {
+        const scene_load *load = &m->scene->load[i];
+        double part[2];
+        if (!applied_part(m, element, load, part) || !taken(m, element, load, part))
+            continue;
+        const double scale = applied_factor(m, load, path);
+        if (scale == 0)
+            continue;
+        if (!out->acts)
+            memset(out->force, 0, sizeof out->force);
+        out->acts = 1;
+        gather(m, element, load, scale, out->force);
+    }
+    out->out = (along_output){.force = out->force, .mixed = out->mixed};
+}
+
+void distributed_add_taken(const model *m, const along_output *out, const double J[],
+                           const double gap[], double forces[], double K[])
+{
+    enum { X = ELEMENT_ALONG_COORDINATES };
+    double moment[3], work[ELEMENT_MAX_STRAINS * X], of[X * X] = {0}, both[X * X] = {0};
+    memcpy(moment, out->moment, sizeof moment);
+    if (gap != NULL)
+        dense_add_transpose_mul(3, m->strains, 1, out->mixed, gap, moment);
+    for (int j = 0; j < X; j++) {
+        forces[j] += out->ends[j];
+        for (int i = 0; i < 3; i++)
+            forces[j] -= out->turn[i * X + j] * moment[i];
+    }
+    if (K == NULL)
+        return;
+    dense_mul(m->strains, 3, X, out->mixed, out->turn, work);
+    dense_add_transpose_mul(X, m->strains, X, J, work, both);
+    dense_add_congruence(3, X, out->turn, out->second, of, work);
+    for (int i = 0; i < X; i++)
+        for (int j = 0; j < X; j++)
+            K[i * X + j] += out->H[i * X + j] + of[i * X + j] + both[i * X + j] + both[j * X + i];
+}
+
+int distributed_add_own(const model *m, const model_state *s, const node_state x[], int element,
+                        double path, double forces[], double K[])
+{
+    enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
+    const size_t first = (size_t)element * (size_t)m->strains;
+    const element_data *data = m->kind[m->element[element].kind].data;
+    const int linear = s == m->rest;
+    distributed_taken of;
+    double J[S * X], D[S], sigma[S], C[S * S], H[X * X], work[S * X];
+    status outcome;
+    distributed_take(m, element, path, &of);
+    if (!of.acts)
+        return 0;
+    m->type->strain(data, x, &(strain_output){.e = D, .J = J});
+    of.out.sigma = sigma;
+    of.out.C = K != NULL || !linear ? C : NULL;
+    of.out.H = K != NULL ? of.H : NULL;
+    if (!linear) {
+        of.out.e = &s->e[first];
+        of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+    }
+    m->type->along(1, &data, x, &of.out, &outcome); /* a state that has been evaluated */
+    for (int k = 0; k < m->strains && !linear; k++)
+        D[k] -= s->e[first + (size_t)k];
+    distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
+    if (!linear)
+        return 1;
+    dense_mul_vec(m->strains, 1, sigma, (const double[]){-1}, D);
+    dense_add_transpose_mul(X, m->strains, 1, J, D, forces);
+    if (K == NULL)
+        return 1;
+    m->type->strain(data, x, &(strain_output){.s = sigma, .H = H});
+    dense_add_congruence(m->strains, X, J, C, K, work);
+    for (int k = 0; k < X * X; k++)
+        K[k] += H[k];
+    return 1;
+}
+
+int distributed_stress(const model *m, const model_state *s, const node_state x[], int element,
+                       double path, const stress_output *out, status *outcome)
+{
+    const element_data *data = m->kind[m->element[element].kind].data;
+    distributed_taken of;
+    distributed_take(m, element, path, &of);
+    if (!of.acts)
+        return 0;
+    of.out.sigma = out->sigma;
+    of.out.C = out->C;
+    of.out.e = &s->e[(size_t)element * (size_t)m->strains];
+    of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+    m->type->along(1, &data, x, &of.out, outcome);
+    return 1;
+}
+
+/* Derivative of the forces by the size of one load. */
+static void add_rate(const model *m, const model_state *s, const node_state x[], int element,
+                     const scene_load *load, double scale, double forces[])
+{
+    enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
+    const element_data *data = m->kind[m->element[element].kind].data;
+    distributed_taken of;
+    double rate[3 * ELEMENT_ALONG_POINTS] = {0}, J[S * X], sigma[S], work[X] = {0};
+    status outcome;
+    distributed_take(m, element, s->path, &of);
+    if (!of.acts)
+        memset(of.force, 0, sizeof of.force);
+    gather(m, element, load, scale, rate);
+    of.out.sigma = sigma;
+    of.out.rate = rate;
+    if (s == m->rest) {
+        of.out.rate = NULL;
+        of.out.force = rate;
+    } else {
+        of.out.e = &s->e[(size_t)element * (size_t)m->strains];
+        of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+    }
+    m->type->strain(data, x, &(strain_output){.J = J});
+    m->type->along(1, &data, x, &of.out, &outcome);
+    dense_add_transpose_mul(X, m->strains, 1, J, sigma, work);
+    for (int k = 0; k < X; k++)
+        forces[k] -= work[k];
+    distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
+}
+
+static int add_field(const model *m, const node_state x[], int element, const scene_load *load,
+                     double scale, const double part[2], double forces[], double K[])
 {
     const distributed of = {m, element, 0};
     field_rows rows[MOST];
     field_load acting[MOST];
-    double part[2];
-    if (!applied_part(m, element, load, part) || scale == 0)
-        return 0;
     const int count = points_of(&of, load, scale, part, rows, acting);
     field_add_loads(&m->kind[m->element[element].kind].field, x, count, rows, acting, forces, K);
     return 1;
 }
 
-int distributed_add(const model *m, const node_state x[], int element, double path, double forces[],
-                    double K[])
+int distributed_add_one(const model *m, const model_state *s, const node_state x[], int element,
+                        const scene_load *load, double scale, double forces[], double K[])
+{
+    double part[2];
+    if (!applied_part(m, element, load, part) || scale == 0)
+        return 0;
+    if (!taken(m, element, load, part))
+        return add_field(m, x, element, load, scale, part, forces, K);
+    add_rate(m, s, x, element, load, scale, forces);
+    return 1;
+}
+
+int distributed_add_field(const model *m, const node_state x[], int element, double path,
+                          double forces[], double K[])
 {
     int acting = 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (distributed_spreads(m, load))
-            acting |=
-                distributed_add_one(m, x, element, load, applied_factor(m, load, path), forces, K);
+        double part[2];
+        if (!distributed_spreads(m, load) || !applied_part(m, element, load, part) ||
+            taken(m, element, load, part))
+            continue;
+        const double scale = applied_factor(m, load, path);
+        acting |= scale != 0 && add_field(m, x, element, load, scale, part, forces, K);
     }
     return acting;
+}
+
+int distributed_add(const model *m, const model_state *s, const node_state x[], int element,
+                    double path, double forces[], double K[])
+{
+    const int acting = distributed_add_field(m, x, element, path, forces, K);
+    return distributed_add_own(m, s, x, element, path, forces, K) || acting;
 }
 
 /* Its vectors, in fixed axes, of the section with the triad R. */

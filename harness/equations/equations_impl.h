@@ -13,7 +13,7 @@ status rotating_frame_add(model *m, const node_state x[], int element, double pa
 /* Of linearise.c and chunk.c: one element's part of model.work between linearise_state and
  * advance_state. */
 typedef struct model_slot {
-    double *J, *C, *sigma, *incompatibility,
+    double *J, *C, *sigma, *incompatibility, *along, /* SLOT_* */
         *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
 } model_slot;
 static inline model_slot linearise_slot(const model *m, int element)
@@ -25,6 +25,7 @@ static inline model_slot linearise_slot(const model *m, int element)
     w.sigma = w.C + n * n;
     w.incompatibility = w.sigma + n;
     w.memory = w.incompatibility + n;
+    w.along = w.memory + m->memory;
     return w;
 }
 

@@ -56,9 +56,11 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
                        NULL); /* never fails in a state that is reached */
     for (int l = 0; l < m->scene->loads; l++) {
         const scene_load *load = &m->scene->load[l];
-        if (lies_along(m, i, load) && distributed_spreads(m, load))
-            distributed_add_one(m, x, i, load, applied_factor(m, load, s->path), along, NULL);
+        if (lies_along(m, i, load) && distributed_spreads(m, load) &&
+            !distributed_takes(m, i, load))
+            distributed_add_one(m, s->s, x, i, load, applied_factor(m, load, s->path), along, NULL);
     }
+    distributed_add_own(m, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     for (int end = 0; end < 2; end++) {

@@ -27,6 +27,10 @@ static status compatible_element(model *m, model_state *s, int i)
     ahead_strain(m, i, x, &(strain_output){.e = e});
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
+    status outcome;
+    if (m->takes &&
+        distributed_stress(m, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
+        return outcome;
     return ahead_stress(m, i, e, &s->inner[(size_t)i * (size_t)m->inner],
                         &(stress_output){.sigma = sigma});
 }
@@ -82,8 +86,12 @@ static status add_material(model *m, const model_state *s, const chunk_element *
 static void subtract_loads(const model *m, chunk_element *of, int tangent, double path,
                            element_part *part)
 {
-    double forces[ELEMENT_MAX_COORDINATES] = {0};
-    if (!distributed_add(m, of->x, of->index, path, forces, tangent ? part->K : NULL))
+    const model_slot w = linearise_slot(m, of->index);
+    double forces[ELEMENT_MAX_COORDINATES] = {0}, *K = tangent ? part->K : NULL;
+    const int acts = distributed_add_field(m, of->x, of->index, path, forces, K);
+    if (of->along.acts)
+        distributed_add_taken(m, &of->along.out, w.J, w.incompatibility, forces, K);
+    else if (!acts)
         return;
     for (int k = 0; k < m->coordinates; k++) {
         part->force[k] -= forces[k];
@@ -168,7 +176,7 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
             element[k].force = part[index[k] - first].force;
             element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
         }
-        chunk_evaluate(loop->m, loop->s, count, element);
+        chunk_evaluate(loop->m, loop->s, loop->lin->path, count, element);
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
             p->outcome =

@@ -109,7 +109,7 @@ static void add_within(const model *m, const model_state *s, const scene_load *l
         node_state x[ELEMENT_MAX_NODES];
         double forces[MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, &m->element[i], x);
-        if (!distributed_add_one(m, x, i, load, scale, forces, NULL))
+        if (!distributed_add_one(m, s, x, i, load, scale, forces, NULL))
             continue;
         eliminate_forces(m, s, &m->element[i], forces);
         assemble_vector(&m->element[i], forces, out);
@@ -175,7 +175,7 @@ void loads_subtract_stiffness(const model *m, const model_state *s, double path,
         double forces[ELEMENT_MAX_COORDINATES] = {0},
                part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, &m->element[i], x);
-        if (!distributed_add(m, x, i, path, forces, part))
+        if (!distributed_add(m, s, x, i, path, forces, part))
             continue;
         for (int k = 0; k < m->coordinates; k++)
             forces[k] = -forces[k];
@@ -292,7 +292,7 @@ static void add_element_at_node(sum_at_node *sum, int element, double path)
     if (!meets)
         return;
     kinematics_gather(m, sum->s, el, x);
-    if (!distributed_add(m, x, element, path, forces, NULL))
+    if (!distributed_add(m, sum->s, x, element, path, forces, NULL))
         return;
     for (int k = 0; k < m->nodes; k++) {
         if (m->vertex[el->vertex[k]].body != sum->node)

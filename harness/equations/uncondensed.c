@@ -57,8 +57,11 @@ static status add_element(model *m, const model_state *state, int i, double path
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
-    const status outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
-                                           &(stress_output){.sigma = P, .C = C});
+    const stress_output stresses = {.sigma = P, .C = C};
+    status outcome;
+    if (!m->takes || !distributed_stress(m, state, x, i, path, &stresses, &outcome))
+        outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
+                                  &(stress_output){.sigma = P, .C = C});
     m->counters.strain_evaluations++;
     m->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
@@ -66,7 +69,7 @@ static status add_element(model *m, const model_state *state, int i, double path
                          scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
     dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
     TRY(rotating_frame_add(m, x, i, path, force, H, f));
-    distributed_add(m, x, i, path, along, H);
+    distributed_add(m, state, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     eliminate_matrix(m, state, el, force, H);

@@ -18,6 +18,17 @@
 #include "harness/model/turns.h"
 #include "harness/process/process.h"
 
+/* In scenes with a motion, loads along members do their work on the field that its mass has. */
+static int takes_loads(const model *m)
+{
+    int along = 0, moves = 0;
+    for (int i = 0; i < m->scene->loads; i++)
+        along |= scene_load_along(&m->scene->load[i]);
+    for (int i = 0; i < m->scene->analyses; i++)
+        moves |= m->scene->analysis[i].kind == SCENE_MOTION;
+    return m->type->along != NULL && m->nodes == 2 && along && !moves;
+}
+
 static status choose_options(model *m, const double options[], fault *f)
 {
     const element_type *t = m->given;
@@ -32,7 +43,9 @@ static status choose_options(model *m, const double options[], fault *f)
     m->strains = element_strains(m->type, m->options);
     m->inner = element_inner(m->type, m->options);
     m->memory = element_memory(m->type, m->options);
-    m->work_size = m->strains * (m->coordinates + m->strains + 2) + m->memory;
+    m->takes = takes_loads(m);
+    m->work_size =
+        m->strains * (m->coordinates + m->strains + 2) + m->memory + (m->takes ? slot_along(m) : 0);
     return STATUS_OK;
 }
 

@@ -180,6 +180,7 @@ struct model {
     double held_path; /* path parameter at which those stay in time that have no such function */
     int unloaded;     /* neither loads nor drivers act */
     int lumps;        /* LUMPS_* */
+    int takes;        /* elements take loads along them (element_type.along) */
     int rotates, rotation_follows_path;
     counters counters;
     phases phases;
@@ -189,6 +190,18 @@ struct model {
     int lines;
     char **line; /* what was left out */
 };
+
+/* What a slot of `work` has at its end where elements take loads along them: does this one, how its
+ * frame turns [3 x 14], and what stresses [strains x 3] and inner unknowns [inner x 3] do then. */
+enum { SLOT_TAKES, SLOT_TURN, SLOT_MIXED = SLOT_TURN + 3 * ELEMENT_ALONG_COORDINATES };
+static inline int slot_followed(const model *m)
+{
+    return SLOT_MIXED + 3 * m->strains;
+}
+static inline int slot_along(const model *m)
+{
+    return slot_followed(m) + 3 * m->inner;
+}
 
 struct model_state {
     double path;
