@@ -65,4 +65,6 @@ const element_type element_beamw_consistent = {
     .geometric = beamw_variants_geometric,
     .inertia = beamw_inertia_of,
     .spreads = 1,
+    .mass_of_field = beamw_prepare_mass_of_field,
+    .order = beamw_prepare_order,
 };

@@ -8,16 +8,16 @@
 #include "elements/exact/alone.h"
 #include "elements/exact/lanes.h"
 #include "elements/exact/prestress.h"
+#include "elements/field/field_mass.h"
 #include "elements/math/larger.h"
 #include "elements/shared/lanes.h"
-#include "elements/shared/lumped.h"
 
 enum { OPTION_STAGES, FEWEST = 3, OUTER = EXACT_STAGES_OUTER };
 
 struct element_data {
     exact_stages stages;
     exact_along along;
-    lumped_mass mass;
+    field_mass mass;
     int prestressed; /* 1: prestress is there */
     double prestress[OUTER][OUTER * OUTER];
 };
@@ -34,11 +34,13 @@ static int stage_count(const double value[])
 }
 
 /* Statics: under dead forces along members too; 4 at large rotations under other loads along them.
- * Frequencies: masses are lumped.  Linear buckling: the inner unknowns are those of the element
+ * Frequencies: field/field_mass.h.  Linear buckling: the inner unknowns are those of the element
  * without stress (elements/exact/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
+    if (analysis == ELEMENT_VIBRATION)
+        return FIELD_MASS_ORDER;
     return (element_order){2, analysis == ELEMENT_STATICS ? collocated : 4};
 }
 
@@ -62,7 +64,7 @@ static size_t data_size(const element_request *request)
 
 static status prepare(const element_request *request, element_data *out, fault *f)
 {
-    out->mass = lumped_of(request->section, request->features, request->length);
+    field_mass_prepare(request, 2, &out->mass);
     TRY(exact_stages_prepare(request, stage_count(request->options), &out->stages, f));
     exact_along_prepare(request, &out->stages, &out->along);
     out->prestressed = (request->features & FEATURE_GEOMETRIC) != 0;
@@ -175,7 +177,13 @@ static int strains(const double value[])
 static status inertia(const element_data *d, const node_state x[],
                       const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&d->mass, 2, x, frame, out);
+    return field_mass_inertia(&d->mass, x, frame, out);
+}
+
+static int mass_of_field(const double value[])
+{
+    (void)value;
+    return 1;
 }
 
 const element_type element_collocation = {
@@ -203,4 +211,5 @@ const element_type element_collocation = {
     .stress_many = stress_many,
     .inertia = inertia,
     .along = along,
+    .mass_of_field = mass_of_field,
 };

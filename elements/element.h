@@ -85,14 +85,18 @@ enum shear_theory {
 typedef enum element_analysis {
     ELEMENT_STATICS,   /* equilibrium, linear or not, and what follows from its tangent (compliance,
                           critical points of a path) */
-    ELEMENT_VIBRATION, /* whatever inertia has part in: frequencies, states that turn */
+    ELEMENT_VIBRATION, /* whatever inertia has part in but motions in time: frequencies, states
+                          that turn */
     ELEMENT_BUCKLING,  /* linear: the geometric stiffness of a prestress */
     ELEMENT_ANALYSES
 } element_analysis;
 
 /* Orders in the number of elements: the least that a smooth solution shows, and the highest that
- * any quantity can show, where leading terms vanish.  Masses lumped at nodes have two, loads along
- * members four where rotations are large, but for those that the element takes (along). */
+ * any quantity can show, where leading terms vanish.  Loads along members have four where rotations
+ * are large, but for those that the element takes (along).  In vibration the least is that of
+ * frequencies without stress, of straight members of one material: with the mass of the
+ * displacement field four, in bending, stretch and twist.  Under stress or in a frame that turns
+ * shear, stretch and twist have two. */
 typedef struct element_order {
     int least, highest; /* of a smooth solution; of any quantity */
 } element_order;
@@ -194,7 +198,8 @@ typedef struct element_type {
     /* G[strains x strains] = derivative of C at e = 0 in the direction of the prestress sigma: sum
      * sigma_i Q_i: zero. */
     void (*geometric)(const element_data *, const double sigma[], double G[]);
-    /* frame NULL: the frame is at rest. Left out: the mass lumped at the nodes. */
+    /* frame NULL: the frame is at rest. Left out: the mass of the displacement field that is
+     * exact without loads (field/field_mass.h), of three nodes lumped. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
@@ -239,6 +244,11 @@ typedef struct element_type {
      * between nodes, for all types alike. */
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
+    /* Optional: 1: with these options `inertia` of two nodes at rest is that of the displacement
+     * field which is exact without loads (field/field_mass.h): frequencies are improved by what is
+     * inside of the element.  0: they are those of the mass matrix alone.  Of a type without
+     * `inertia`: 1. */
+    int (*mass_of_field)(const double options[]);
 } element_type;
 
 static inline element_order element_order_in(const element_type *t, element_analysis a,
@@ -248,6 +258,11 @@ static inline element_order element_order_in(const element_type *t, element_anal
     if (t->order)
         return t->order(a, options);
     return t->constants && t->constants->order[a].highest > 0 ? t->constants->order[a] : usual;
+}
+/* Of motions in time: masses lumped at nodes have two, with all types alike. */
+static inline element_order element_order_of_motion(void)
+{
+    return (element_order){2, 4};
 }
 static inline unsigned element_judged(const element_type *t, int option)
 {

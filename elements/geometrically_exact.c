@@ -7,8 +7,8 @@
 #include "elements/exact/lanes.h"
 #include "elements/exact/stiffness.h"
 #include "elements/exact/strain.h"
+#include "elements/field/field_mass.h"
 #include "elements/shared/lanes.h"
-#include "elements/shared/lumped.h"
 
 enum { OPTION_NODES };
 
@@ -21,7 +21,7 @@ typedef struct across {
 
 struct element_data {
     exact_gauss gauss;
-    lumped_mass mass;
+    field_mass mass;
     int nodes;
     across plane[2]; /* y, z */
 };
@@ -69,7 +69,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 {
     const int count = nodes(request->options);
     TRY(exact_stiffness_prepare(request, count, &out->gauss.stiffness, f));
-    out->mass = lumped_of(request->section, request->features, request->length);
+    field_mass_prepare(request, count, &out->mass);
     out->nodes = count;
     set_across(request, count, out->plane);
     exact_strain_prepare(count, count - 1, request->length, request->curvature, request->strain,
@@ -123,7 +123,19 @@ static double tension(const element_data *d, const double sigma[])
 static status inertia(const element_data *d, const node_state x[],
                       const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&d->mass, d->nodes, x, frame, out);
+    return field_mass_inertia(&d->mass, x, frame, out);
+}
+
+static int mass_of_field(const double value[])
+{
+    return nodes(value) == 2;
+}
+
+static element_order order(element_analysis analysis, const double value[])
+{
+    if (analysis != ELEMENT_VIBRATION)
+        return (element_order){2, 4};
+    return nodes(value) == 2 ? FIELD_MASS_ORDER : (element_order){4, 4};
 }
 
 const element_type element_geometrically_exact = {
@@ -146,5 +158,7 @@ const element_type element_geometrically_exact = {
     .strain_many = strain_many,
     .stress_many = stress_many,
     .inertia = inertia,
+    .mass_of_field = mass_of_field,
+    .order = order,
     .tension = tension,
 };

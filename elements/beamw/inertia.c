@@ -101,12 +101,76 @@ static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-static void add_point(beamw_inertia_state *c, const element_data *d, int g)
+/* y += size times a vector of the field, whose T, rates and displacement are those of y likewise.
+ */
+static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
+                     const beamw_inertia_vector *part, double size, moving_vector *y,
+                     double T[3 * N], double rates[3 * N], double displacement[3 * N],
+                     double fixed[2][3])
+{
+    double own[3 * N], own_rates[3 * N] = {0}, own_displacement[3 * N] = {0}, r[3], turned[2][3],
+                                     convective[3] = {0};
+    beamw_inertia_place(c, at, part, r, turned);
+    beamw_inertia_gradient(c, at, part, own);
+    moving_rotation_gradient(turned[0], TP, N, own);
+    moving_rotation_gradient(turned[1], TQ, N, own);
+    if (c->in_time)
+        beamw_inertia_convective(c, at, part, turned, convective, own_rates, own_displacement);
+    for (int i = 0; i < 3 * N; i++) {
+        T[i] += size * own[i];
+        rates[i] += size * own_rates[i];
+        displacement[i] += size * own_displacement[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        y->y[i] += size * r[i];
+        y->convective[i] += size * convective[i];
+        fixed[0][i] += size * turned[0][i];
+        fixed[1][i] += size * turned[1][i];
+    }
+}
+
+/* Of a section by its matrices: the place of its centre of mass, and directions in it. */
+static void add_vectors(beamw_inertia_state *c, const beamw_spread *d,
+                        const beamw_inertia_values *at)
+{
+    double *const stiffness = moving_stiffness(c->frame, c->out);
+    for (int n = 0; n < d->lumped.vectors; n++) {
+        const double *of = d->lumped.vector[n];
+        double T[3 * N] = {0}, rates[3 * N] = {0}, displacement[3 * N] = {0}, fixed[2][3] = {{0}},
+                     F[3];
+        moving_vector v = {.mass = at->mass * d->lumped.carried[n],
+                           .columns = N,
+                           .T = T,
+                           .rates = rates,
+                           .displacement = displacement};
+        if (n == 0)
+            add_part(c, at, &position, 1, &v, T, rates, displacement, fixed);
+        for (int k = 0; k < 3; k++)
+            add_part(c, at, &director[k], of[k], &v, T, rates, displacement, fixed);
+        moving_add(&v, c->frame, N, c->out, F);
+        if (stiffness == NULL)
+            continue;
+        moving_rotation_stiffness(F, fixed[0], TP, N, stiffness);
+        moving_rotation_stiffness(F, fixed[1], TQ, N, stiffness);
+        if (n == 0)
+            gather_curvature(c, F, at, &position);
+        for (int k = 0; k < 3; k++) {
+            const double share[3] = {of[k] * F[0], of[k] * F[1], of[k] * F[2]};
+            gather_curvature(c, share, at, &director[k]);
+        }
+    }
+}
+
+static void add_point(beamw_inertia_state *c, const beamw_spread *d, int g)
 {
     beamw_inertia_values at;
     double j[3];
     beamw_inertia_values_at(c, d, g, &at);
     const double weight = at.mass;
+    if (d->lumped.vectors > 0) {
+        add_vectors(c, d, &at);
+        return;
+    }
     add_interpolated(c, &at, &position, weight * d->lumped.mass);
     if (!d->lumped.turns) {
         add_twist(c, &at, weight * d->lumped.rotary[0]);
@@ -121,7 +185,7 @@ static void add_point(beamw_inertia_state *c, const element_data *d, int g)
 
 /* N or K -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
  * strains' own second derivatives do. */
-static void add_curvature(const element_data *d, const beamw_inertia_state *c)
+static void add_curvature(const beamw_spread *d, const beamw_inertia_state *c)
 {
     static const int row[6] = {TP, TP + 1, TP + 2, TQ, TQ + 1, TQ + 2};
     double H[N * N], *const out = moving_stiffness(c->frame, c->out);
@@ -138,7 +202,7 @@ static void add_curvature(const element_data *d, const beamw_inertia_state *c)
         out[i] -= H[i];
 }
 
-static void set_rates(const element_data *d, beamw_inertia_state *c)
+static void set_rates(const beamw_spread *d, beamw_inertia_state *c)
 {
     moving_turn_of(c->out, TP, &c->node[0]);
     moving_turn_of(c->out, TQ, &c->node[1]);
@@ -153,7 +217,7 @@ static void set_rates(const element_data *d, beamw_inertia_state *c)
     dense_mul_vec(8, N, c->slope, c->out->rate, c->ec);
 }
 
-static void add_consistent(const element_data *d, const node_state x[2],
+static void add_consistent(const beamw_spread *d, const node_state x[2],
                            const element_rotating_frame *frame, inertia_output *out)
 {
     beamw_inertia_state c = {
@@ -167,14 +231,14 @@ static void add_consistent(const element_data *d, const node_state x[2],
     beamw_modes_evaluate(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
     if (c.in_time)
         set_rates(d, &c);
-    for (int g = 0; g < BEAMW_GAUSS; g++)
+    for (int g = 0; g < d->points; g++)
         add_point(&c, d, g);
     if (moving_stiffness(frame, out) != NULL)
         add_curvature(d, &c);
 }
 
-status beamw_inertia_of(const element_data *d, const node_state x[],
-                        const element_rotating_frame *frame, inertia_output *out)
+status beamw_spread_inertia(const beamw_spread *d, const node_state x[2],
+                            const element_rotating_frame *frame, inertia_output *out)
 {
     moving_clear(N, out);
     if (d->share < 1)
@@ -184,4 +248,10 @@ status beamw_inertia_of(const element_data *d, const node_state x[],
         add_consistent(d, x, frame, out);
     moving_complete(N, out);
     return STATUS_OK;
+}
+
+status beamw_inertia_of(const element_data *d, const node_state x[],
+                        const element_rotating_frame *frame, inertia_output *out)
+{
+    return beamw_spread_inertia(&d->spread, x, frame, out);
 }

@@ -5,6 +5,7 @@
 #define BEAMWORK_BEAMW_INERTIA_H
 
 #include "elements/beamw/stiffness.h"
+#include "elements/beamw/variants.h"
 
 typedef enum beamw_inertia_kind {
     BEAMW_INERTIA_LUMPED,

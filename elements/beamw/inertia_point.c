@@ -29,7 +29,7 @@ static void rates_at(const beamw_inertia_state *c, int k, beamw_inertia_values *
         gradient_of(c->slope, field, out->slope[k]);
 }
 
-void beamw_inertia_values_at(const beamw_inertia_state *c, const element_data *d, int g,
+void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_spread *d, int g,
                              beamw_inertia_values *out)
 {
     out->x = d->at[g];

@@ -3,7 +3,7 @@
 #define BEAMWORK_BEAMW_INERTIA_POINT_H
 
 #include "elements/beamw/modes.h"
-#include "elements/beamw/variants.h"
+#include "elements/beamw/spread.h"
 #include "elements/shared/moving.h"
 
 enum { N = 14, RP = 0, TP = 3, AP = 6, RQ = 7, TQ = 10, AQ = 13 };
@@ -48,7 +48,7 @@ typedef struct beamw_inertia_vector {
 } beamw_inertia_vector;
 
 /* inertia_point.c */
-void beamw_inertia_values_at(const beamw_inertia_state *, const element_data *, int point,
+void beamw_inertia_values_at(const beamw_inertia_state *, const beamw_spread *, int point,
                              beamw_inertia_values *);
 /* dy/dx but for what turns with the nodes. */
 void beamw_inertia_gradient(const beamw_inertia_state *, const beamw_inertia_values *,

@@ -3,6 +3,8 @@
 #include "elements/beamw/inertia_point.h"
 #include "elements/math/quadrature.h"
 
+enum { BEAMW_CUBIC_POINTS = 4 };
+
 static void functionals_at(const section *c, double l, const beamw_stiffness_fields *s, double x,
                            double field[BEAMW_FIELDS][8])
 {
@@ -26,20 +28,23 @@ static void functionals_at(const section *c, double l, const beamw_stiffness_fie
 void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_kind kind,
                            const beamw_stiffness_fields *fields, element_data *d)
 {
+    beamw_spread *s = &d->spread;
     section plain = *c;
     plain.matrices = kind == BEAMW_INERTIA_LUMPED ? c->matrices : 0; /* constants say all of them */
-    d->lumped = lumped_of(&plain, features, d->l0 / 2);
+    s->lumped = lumped_of(&plain, features, d->l0 / 2);
     static const double share[] = {
         [BEAMW_INERTIA_LUMPED] = 0, [BEAMW_INERTIA_CONSISTENT] = 1, [BEAMW_INERTIA_AVERAGED] = 0.5};
-    d->share = share[kind];
-    quadrature_points(BEAMW_GAUSS, d->at, d->weight); /* exact for the square of a cubic */
-    if (d->share > 0)
-        for (int g = 0; g < BEAMW_GAUSS; g++) {
-            functionals_at(c, d->l0, fields, d->at[g], d->field[g]);
+    s->share = share[kind];
+    quadrature_points(BEAMW_CUBIC_POINTS, s->at, s->weight); /* exact for the square of a cubic */
+    s->l0 = d->l0;
+    s->points = BEAMW_CUBIC_POINTS;
+    if (s->share > 0)
+        for (int g = 0; g < s->points; g++) {
+            functionals_at(c, d->l0, fields, s->at[g], s->field[g]);
             if (!(features & FEATURE_WARPING))
                 for (int k = 0; k < BEAMW_FIELDS; k++) { /* uniform torsion: e7 and e8 follow e2 */
-                    d->field[g][k][1] += d->field[g][k][6] + d->field[g][k][7];
-                    d->field[g][k][6] = d->field[g][k][7] = 0;
+                    s->field[g][k][1] += s->field[g][k][6] + s->field[g][k][7];
+                    s->field[g][k][6] = s->field[g][k][7] = 0;
                 }
         }
 }

@@ -3,6 +3,7 @@
 #define BEAMWORK_BEAMW_MODIFIED_H
 
 #include "elements/beamw/stiffness.h"
+#include "elements/beamw/variants.h"
 
 /* J Eq. 66 as printed: for Phi = 0 and the shear centre at the centroid consistent, otherwise not.
  */

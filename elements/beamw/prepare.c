@@ -27,6 +27,18 @@ const parameter_type beamw_prepare_inside[] = {
 const unsigned beamw_prepare_judged[] = {
     [OPTION_MASS] = FEATURE_MASS, [OPTION_TORSION] = FEATURE_WARPING, [OPTION_INSIDE] = 0};
 
+int beamw_prepare_mass_of_field(const double options[])
+{
+    return options[OPTION_MASS] == BEAMW_INERTIA_CONSISTENT;
+}
+
+element_order beamw_prepare_order(element_analysis analysis, const double options[])
+{
+    return analysis == ELEMENT_VIBRATION && beamw_prepare_mass_of_field(options)
+               ? (element_order){4, 8}
+               : (element_order){2, 4};
+}
+
 static status length_of(const element_request *request, fault *f)
 {
     if (!(request->length > 0) || !isfinite(request->length))

@@ -33,6 +33,9 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
 
 /* The option of beamw_prepare_variant, and those that beamw_prepare_consistent has beside it. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
+/* Of all of them. */
+int beamw_prepare_mass_of_field(const double options[]);
+element_order beamw_prepare_order(element_analysis, const double options[]);
 /* element_type.judged of both. */
 extern const unsigned beamw_prepare_judged[];
 
@@ -44,7 +47,8 @@ extern const unsigned beamw_prepare_judged[];
     .data_size = beamw_variants_data_size, .strain = beamw_variants_strain,                        \
     .stress = beamw_variants_stress, .geometric = beamw_variants_geometric,                        \
     .strain_many = beamw_variants_strain_many, .stress_many = beamw_variants_stress_many,          \
-    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of, .spreads = 1
+    .lanes = LANES_TOGETHER, .inertia = beamw_inertia_of, .spreads = 1,                            \
+    .mass_of_field = beamw_prepare_mass_of_field, .order = beamw_prepare_order
 enum {
     BEAMW_OFFERS = FEATURE_TRAPEZE | FEATURE_WARPING | FEATURE_ECCENTRIC | FEATURE_GEOMETRIC |
                    FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "elements/beamw/variants.h"
 #include "elements/math/dense.h"
 
 enum { Y, Z, W };

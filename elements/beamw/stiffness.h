@@ -4,7 +4,6 @@
 #define BEAMWORK_BEAMW_STIFFNESS_H
 
 #include "elements/beamw/twist.h"
-#include "elements/beamw/variants.h"
 
 typedef enum beamw_stiffness_shear {
     BEAMW_STIFFNESS_RIGID,    /* Phi = 0: Vlasov */

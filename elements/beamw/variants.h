@@ -4,15 +4,13 @@
 #define BEAMWORK_BEAMW_VARIANTS_H
 
 #include "elements/beamw/quadratic.h"
+#include "elements/beamw/spread.h"
 #include "elements/element.h"
-#include "elements/shared/lumped.h"
 
 enum {
     BEAMW_STRAINS = 8,
     BEAMW_MODIFIED = 6, /* e7 and e8 are never modified */
-    BEAMW_QUADRATIC_TERMS = BEAMW_MODIFIED * BEAMW_STRAINS * (BEAMW_STRAINS + 1) / 2,
-    BEAMW_GAUSS = 4, /* points of the consistent mass */
-    BEAMW_FIELDS = 6 /* and its functionals at each */
+    BEAMW_QUADRATIC_TERMS = BEAMW_MODIFIED * BEAMW_STRAINS * (BEAMW_STRAINS + 1) / 2
 };
 
 struct element_data {
@@ -26,10 +24,7 @@ struct element_data {
         double c;
         short i, j;
     } spring[BEAMW_STRAINS * BEAMW_STRAINS];
-    lumped_mass lumped;                                     /* inertia of half the element */
-    double at[BEAMW_GAUSS], weight[BEAMW_GAUSS];            /* of the consistent mass, on [0, 1] */
-    double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_STRAINS]; /* functionals of e: see inertia.c */
-    double share; /* of the consistent mass: 0 lumped, 1 consistent, 1/2 averaged */
+    beamw_spread spread;
 };
 
 /* Q += c (a b^T + b a^T): the quadratic c (a . e)(b . e). */

@@ -9,7 +9,7 @@
  * which neighbours share, and a length of the element's own, such that the energy of the stretch is
  * least. Twist, which slopes do not have, is the angle between the triads of both nodes carried to
  * t by the smallest rotation (Meier, Popp and Wall, Comput. Methods Appl. Mech. Engrg. 278 (2014)).
- * The mass is lumped: no constant mass matrix of slopes.
+ * The mass is that of the displacement field: no constant mass matrix of slopes.
  *
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf.c -lm -o ancf.so
  *   beamwork verify --element ./ancf.so -f ancf */

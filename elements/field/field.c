@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-/* Its shear flexibility is that of the physics that counts. */
-static section section_of(const element_request *request)
+section field_section(const element_request *request)
 {
     section c = *request->section;
     if (request->type != NULL && request->type->lacks & LACKS_SHEAR_Y)
@@ -25,7 +24,7 @@ static void integrate_whole(displacement_field *f)
 
 void field_prepare(const element_request *request, int nodes, displacement_field *out)
 {
-    const section c = section_of(request);
+    const section c = field_section(request);
     const int flexible = (request->features & FEATURE_SHEAR) != 0;
     double S[FIELD_MODES * FIELD_MODES];
     memset(out, 0, sizeof *out);
@@ -87,6 +86,17 @@ void field_at(const displacement_field *f, double x, field_rows *out)
     memcpy(out->part, part, sizeof part);
     out->lean[0] = out->lean[2] = lean;
     out->lean[1] = -2 * lean;
+}
+
+/* a = kx - (f (Q, Mw))_w with the twist's own Mw (beamw/twist.h). */
+void field_warping_at(const displacement_field *f, double x, double psi[FIELD_MODES])
+{
+    const beamw_stiffness_fields *s = &f->linear;
+    const beamw_twist_shapes twist = beamw_twist_at(&f->twist, x);
+    for (int k = 0; k < FIELD_MODES; k++)
+        psi[k] = ((k == 1) + f->twist.soft * (twist.odd * s->A[k] + twist.even * s->tw[k])) /
+                     (f->l0 * f->l0) -
+                 s->g[2][k];
 }
 
 void field_gather(double size, const field_rows *at, field_rows *out)

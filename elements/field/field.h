@@ -42,6 +42,10 @@ typedef struct displacement_field {
  * the field of those constants. */
 void field_prepare(const element_request *, int nodes, displacement_field *);
 void field_at(const displacement_field *, double x, field_rows *);
+/* psi . e: the warping amplitude [1/m], of two nodes. */
+void field_warping_at(const displacement_field *, double x, double psi[FIELD_MODES]);
+/* Its shear flexibility is that of the physics that counts. */
+section field_section(const element_request *);
 /* out += size times what is there. */
 void field_gather(double size, const field_rows *at, field_rows *out);
 

@@ -33,7 +33,7 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
                              l0);
     sheet_strains_set_rest(request, &out->table);
     if (request->features & FEATURE_MASS)
-        out->lumped = lumped_of(request->section, request->features, l0);
+        field_mass_prepare(request, 2, &out->mass);
     return STATUS_OK;
 }
 
@@ -51,5 +51,17 @@ void sheet_base_strain_many(int count, const element_data *const data[], const n
 status sheet_base_inertia(const element_data *d, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&data_of(d)->lumped, 2, x, frame, out);
+    return field_mass_inertia(&data_of(d)->mass, x, frame, out);
+}
+
+element_order sheet_base_order(element_analysis analysis, const double options[])
+{
+    (void)options;
+    return analysis == ELEMENT_VIBRATION ? FIELD_MASS_ORDER : (element_order){2, 4};
+}
+
+int sheet_base_mass_of_field(const double options[])
+{
+    (void)options;
+    return 1;
 }

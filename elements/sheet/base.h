@@ -1,9 +1,9 @@
 /* What every sheet-flexure formulation begins with: generalized strains, linear stiffness, Wagner
- * torque and lumped mass. */
+ * torque and mass. */
 #ifndef BEAMWORK_SHEET_BASE_H
 #define BEAMWORK_SHEET_BASE_H
 
-#include "elements/shared/lumped.h"
+#include "elements/field/field_mass.h"
 #include "elements/sheet/lanes.h"
 #include "elements/sheet/strains.h"
 #include "elements/sheet/wagner.h"
@@ -15,7 +15,7 @@ typedef enum sheet_base_shear {
 
 typedef struct sheet_base_data {
     double S[SHEET_STRAINS * SHEET_STRAINS]; /* N Eqs. 33-36 [N/m] */
-    lumped_mass lumped;                      /* of the whole element */
+    field_mass mass;
     sheet_strains_table table;
     sheet_wagner_term wagner;
 } sheet_base_data;
@@ -38,11 +38,14 @@ void sheet_base_strain_many(int count, const element_data *const data[], const n
                             strain_output out[]);
 status sheet_base_inertia(const element_data *d, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out);
+int sheet_base_mass_of_field(const double options[]);
+element_order sheet_base_order(element_analysis, const double options[]);
 
 /* In an element_type: what every sheet element has; and those whose strains see no shear. */
 #define SHEET_BASE_TYPE                                                                            \
-    .family = "sheet", .abi = ELEMENT_ABI, .strain = sheet_base_strain,                            \
-    .inertia = sheet_base_inertia, .lanes = LANES_TOGETHER, .strain_many = sheet_base_strain_many
+    .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
+    .inertia = sheet_base_inertia, .mass_of_field = sheet_base_mass_of_field,                      \
+    .lanes = LANES_TOGETHER, .strain_many = sheet_base_strain_many
 #define SHEET_BASE_WITHOUT_SHEAR                                                                   \
     .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \
     .own_theory = "N Eq. 37: generalized strains that see no shear (reference/ERRATA.md, N 37)"

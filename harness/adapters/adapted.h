@@ -5,13 +5,13 @@
 #include <stddef.h>
 
 #include "elements/element.h"
-#include "elements/shared/lumped.h"
+#include "elements/field/field_mass.h"
 
 struct element_data {
     const element_type *given;
     int nodes, strains; /* of the completed type */
     double length;      /* [m] */
-    lumped_mass mass;   /* where the type has no inertia of its own */
+    field_mass mass;    /* where the type has no inertia of its own */
     max_align_t own[];  /* element_data of the type */
 };
 

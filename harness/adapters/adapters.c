@@ -19,7 +19,7 @@ static status prepare(const element_request *request, element_data *out, fault *
                    : out->nodes == 2    ? places_strains_two(request->options)
                                         : places_strains_three(request->options);
     out->length = request->length;
-    out->mass = lumped_of(request->section, request->features, request->length);
+    field_mass_prepare(request, out->nodes, &out->mass);
     return given->prepare(request, (element_data *)out->own, f);
 }
 
@@ -66,10 +66,16 @@ static void stress_many(int count, const element_data *const data[], const doubl
     }
 }
 
-static status lumped(const element_data *d, const node_state x[],
+static status spread(const element_data *d, const node_state x[],
                      const element_rotating_frame *frame, inertia_output *out)
 {
-    return lumped_element(&d->mass, d->nodes, x, frame, out);
+    return field_mass_inertia(&d->mass, x, frame, out);
+}
+
+static int always(const double options[])
+{
+    (void)options;
+    return 1;
 }
 
 /* The same beam with data behind those of the adapter. */
@@ -82,7 +88,8 @@ static void wrap(const element_type *given, element_type *out)
     out->update = given->update != NULL ? update : NULL;
     out->rest = given->rest != NULL ? rest : NULL;
     out->geometric = given->geometric != NULL ? geometric : NULL;
-    out->inertia = given->inertia != NULL ? inertia : lumped;
+    out->inertia = given->inertia != NULL ? inertia : spread;
+    out->mass_of_field = given->inertia != NULL ? given->mass_of_field : always;
     out->strain = differences_strain;
     out->strain_many = given->strain_many != NULL ? differences_strain_many : NULL;
     out->stress_many = given->stress_many != NULL ? stress_many : NULL;

@@ -78,14 +78,43 @@ static void stiffness_product(void *context, const double mode[], double y[])
         add_product(f, &f->M, f->shift, mode, y);
 }
 
-/* Moves the modes into the outcome, with omega^2 = 1/mu - shift; what is a rounding error of the
- * shift moves as a rigid body. */
-static void keep(const modal_forms *about, eigen_side *side, analysis_outcome *o)
+/* Eigenvalue of a mode x with x^T (K + shift M) x = 1: the positive root of
+ *   x^T K x = lambda x^T M x + lambda^2 x^T B x
+ * with what is inside of the elements (field/field_mass.h), but not under stress: that acts there
+ * too. What is a rounding error of the shift moves as a rigid body. */
+static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {
+    const double square = 1 / mu - about->shift;
+    if (square <= 1e-9 * about->shift)
+        return 0;
+    if (about->prestressed)
+        return square;
+    memcpy(about->of.x, mode, (size_t)about->of.free * sizeof *mode);
+    const double k = square * mu, b = rotating_frame_inner(about->of.m, about->of.x);
+    return 2 * k / (mu + sqrt(mu * mu + 4 * b * k));
+}
+
+static void swap(double *a, double *b, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const double kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
+}
+
+/* Moves the modes into the outcome with their circular frequencies, lowest first. */
+static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
+{
+    const int n = about->of.free;
     for (int i = 0; i < side->count; i++) {
-        const double square = 1 / side->mu[i] - about->shift;
-        side->mu[i] = square <= 1e-9 * about->shift ? 0 : sqrt(square);
+        side->mu[i] = sqrt(eigenvalue(about, side->mu[i], side->mode + (size_t)i * (size_t)n));
         side->error[i] /= 2; /* the root's */
+        for (int k = i; k > 0 && side->mu[k] < side->mu[k - 1]; k--) {
+            swap(&side->mu[k - 1], &side->mu[k], 1);
+            swap(&side->error[k - 1], &side->error[k], 1);
+            swap(side->mode + (size_t)(k - 1) * (size_t)n, side->mode + (size_t)k * (size_t)n, n);
+        }
     }
     outcome_take(side, &o->left.spectrum.positive);
 }

@@ -45,20 +45,22 @@ static void show_numbers(const formulation *chosen)
 {
     static const char *const order[][2] = {{"statics_least", "statics_highest"},
                                            {"vibration_least", "vibration_highest"},
+                                           {"motion_least", "motion_highest"},
                                            {"buckling_least", "buckling_highest"}};
-    static const char *const analysis[] = {"statics", "vibration", "linear buckling"};
+    static const char *const analysis[] = {"statics", "vibration", "motion", "linear buckling"};
     field_value v = {.whole = 0};
+    char orders[200];
+    int used = 0;
     const long nodes = declared(chosen, "nodes", &v), strains = declared(chosen, "strains", &v),
                inner = declared(chosen, "inner", &v);
     printf("  element: %ld nodes, %ld generalized strains", nodes, strains);
     printf(inner > 0 ? ", %ld unknowns inside\n" : "\n", inner);
-    printf("  order of convergence: ");
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         const long least = declared(chosen, order[i][0], &v);
-        printf("%s%ld to %ld in %s", i > 0 ? ", " : "", least, declared(chosen, order[i][1], &v),
-               analysis[i]);
+        used += snprintf(orders + used, sizeof orders - (size_t)used, "%s%ld to %ld in %s",
+                         i > 0 ? ", " : "", least, declared(chosen, order[i][1], &v), analysis[i]);
     }
-    putchar('\n');
+    paragraph_write(stdout, printf("  order of convergence: "), 4, orders);
 }
 
 static void show_features(const char *heading, unsigned features)

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/discrete.h"
@@ -21,8 +22,15 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
                          fault *f)
 {
     const element_rotating_frame frame = model_rotating_frame(m, path);
-    const status outcome =
-        m->type->inertia(m->kind[m->element[i].kind].data, x, m->rotates ? &frame : NULL, out);
+    const mesh_kind *kind = &m->kind[m->element[i].kind];
+    const element_rotating_frame *turning = m->rotates ? &frame : NULL;
+    status outcome;
+    if (m->scene->lumped) {
+        const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
+        outcome = lumped_element(&whole, m->nodes, x, turning, out);
+    } else {
+        outcome = m->type->inertia(kind->data, x, turning, out);
+    }
     m->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
@@ -71,6 +79,37 @@ status rotating_frame_inertia(model *m, const model_state *state, double path, s
     }
     discrete_inertia(m, s, path, M, G);
     return STATUS_OK;
+}
+
+/* Of a vector in fixed axes, in those of an element between its ends. */
+static void in_axes(const mesh_element *el, const double v[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = 0;
+        for (int i = 0; i < 3; i++)
+            out[k] += (el->triad[0][3 * i + k] + el->triad[1][3 * i + k]) / 2 * v[i];
+    }
+}
+
+double rotating_frame_inner(const model *m, const double x[])
+{
+    double sum = 0;
+    for (int e = 0; e < m->elements; e++) {
+        const mesh_element *el = &m->element[e];
+        const double *B = m->kind[el->kind].inner;
+        double local[ELEMENT_MAX_COORDINATES], own[FIELD_INNER];
+        if (B == NULL)
+            continue;
+        kinematics_local(m, m->rest, el, x, local);
+        for (int node = 0; node < 2; node++) {
+            const int at = NODE_COORDINATES * node;
+            in_axes(el, local + at, own + at);
+            in_axes(el, local + at + 3, own + at + 3);
+            own[at + 6] = local[at + 6];
+        }
+        sum += dense_quadratic(FIELD_INNER, B, own);
+    }
+    return sum;
 }
 
 void rotating_frame_load_stiffness(const model *m, const model_state *s, double path, sparse *out)

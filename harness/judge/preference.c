@@ -51,8 +51,8 @@ static int order_of(const scene *s, const element_type *type)
         const scene_quantity *q = &s->quantity[i];
         const int moves =
             q->analysis < s->analyses && s->analysis[q->analysis].kind == SCENE_MOTION;
-        const element_analysis what = moves ? ELEMENT_VIBRATION : verdict_analysis(s, q);
-        const int one = element_order_in(type, what, options).highest;
+        const int one = moves ? element_order_of_motion().highest
+                              : element_order_in(type, verdict_analysis(s, q), options).highest;
         least = one < least ? one : least;
     }
     return least;

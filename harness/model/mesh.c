@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
+#include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/algebra/memory.h"
@@ -75,6 +76,22 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+/* Where frequencies are asked for. */
+static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
+{
+    int modal = 0;
+    for (int i = 0; i < m->scene->analyses; i++)
+        modal |= m->scene->analysis[i].kind == SCENE_MODAL;
+    if (!modal || m->scene->lumped || m->nodes != 2 || m->type->mass_of_field == NULL ||
+        !m->type->mass_of_field(m->options))
+        return STATUS_OK;
+    k->inner = malloc(FIELD_INNER * FIELD_INNER * sizeof *k->inner);
+    if (k->inner == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for an element");
+    field_inner(request, &k->field, k->inner);
+    return STATUS_OK;
+}
+
 /* Index of the kind of element of a member with this section, length and curvature; made when it is
  * new. rounding [m]: of the length. */
 static status kind_of(model *m, const scene_member *member, int profile, double length,
@@ -105,6 +122,7 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
         return fault_set(f, STATUS_FAULT, "out of memory for an element");
     *out = *end = m->kinds++;
     field_prepare(&request, m->nodes, &k->field);
+    TRY(set_inner(m, &request, k, f));
     return m->type->prepare(&request, k->data, f);
 }
 

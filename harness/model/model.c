@@ -195,8 +195,10 @@ void model_free(model *m)
         return;
     for (size_t i = 0; i < sizeof m->pattern / sizeof m->pattern[0]; i++)
         assemble_pattern_free(&m->pattern[i]);
-    for (int i = 0; i < m->kinds; i++)
+    for (int i = 0; i < m->kinds; i++) {
         free(m->kind[i].data);
+        free(m->kind[i].inner);
+    }
     for (int i = 0; i < m->lines; i++)
         free(m->line[i]);
     free(m->line);

@@ -74,6 +74,8 @@ typedef struct mesh_kind {
     element_data *data;
     size_t data_size;         /* [bytes] */
     displacement_field field; /* displacements between the nodes, for loads */
+    double *inner; /* field_inner where frequencies are asked for, or NULL: the type has another
+                      mass */
 } mesh_kind;
 
 /* An entry of an element's matrix that a pattern stores. */

@@ -118,6 +118,7 @@ static void read_physics(builder *b)
 static void read_plane(builder *b)
 {
     const fields f = {b, b->names, b->root, b->root, NULL};
+    b->scene->lumped = fields_word(&f, "mass", "consistent|lumped", 0);
     b->scene->plane = (scene_plane)(fields_word(&f, "plane", SCENE_PLANE_CHOICES, -1) + 1);
 }
 

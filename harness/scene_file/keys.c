@@ -44,6 +44,10 @@ const scene_key keys_root[] = {
      .left_out = "none: all that sections, loads and analyses call for is there"},
     {"shear_theory", KEY_WORD, .words = "haringx|engesser|own",
      .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
+    {"mass", KEY_WORD, .words = "consistent|lumped",
+     .summary = "of members in vibration and steady rotation: along them, or at their nodes "
+                "(motions in time have a mass of their own)",
+     .usual = "consistent"},
     {"needs", KEY_WORDS, .words = PHYSICS "|engesser|haringx",
      .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "
                 "omit stands for it now",

@@ -57,10 +57,19 @@ static const char *goes_with(const scene *s, const scene_motion *how)
     return weight ? " and weight" : "";
 }
 
-static void put_motions(words *w, const scene *s)
+/* Analyses but motions that have a mass. */
+static int is_lumped(const scene *s, const scene_analysis *a)
+{
+    return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a));
+}
+
+static void put_masses(words *w, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++) {
         const scene_analysis *a = &s->analysis[i];
+        if (is_lumped(s, a))
+            put(w, "%smass of %s", w->used > 0 ? ", " : "",
+                scene_called(s, SCENE_ANALYSES, i).text);
         if (a->kind != SCENE_MOTION || scene_motion_of(a)->mass != SCENE_LUMPED)
             continue;
         put(w, "%smass%s of %s", w->used > 0 ? ", " : "", goes_with(s, scene_motion_of(a)),
@@ -74,7 +83,7 @@ void on_nodes(const scene *s, char *text, size_t room)
     text[0] = '\0';
     put_loads(&w, s);
     if (is_heavy(s))
-        put_motions(&w, s);
+        put_masses(&w, s);
     if (w.used > 0)
         put(&w,
             ": half of an element's at both its nodes, of order 2 in its length (at three nodes "

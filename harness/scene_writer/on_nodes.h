@@ -6,8 +6,9 @@
 
 #include "cases/scene/scene.h"
 
-/* Of loads that ask for it, of masses that a motion lumps, and of what goes to the nodes with them:
- * with the order in space that this has.  Of many the first ones are named.  "" where nothing is.
+/* Of loads that ask for it, of masses that a motion or the scene lumps, and of what goes to the
+ * nodes with them: with the order in space that this has.  Of many the first ones are named.  ""
+ * where nothing is.
  */
 void on_nodes(const scene *s, char *text, size_t room);
 

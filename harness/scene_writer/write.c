@@ -15,6 +15,8 @@ static void write_physics(writer *w)
         fprintf(w->to, "omit: [%s]\n", words);
     if (w->scene->shear_theory != SCENE_SHEAR_HARINGX)
         fprintf(w->to, "shear_theory: %s\n", scene_shear_word(w->scene->shear_theory));
+    if (w->scene->lumped)
+        fputs("mass: lumped\n", w->to);
 }
 
 static void write_meshes(writer *w)

@@ -81,6 +81,14 @@ static void get_order(const subject *s, field_value *out)
     out->whole = i % 2 == 0 ? order.least : order.highest;
 }
 
+/* The offset: 0 least, 1 highest. */
+static void get_motion(const subject *s, field_value *out)
+{
+    const element_order order = element_order_of_motion();
+    (void)s;
+    out->whole = out->of->offset == 0 ? order.least : order.highest;
+}
+
 static void get_nodes(const subject *s, field_value *out)
 {
     out->whole = element_nodes(type_of(s), s->series->formulation.option);
@@ -154,6 +162,9 @@ static const schema_field fields[] = {
     {"vibration_least", "1", FIELD_INT, "order in vibration", .offset = 2, .get = get_order},
     {"vibration_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 3,
      .get = get_order},
+    {"motion_least", "1", FIELD_INT, "order in motions in time", .get = get_motion},
+    {"motion_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 1,
+     .get = get_motion},
     {"buckling_least", "1", FIELD_INT, "order in linear buckling", .offset = 4, .get = get_order},
     {"buckling_highest", "1", FIELD_INT, "the same where leading terms vanish", .offset = 5,
      .get = get_order},

@@ -237,7 +237,7 @@ static inline const char *differing(const scene *a, const scene *b, int *index)
     if (!same_sharing(a, b))
         return "sharing";
     if (a->plane != b->plane || a->omits != b->omits || a->shear_theory != b->shear_theory ||
-        a->meshes != b->meshes ||
+        a->lumped != b->lumped || a->meshes != b->meshes ||
         memcmp(a->mesh, b->mesh, (size_t)a->meshes * sizeof *a->mesh) != 0)
         return "plane, omits, theory of shear or meshes";
     return NULL;
