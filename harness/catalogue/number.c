@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 int number_read(const char *text, const char **end, double *out)
 {
@@ -10,7 +11,9 @@ int number_read(const char *text, const char **end, double *out)
     errno = 0;
     const double value = strtod(text, &behind);
     *end = behind;
-    if (behind == text || errno == ERANGE || !isfinite(value))
+    /* decimal numbers only: strtod reads 0x10 as 16 */
+    if (behind == text || memchr(text, 'x', (size_t)(behind - text)) != NULL ||
+        memchr(text, 'X', (size_t)(behind - text)) != NULL || errno == ERANGE || !isfinite(value))
         return 0;
     *out = value;
     return 1;

@@ -105,12 +105,11 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
 /* It has ended; what did not come to an end is a claim that is broken. */
 static void bury(tester *t, int time_limit)
 {
-    int how = 0;
     char words[100];
     claims *c = &t->of->part[t->part].claims;
     close(t->end);
     t->end = -1;
-    waitpid(t->process, &how, 0);
+    const int how = child_reap(t->process);
     c->count = c->count < 0 || c->count >= CLAIMS_MOST ? 0 : c->count; /* it may be spoilt */
     c->doing[sizeof c->doing - 1] = '\0';
     if (c->complete && WIFEXITED(how) && WEXITSTATUS(how) == 0)
@@ -144,12 +143,12 @@ static int attend(tester all[], int jobs, int time_limit)
     int ended = 0;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = all[i].end, .events = POLLIN};
-    while (poll(ends, (nfds_t)jobs, time_limit > 0 ? LOOK : -1) < 0 && errno == EINTR)
+    while (poll(ends, (nfds_t)jobs, LOOK) < 0 && errno == EINTR)
         ;
     for (int i = 0; i < jobs; i++) {
         if (all[i].end < 0)
             continue;
-        if (ends[i].revents != 0) {
+        if (ends[i].revents != 0 || child_is_gone(all[i].process)) {
             bury(&all[i], time_limit);
             ended++;
         } else {

@@ -65,8 +65,8 @@ static status write_out(const command_request *r, const sweep *s, const judgemen
         csv_timing(stdout, s, j);
     else
         table_timing(stdout, s, j, is_named(r));
-    TRY(output_flush(f));
-    return r->output != NULL ? store_write(r->output, s, j, &e, f) : STATUS_OK;
+    TRY(r->output != NULL ? store_write(r->output, s, j, &e, f) : STATUS_OK);
+    return output_flush(f); /* of the table, which may have no reader */
 }
 
 /* With what bench_request frees. */

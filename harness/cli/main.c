@@ -1,5 +1,6 @@
 /* beamwork VERB ...: what the process needs before a verb runs. */
 #include <gsl/gsl_errno.h>
+#include <hdf5.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -7,6 +8,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/verb_table.h"
+#include "harness/command/ending.h"
 
 /* Not inlined: what it needs of the stack is taken once the stack is known to suffice. */
 static __attribute__((noinline)) int run(int count, char **arguments)
@@ -41,7 +43,11 @@ int main(int count, char **arguments)
 {
     if (!stack_suffices())
         refuse_stack();
+    ending_begin();
     gsl_set_error_handler_off();
+    /* it closes nothing of its own accord: what we open we close, and where memory was short its
+     * own end crashes or fills the screen */
+    H5dont_atexit();
     /* a file that may not grow is an error of writing, told in one line */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));

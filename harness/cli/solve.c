@@ -59,8 +59,8 @@ static status write_out(const command_request *r, const char *note, const sweep 
         const environment e = environment_now(1);
         fputs(note, stdout);
         table_solution(stdout, s, t);
-        TRY(output_flush(f));
-        return store_write_solution(r->output, s, &e, f);
+        TRY(store_write_solution(r->output, s, &e, f));
+        return output_flush(f); /* of the table, which may have no reader */
     }
     TRY(output_open(r->output, &file, f));
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);

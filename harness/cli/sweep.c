@@ -1,8 +1,11 @@
 /* A case over ranges of its parameters. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "harness/catalogue/choice.h"
@@ -125,11 +128,38 @@ static status place_output(const command_request *r, sweeping *s, fault *f)
     return ranges_collect_check(&s->output, f);
 }
 
+/* The folder is that of this process until it ends: of two runs with one output one ends here. */
+static status hold_batches(const char *folder, fault *f)
+{
+    struct stat there = {.st_nlink = 0};
+    while (there.st_nlink == 0) { /* whoever held it has removed it meanwhile */
+        const int made = mkdir(folder, 0777),
+                  held = made == 0 || errno == EEXIST
+                             ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                             : -1;
+        if (held < 0)
+            return fault_set(f, STATUS_FAULT, "%.200s: cannot be made (%s)", folder,
+                             strerror(errno));
+        if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            close(held);
+            return fault_set(f, STATUS_REFUSED,
+                             "%.200s: another 'beamwork sweep' works there; wait until it ends, or "
+                             "give -o another name",
+                             folder);
+        }
+        if (fstat(held, &there) != 0)
+            there.st_nlink = 1;
+    }
+    return STATUS_OK;
+}
+
 /* Where batches are kept until all are there: beside the output, or where nobody looks. */
 static status place_batches(const command_request *r, sweeping *s, fault *f)
 {
-    if (r->output != NULL)
-        return ranges_collect_beside(r->output, ".batches", s->batches, f);
+    if (r->output != NULL) {
+        TRY(ranges_collect_beside(r->output, ".batches", s->batches, f));
+        return hold_batches(s->batches, f);
+    }
     const char *temporary = getenv("TMPDIR");
     snprintf(s->batches, sizeof s->batches, "%s/beamwork-sweep-XXXXXX",
              temporary != NULL ? temporary : "/tmp");
@@ -191,7 +221,8 @@ static status run(command_request *r, const case_type *type, sweeping *s, fault 
         s->work.csv = stdout;
     else if (!r->quiet)
         ranges_table_head(stdout, &s->ranges);
-    TRY(output_flush(f));
+    if (r->output == NULL) /* else what goes there matters more */
+        TRY(output_flush(f));
     if (!s->asked)
         return run_here(r, s, f);
     return r->from_count > 0 ? take_all(r, s, NULL, f) : spread_work(r, &s->all, 0, &s->end, f);

@@ -192,9 +192,9 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
     if (v->end.ended)
         return STATUS_OK;
     show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
-    TRY(output_flush(f));
     const environment e = spread_environment(&v->end, r->jobs);
-    return verification_files_close(&v->files, &v->overview, &e, f);
+    TRY(verification_files_close(&v->files, &v->overview, &e, f)); /* also where nobody reads */
+    return output_flush(f);
 }
 
 static int verify_scenes(const command_request *r, const scenes *own)

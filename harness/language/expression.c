@@ -1,5 +1,6 @@
 #include "harness/language/expression.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,9 +74,12 @@ static double literal(parser *p)
     }
     memcpy(digits, p->text + from, (size_t)length);
     digits[length] = '\0';
+    errno = 0;
     const double value = strtod(digits, NULL);
     p->at += length;
-    if (!isfinite(value))
+    if (errno == ERANGE && fabs(value) < 1)
+        FAIL(p, from, "'%s' is too small; write 0, or at least 2.3e-308", digits);
+    else if (!isfinite(value))
         FAIL(p, from, "'%s' is too large; the largest number is 1.8e308", digits);
     else if (here(p) != '\0' && scope_name_length(p->text + p->at) > 0)
         FAIL(p, p->at,

@@ -5,10 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/library/known.h"
+
 _Static_assert((int)BW_FAULT == (int)STATUS_FAULT && (int)BW_NO_VALUE == (int)STATUS_NO_VALUE,
                "a bw_status is a status");
 
-/* GSL has one handler for all threads: the first call puts it off, the last one back. */
+/* GSL has one handler for all threads: the first call puts it off, the last one back. `nested`:
+ * calls of this thread alone. */
+static _Thread_local int nested;
 static struct {
     pthread_mutex_t lock;
     int inside;
@@ -16,8 +20,36 @@ static struct {
     locale_t plain;
 } state = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
+/* A process that is forked has none of the other threads: it must not wait for them, and calls that
+ * they are inside do not count there. */
+static void before_fork(void)
+{
+    known_hold();
+    pthread_mutex_lock(&state.lock);
+}
+
+static void after_fork(void)
+{
+    pthread_mutex_unlock(&state.lock);
+    known_let_go();
+}
+
+static void in_child(void)
+{
+    state.inside = nested;
+    after_fork();
+}
+
+static void mind_forks(void)
+{
+    pthread_atfork(before_fork, after_fork, in_child);
+}
+
 static locale_t go_in(void)
 {
+    static pthread_once_t forks = PTHREAD_ONCE_INIT;
+    pthread_once(&forks, mind_forks);
+    nested++;
     pthread_mutex_lock(&state.lock);
     if (state.plain == (locale_t)0)
         state.plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
@@ -30,6 +62,7 @@ static locale_t go_in(void)
 
 static void go_out(void)
 {
+    nested--;
     pthread_mutex_lock(&state.lock);
     if (--state.inside == 0)
         gsl_set_error_handler(state.before);

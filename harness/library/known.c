@@ -13,17 +13,38 @@ static struct {
 } host;                      /* what it wants told of HDF5's errors */
 static char place[PATH_MAX]; /* "": where they usually are */
 
-void known_lock(void)
+void known_hold(void)
 {
     pthread_mutex_lock(&hdf5);
+}
+
+void known_let_go(void)
+{
+    pthread_mutex_unlock(&hdf5);
+}
+
+/* HDF5 says nothing of its errors, until speak. */
+static void hush(void)
+{
     H5Eget_auto2(H5E_DEFAULT, &host.print, &host.context);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-void known_unlock(void)
+static void speak(void)
 {
     H5Eset_auto2(H5E_DEFAULT, host.print, host.context);
-    pthread_mutex_unlock(&hdf5);
+}
+
+void known_lock(void)
+{
+    known_hold();
+    hush();
+}
+
+void known_unlock(void)
+{
+    speak();
+    known_let_go();
 }
 
 static void place_now(char path[PATH_MAX])
@@ -34,14 +55,22 @@ static void place_now(char path[PATH_MAX])
         data_place_truths(path);
 }
 
-status known_read(const case_type *type, truths *out, fault *f)
+status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];
     place_now(path);
-    known_lock();
+    hush();
     const status outcome =
         type != NULL ? truths_read_case(path, type, out, f) : truths_read_rules(path, out, f);
-    known_unlock();
+    speak();
+    return outcome;
+}
+
+status known_read(const case_type *type, truths *out, fault *f)
+{
+    known_hold();
+    const status outcome = known_read_held(type, out, f);
+    known_let_go();
     return outcome;
 }
 

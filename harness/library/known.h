@@ -11,6 +11,12 @@ status known_read(const case_type *type, truths *out, fault *f);
 /* Those of all cases. */
 status known_read_all(truths *out, fault *f);
 
+/* The lock of HDF5 alone: of two threads that want the same truths one reads, and a process is
+ * forked while none does. */
+void known_hold(void);
+void known_let_go(void);
+/* known_read of who holds it. */
+status known_read_held(const case_type *type, truths *out, fault *f);
 /* Around all else that calls HDF5; what the host wants told of its errors is given back. */
 void known_lock(void);
 void known_unlock(void);

@@ -1,6 +1,5 @@
 #include "harness/library/source.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -14,8 +13,6 @@ struct source {
     int is_known; /* 1: it was read */
     truths known;
 };
-
-static pthread_mutex_t reading = PTHREAD_MUTEX_INITIALIZER;
 
 status source_new(const case_type *type, scene_file *file, char *name, source **out, fault *f)
 {
@@ -59,11 +56,11 @@ const scene_file *source_file(const source *s)
 status source_known(source *s, const truths **out, fault *f)
 {
     status outcome = STATUS_OK;
-    pthread_mutex_lock(&reading);
+    known_hold();
     if (!s->is_known)
-        outcome = known_read(s->file == NULL ? s->type : NULL, &s->known, f);
+        outcome = known_read_held(s->file == NULL ? s->type : NULL, &s->known, f);
     s->is_known |= outcome == STATUS_OK;
     *out = s->is_known ? &s->known : NULL;
-    pthread_mutex_unlock(&reading);
+    known_let_go();
     return outcome;
 }

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
 #include <sys/random.h>
@@ -9,6 +10,40 @@
 #include <unistd.h>
 
 enum { MOST_TRIES = 100, LEAF = 100 }; /* [bytes] of the name that a temporary name begins with */
+
+/* Files that are written beside their places now, as far as there is room for their names: of the
+ * process `owner`; 0: free, -1: a name is being written. */
+enum { MOST_OPEN = 16 };
+static struct {
+    atomic_int owner;
+    char path[PATH_MAX];
+} unfinished[MOST_OPEN];
+
+static void remember(const char *path)
+{
+    for (int i = 0; i < MOST_OPEN; i++) {
+        int nobody = 0;
+        if (atomic_compare_exchange_strong(&unfinished[i].owner, &nobody, -1)) {
+            snprintf(unfinished[i].path, PATH_MAX, "%s", path);
+            atomic_store(&unfinished[i].owner, getpid());
+            return;
+        }
+    }
+}
+
+static void forget(const char *path)
+{
+    for (int i = 0; i < MOST_OPEN; i++)
+        if (atomic_load(&unfinished[i].owner) == getpid() && strcmp(unfinished[i].path, path) == 0)
+            atomic_store(&unfinished[i].owner, 0);
+}
+
+void output_abandon(void)
+{
+    for (int i = 0; i < MOST_OPEN; i++)
+        if (atomic_load(&unfinished[i].owner) == getpid())
+            unlink(unfinished[i].path);
+}
 
 static status fail(const char *path, int why, fault *f)
 {
@@ -30,10 +65,14 @@ static int create_beside(const char *path, char temporary[PATH_MAX])
             errno = ENAMETOOLONG;
             return -1;
         }
+        remember(temporary); /* before it is there: a signal may come at any time */
         const int file =
             open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (file >= 0 || errno != EEXIST)
+        if (file >= 0)
             return file;
+        forget(temporary);
+        if (errno != EEXIST)
+            return -1;
     }
     return -1;
 }
@@ -55,10 +94,22 @@ static int open_stream(const place *to)
     return dup(to->descriptor);
 }
 
+/* 1: its name says that it is HDF5. */
+static int is_hdf5(const char *path)
+{
+    const char *dot = strrchr(place_leaf(path), '.');
+    return dot != NULL && (strcmp(dot, ".h5") == 0 || strcmp(dot, ".hdf5") == 0);
+}
+
 static status check_form(const char *path, const place *to, output_form form, fault *f)
 {
     if (to->kind == PLACE_FOLDER)
         return fail(path, EISDIR, f);
+    if (form == OUTPUT_TEXT && is_hdf5(path))
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s: this command writes text there, not HDF5; give it a name that "
+                         "does not end in %s",
+                         path, strrchr(path, '.'));
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
         return fault_set(f, STATUS_REFUSED,
                          "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
@@ -102,8 +153,10 @@ static void discard(output *out)
     if (out->stream != NULL && out->stream != stdout)
         fclose(out->stream);
     out->stream = NULL;
-    if (out->temporary[0] != '\0')
+    if (out->temporary[0] != '\0') {
         unlink(out->temporary);
+        forget(out->temporary);
+    }
 }
 
 /* Onto the disk, where there is one; what cannot be synchronised (a pipe, a device) needs no such
@@ -136,8 +189,10 @@ status output_close(output *out, fault *f)
         good = 0;
         why = errno;
     }
-    if (good)
+    if (good) {
+        forget(out->temporary);
         return STATUS_OK;
+    }
     discard(out);
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path,
                      why != 0 ? strerror(why) : "no room",
@@ -164,6 +219,7 @@ status output_try(const char *path, output_form form, place *where, fault *f)
         return fail(path, errno, f);
     close(file);
     unlink(temporary);
+    forget(temporary);
     return STATUS_OK;
 }
 

@@ -29,6 +29,9 @@ status output_flush(fault *f);
  * or takes no such form, FAULT what cannot be written. *where: the place, for comparison with
  * others. */
 status output_try(const char *path, output_form form, place *where, fault *f);
+/* Deletes the files of this process that were written beside their places and are not complete; a
+ * signal handler may call it. */
+void output_abandon(void);
 /* "results.partial.h5" of "results.h5": of a run that was interrupted. A stream keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 

@@ -22,13 +22,27 @@ static void check_version(const scene_file *file, mistakes *m)
         document_mistake(m, file->root, 0, "'beamwork: 1' stands first; move it up");
 }
 
-/* The name that is given, or that of the file without folder and ending. */
+/* Of the file, without its ending: what a name cannot have becomes '_', one for each character. */
+static const char *name_of_file(scene_file *file)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
+                                  "0123456789";
+    char name[SCENE_NAME];
+    const char *slash = strrchr(file->path, '/');
+    const char *at = slash != NULL ? slash + 1 : file->path;
+    size_t count = 0;
+    if (*at == '\0' || *at == '.' || (*at >= '0' && *at <= '9'))
+        count = (size_t)snprintf(name, sizeof name, "scene_");
+    for (; *at != '\0' && *at != '.' && count < SCENE_NAME - 1; at++)
+        if (((unsigned char)*at & 0xc0) != 0x80) /* else it continues a character */
+            name[count++] = strspn(at, letters) > 0 ? *at : '_';
+    return arena_copy(&file->arena, name, count);
+}
+
 static void read_name(scene_file *file, mistakes *m)
 {
     const document_node *n = document_find(file->root, "name");
-    const char *slash = strrchr(file->path, '/');
-    const char *stem = slash != NULL ? slash + 1 : file->path;
-    const char *text = n != NULL ? n->text : arena_copy(&file->arena, stem, strcspn(stem, "."));
+    const char *text = n != NULL ? n->text : name_of_file(file);
     if (text == NULL)
         return;
     file->type.name = text;
@@ -117,7 +131,7 @@ static status read_from(const char *bytes, size_t size, const char *path, int bu
     file->type.context = file;
     file->type.file = path;
     read_form(file, bytes, size, m);
-    if (built && m->count == 0 && !file->arena.failed) {
+    if (built && m->count == 0 && !m->out_of_memory && !file->arena.failed) {
         double value[CASE_MAX_PARAMETERS] = {0};
         parameter_defaults(file->type.parameters, value);
         check_at(file, value, m);

@@ -1,6 +1,7 @@
 #include "harness/shards/shard.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -51,7 +52,7 @@ static status hire(crew *c, int self, fault *f)
     int ends[2];
     const pid_t parent = getpid();
     c->todo.shelf->at[self] = -1;
-    if (pipe(ends) != 0)
+    if (pipe2(ends, O_CLOEXEC) != 0)
         return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe");
     c->hand[self].process = fork();
     if (c->hand[self].process == 0) {
@@ -64,6 +65,7 @@ static status hire(crew *c, int self, fault *f)
         close(ends[0]);
         return fault_set(f, STATUS_FAULT, "cannot start a process");
     }
+    fcntl(ends[0], F_SETFL, O_NONBLOCK);
     c->hand[self].from = ends[0];
     c->running++;
     return STATUS_OK;
@@ -72,12 +74,10 @@ static status hire(crew *c, int self, fault *f)
 /* It has ended, or is ended. Returns how (of waitpid). */
 static int dismiss(crew *c, int self)
 {
-    int how = 0;
     close(c->hand[self].from);
     c->hand[self].from = -1;
-    waitpid(c->hand[self].process, &how, 0);
     c->running--;
-    return how;
+    return child_reap(c->hand[self].process);
 }
 
 static void tell_lost(const crew *c, int batch, int how)
@@ -105,7 +105,11 @@ static void clean(const crew *c, int batch, int gone)
 static status attend(crew *c, int self, fault *f)
 {
     labour_notice said;
-    if (read(c->hand[self].from, &said, sizeof said) == (ssize_t)sizeof said) {
+    const int gone = child_is_gone(c->hand[self].process);
+    const ssize_t got = read(c->hand[self].from, &said, sizeof said);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN) && !gone)
+        return STATUS_OK;
+    if (got == (ssize_t)sizeof said) {
         if (said.status != STATUS_OK)
             return fault_set(f, said.status, "%s", said.text);
         c->out->done++;
@@ -136,14 +140,14 @@ static status work_off(crew *c, int asked, fault *f)
         for (int i = 0; i < c->jobs; i++)
             ends[i] = (struct pollfd){.fd = c->hand[i].from, .events = POLLIN};
         ends[c->jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
-        while (poll(ends, (nfds_t)c->jobs + 1, -1) < 0 && errno == EINTR)
+        while (poll(ends, (nfds_t)c->jobs + 1, 1000) < 0 && errno == EINTR)
             ;
         if (ends[c->jobs].revents != 0) {
             c->out->interrupted = 1;
             return STATUS_OK;
         }
         for (int i = 0; i < c->jobs; i++)
-            if (ends[i].fd >= 0 && ends[i].revents != 0)
+            if (ends[i].fd >= 0 && (ends[i].revents != 0 || child_is_gone(c->hand[i].process)))
                 TRY(attend(c, i, f));
     }
     return STATUS_OK;

@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <sys/time.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 static void default_alarm(void)
@@ -28,6 +29,24 @@ void child_alarm(int seconds)
 {
     const struct itimerval limit = {.it_value = {.tv_sec = seconds}};
     setitimer(ITIMER_REAL, &limit, NULL);
+}
+
+int child_is_gone(pid_t process)
+{
+    siginfo_t how = {.si_pid = 0};
+    return waitid(P_PID, (id_t)process, &how, WEXITED | WNOHANG | WNOWAIT) != 0 || how.si_pid != 0;
+}
+
+int child_reap(pid_t process)
+{
+    enum { LOOKS = 200 };
+    int how = 0;
+    for (int i = 0; i < LOOKS && !child_is_gone(process); i++)
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    if (!child_is_gone(process))
+        kill(process, SIGKILL);
+    waitpid(process, &how, 0);
+    return how;
 }
 
 int child_ended(int how, int late, int seconds, char *words, size_t size)

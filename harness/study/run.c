@@ -4,6 +4,7 @@
 #include <poll.h>
 
 #include "harness/algebra/clock.h"
+#include "harness/study/child.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/progress.h"
 #include "harness/study/worker.h"
@@ -28,7 +29,9 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
     const int i = worker_receive(w, one);
     if (i >= 0)
         report(p, w, i);
-    if (i != -1)
+    if (i == WORKER_NO_MEMORY)
+        return fault_set(f, STATUS_FAULT, "out of memory for results");
+    if (i != WORKER_ENDED)
         return STATUS_OK;
     if (worker_bury(w, self, one))
         return worker_start(w, self, one, f);
@@ -40,8 +43,9 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
                         struct pollfd ends[])
 {
-    /* [ms] the clocks of the workers are looked at so often */
-    const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : -1;
+    /* [ms] so often it is looked which workers are late, and which have ended while another process
+     * holds their pipe */
+    const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
     ends[jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
@@ -73,7 +77,7 @@ static status attend_all(progress *p, workload *w, crew *c, const struct pollfd 
         worker *one = &c->workers[i];
         if (one->from < 0)
             continue;
-        if (ends[i].revents != 0)
+        if (ends[i].revents != 0 || child_is_gone(one->process))
             TRY(attend(p, w, i, one, &c->running, f));
         else
             worker_stop_late(w, i, one);

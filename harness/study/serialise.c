@@ -106,16 +106,21 @@ static void forget(void *record, const branch parts[])
         set_address(record, b, NULL);
 }
 
-/* NULL: out of memory, the stream ended, or it is damaged. */
-static char *get_array(FILE *from, const branch *b, size_t count)
+/* As serialise_read; *out NULL then. */
+static int get_array(FILE *from, const branch *b, size_t count, char **out)
 {
     enum { LARGEST = 1 << 28 }; /* [bytes] a count beyond this is damage */
-    char *out = count < LARGEST / b->size ? calloc(count + 1, b->size) : NULL;
-    if (out != NULL && get(from, out, count * b->size) == 0 &&
-        (b->count != 0 || out[count - 1] == '\0'))
-        return out;
-    free(out);
-    return NULL;
+    *out = NULL;
+    if (count >= LARGEST / b->size)
+        return SERIALISE_DAMAGED;
+    *out = calloc(count + 1, b->size);
+    if (*out == NULL)
+        return SERIALISE_NO_MEMORY;
+    if (get(from, *out, count * b->size) == 0 && (b->count != 0 || (*out)[count - 1] == '\0'))
+        return 0;
+    free(*out);
+    *out = NULL;
+    return SERIALISE_DAMAGED;
 }
 
 static int get_parts(FILE *from, void *record, const branch parts[])
@@ -129,17 +134,19 @@ static int get_parts(FILE *from, void *record, const branch parts[])
             return -1;
         if (count == 0)
             continue;
-        char *array = get_array(from, b, count);
-        if (array == NULL)
-            return -1;
+        char *array;
+        const int bad = get_array(from, b, count, &array);
+        if (bad != 0)
+            return bad;
         set_address(record, b, array);
         if (b->parts != NULL)
             for (size_t i = 0; i < count; i++)
                 forget(array + i * b->size, b->parts);
-        if (b->parts != NULL)
-            for (size_t i = 0; i < count; i++)
-                if (get_parts(from, array + i * b->size, b->parts) != 0)
-                    return -1;
+        for (size_t i = 0; b->parts != NULL && i < count; i++) {
+            const int worse = get_parts(from, array + i * b->size, b->parts);
+            if (worse != 0)
+                return worse;
+        }
     }
     return 0;
 }
@@ -171,9 +178,10 @@ int serialise_read(FILE *from, cell_result *cell)
     }
     forget(cell, of_cell);
     memset(&cell->scene, 0, sizeof cell->scene); /* it stays with the point */
-    if (get_parts(from, cell, of_cell) == 0)
+    const int bad = get_parts(from, cell, of_cell);
+    if (bad == 0)
         return 0;
     free_parts(cell, of_cell);
     memset(cell, 0, sizeof *cell); /* nothing half-read is left */
-    return -1;
+    return bad;
 }

@@ -1,6 +1,7 @@
 #include "harness/study/worker.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -139,23 +140,23 @@ static int tell(int to, int i, int same, const cell_result *cell)
 /* Child: takes tasks until none is left. */
 static void work(const workload *w, int self, int to)
 {
-    int alone, i;
-    while ((i = workload_take(w, self, &alone)) >= 0) {
+    int alone, i, bad = 0;
+    while (!bad && (i = workload_take(w, self, &alone)) >= 0) {
         cell_result cell;
         const int same = run_task(w, i, alone, &cell);
-        if (tell(to, i, same, &cell) != 0)
-            break;
-        w->board->at[self] = -1;
+        bad = tell(to, i, same, &cell) != 0;
+        if (!bad)
+            w->board->at[self] = -1;
         cell_result_free(&cell);
     }
-    _exit(0);
+    _exit(bad);
 }
 
 status worker_start(const workload *w, int self, worker *out, fault *f)
 {
     int ends[2];
     const pid_t parent = getpid();
-    if (pipe(ends) != 0)
+    if (pipe2(ends, O_CLOEXEC) != 0)
         return fault_set(f, STATUS_FAULT, "cannot start a worker: no pipe");
     w->board->at[self] = -1;
     *out = (worker){.from = -1};
@@ -171,6 +172,7 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
         work(w, self, ends[1]);
     }
     close(ends[1]);
+    fcntl(ends[0], F_SETFL, O_NONBLOCK);
     out->from = ends[0];
     return STATUS_OK;
 }
@@ -190,36 +192,55 @@ static int grow(worker *from)
     return 0;
 }
 
-/* 0: taken; -1: it is damaged. */
+/* 0: taken; SERIALISE_DAMAGED, SERIALISE_NO_MEMORY. */
 static int take_result(workload *w, const heading *head, char *bytes)
 {
-    if (head->task < 0 || head->task >= w->all || head->same >= w->all)
-        return -1;
     if (head->same >= 0) {
         workload_same(w, head->task, head->same);
         return 0;
     }
     FILE *in = fmemopen(bytes, head->bytes, "rb");
-    const int bad = in == NULL || serialise_read(in, workload_cell(w, head->task)) != 0;
+    const int bad =
+        in == NULL ? SERIALISE_NO_MEMORY : serialise_read(in, workload_cell(w, head->task));
     if (in != NULL)
         fclose(in);
-    if (!bad)
+    if (bad == 0)
         workload_done(w, head->task);
-    return bad ? -1 : 0;
+    return bad;
+}
+
+/* Is it the heading of a task that is not done? A worker whose memory is spoilt may write
+ * anything. */
+static int is_heading(const workload *w, const heading *head)
+{
+    enum { LARGEST = 1 << 30 }; /* [bytes] */
+    return head->task >= 0 && head->task < w->all && !w->done[head->task] && head->same < w->all &&
+           head->bytes <= LARGEST && (head->same >= 0 ? head->bytes == 0 : head->bytes > 0);
+}
+
+/* Its pipe ends then. */
+static int spoilt(worker *from)
+{
+    from->damaged = 1;
+    kill(from->process, SIGKILL);
+    return WORKER_ENDED;
 }
 
 /* Takes all results that are whole. As worker_receive. */
 static int take_whole(workload *w, worker *from)
 {
     size_t at = 0;
-    int last = -2;
+    int last = WORKER_NOTHING;
     heading head;
     while (from->count - at >= sizeof head) {
         memcpy(&head, from->bytes + at, sizeof head);
+        if (!is_heading(w, &head))
+            return spoilt(from);
         if (from->count - at - sizeof head < head.bytes)
             break;
-        if (take_result(w, &head, from->bytes + at + sizeof head) != 0)
-            return -1;
+        const int bad = take_result(w, &head, from->bytes + at + sizeof head);
+        if (bad != 0)
+            return bad == SERIALISE_NO_MEMORY ? WORKER_NO_MEMORY : spoilt(from);
         last = head.task;
         at += sizeof head + head.bytes;
     }
@@ -231,38 +252,42 @@ static int take_whole(workload *w, worker *from)
 int worker_receive(workload *w, worker *from)
 {
     ssize_t got;
+    const int gone = child_is_gone(from->process); /* then nothing more comes */
     if (grow(from) != 0)
-        return -1;
+        return WORKER_NO_MEMORY;
     do
         got = read(from->from, from->bytes + from->count, from->room - from->count);
     while (got < 0 && errno == EINTR);
+    if (got < 0 && errno == EAGAIN && !gone)
+        return WORKER_NOTHING;
     if (got <= 0)
-        return -1;
+        return WORKER_ENDED;
     from->count += (size_t)got;
     return take_whole(w, from);
 }
 
 static int reap(worker *w)
 {
-    int how = 0;
     close(w->from);
     free(w->bytes);
     w->from = -1;
     w->bytes = NULL;
-    waitpid(w->process, &how, 0);
-    return how;
+    return child_reap(w->process);
 }
 
 int worker_bury(workload *w, int self, worker *dead)
 {
     const int how = reap(dead), i = w->board->at[self];
-    if (w->together && !dead->stopped && WIFSIGNALED(how) && WTERMSIG(how) == SIGKILL)
+    if (w->together && !dead->stopped && !dead->damaged && WIFSIGNALED(how) &&
+        WTERMSIG(how) == SIGKILL)
         kill(getpid(), SIGKILL);
     sem_post(&w->board->news); /* in place of what it may have heard */
     if (i < 0 || w->done[i])
         return dead->stopped || i >= 0;
     solve_result *r = &workload_cell(w, i)->solve;
     const int late = child_ended(how, dead->stopped, w->time_limit, r->reason, sizeof r->reason);
+    if (dead->damaged)
+        snprintf(r->reason, sizeof r->reason, "its process wrote what is no result");
     r->status = late ? STATUS_TIME_LIMIT : STATUS_FAULT;
     workload_done(w, i);
     return 1;
@@ -280,8 +305,10 @@ void worker_stop_late(const workload *w, int self, worker *one)
 
 void worker_end(workload *w, worker *one)
 {
+    int got;
     kill(one->process, SIGKILL);
-    while (worker_receive(w, one) != -1)
-        ;
+    do
+        got = worker_receive(w, one);
+    while (got >= 0 || got == WORKER_NOTHING);
     reap(one);
 }

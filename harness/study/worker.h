@@ -11,13 +11,17 @@ typedef struct worker {
     pid_t process;
     int from;    /* its pipe; -1: it does not run */
     int stopped; /* by the clock of the parent */
+    int damaged; /* by the parent: what it wrote is no result */
     char *bytes; /* of what it said and is not whole */
     size_t count, room;
 } worker;
 
 status worker_start(const workload *, int self, worker *, fault *);
-/* Takes what there is: results, or whose they are. The last of their tasks; -1: the worker has
- * ended; -2: nothing is whole yet. */
+/* What worker_receive returns in place of a task. WORKER_NO_MEMORY: this process has none for the
+ * results; the worker lives. */
+enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
+/* Takes what there is, and does not wait: results, or whose they are. The last of their tasks, or
+ * WORKER_NOTHING: nothing is whole yet. A worker that writes no results is ended. */
 int worker_receive(workload *, worker *);
 /* A worker that ended while it had a task: that cell failed. Returns 1 when it must be replaced. */
 int worker_bury(workload *, int self, worker *);

@@ -33,7 +33,7 @@ class Refusals(ProgramTest):
         self.refused(2, "did you mean 'verify'", "verifi")
 
     def test_values(self):
-        for bad in ("length=-1", "length=nan", "length=inf", "young=0", "flange_thickness=0"):
+        for bad in ("length=-1", "length=nan", "length=inf", "length=0x10", "length=1e-999", "young=0", "flange_thickness=0"):
             self.refused(2, bad.partition("=")[0], *solve("c_column", bad))
         self.refused(2, "positive definite", *solve("c_column", "section_data=misprinted"))
         self.refused(2, "poisson", *solve("sheet_cantilever", "poisson=0.5"))

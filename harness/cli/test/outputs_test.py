@@ -2,10 +2,15 @@
 other, and no work before that is sure."""
 import os
 import re
+import shlex
 import shutil
+import signal
 import subprocess
 import threading
+import time
 import unittest
+
+import h5py
 
 from harness.cli.test.work import TEXT, WHOLE, WORK
 from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, run
@@ -44,6 +49,36 @@ class Places(Folder):
             for place in (fifo, "/dev/stdout", "/dev/null") if option else ():
                 self.refused(2, "regular file", verb, *WORK[verb], *option, place)
         self.assertTrue(fifo.is_fifo())
+
+    def test_text_is_no_hdf5(self):
+        """A file called .h5 is HDF5, or nothing is written."""
+        for verb, options in TEXT.items():
+            for option in options:
+                self.refused(2, "writes text there, not HDF5", verb, *WORK[verb], option, self.folder / "a.h5")
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_closed_standard_output(self):
+        """Files are written all the same, and none becomes standard output."""
+        for work in (("verify", *WORK["verify"]), ("solve", "elastica", "-f", "beamw", "-n", "1", "--shapes"),
+                     ("sweep", "elastica", "-f", "beamw", "-n", "1", "--vary", "load=1,2")):
+            path = self.folder / f"{work[0]}.h5"
+            done = subprocess.run(f"{shlex.join([PROGRAM, *work, '-o', str(path)])} >&-", shell=True, check=False,
+                                  stderr=subprocess.PIPE, text=True)
+            self.assertEqual((done.returncode, done.stderr), (4, "beamwork: standard output cannot be written\n"))
+            with h5py.File(path) as file:
+                self.assertTrue(list(file))
+
+    def test_signals(self):
+        """Who is asked to end leaves no unfinished file."""
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            for delay in (0.01, 0.03, 0.05, 0.08, 0.12):
+                for work in (("converge", "loaded_cantilever", "-f", "beamw", "-o", "c.txt"),
+                             ("verify", "-k", "loaded_cantilever", "-f", "beamw", "-o", "v.h5", "--json", "v.json")):
+                    with subprocess.Popen([PROGRAM, *work], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                          stderr=subprocess.DEVNULL) as process:
+                        time.sleep(delay)
+                        process.send_signal(number)
+                    self.assertEqual([name for name in os.listdir(self.folder) if ".part-" in name], [])
 
     def test_pipes(self):
         """Text goes into a pipe with a name as it would go into a file."""
@@ -122,11 +157,16 @@ class Twice(Folder):
         done = run("verify", *WORK["verify"], "--json", "/dev/null", "--junit", "/dev/null")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    @staticmethod
+    def why_not(name):
+        """Of text onto an input that is HDF5: by its name, or by where that leads."""
+        return "not HDF5" if str(name).endswith(".h5") else "which is read"
+
     def test_compared_file(self):
         path = self.stored("run.h5")
         before = path.read_bytes()
         for name in self.names("run.h5"):
-            self.refused(2, "which is read", "compare", path, "-o", name)
+            self.refused(2, self.why_not(name), "compare", path, "-o", name)
             self.assertEqual(path.read_bytes(), before)
 
     def test_truths(self):
@@ -136,7 +176,8 @@ class Twice(Folder):
         for name in self.names("truths.h5"):
             for verb, work in WORK.items():
                 for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
-                    self.refused(2, "which is read", verb, *work, "--truths", truths, *option, name)
+                    words = "which is read" if WHOLE[verb] == option else self.why_not(name)
+                    self.refused(2, words, verb, *work, "--truths", truths, *option, name)
         self.assertEqual(truths.read_bytes(), before)
 
     def test_program(self):

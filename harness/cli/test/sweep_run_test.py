@@ -1,4 +1,6 @@
 """sweep: runs that are interrupted, shared among several or given again, and refusals."""
+import fcntl
+import os
 import signal
 import subprocess
 import time
@@ -95,6 +97,18 @@ class Going(ProgramTest):
                              "-o", self.folder / "e.h5", code=2)
         self.assertIn("e.worst is there already and not empty", done.stderr)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["e.worst"])
+
+    def test_one_run_for_each_output(self):
+        """Another run works there: this one ends with a line, and takes nothing away."""
+        batches = self.folder / "e.batches"
+        batches.mkdir()
+        words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o", self.folder / "e.h5")
+        held = os.open(batches, os.O_RDONLY)
+        fcntl.flock(held, fcntl.LOCK_EX)
+        self.refused(2, "another 'beamwork sweep' works there", *words, silent=False)
+        os.close(held)
+        self.answered(*words)
+        self.assertFalse(batches.exists())
 
     def test_refusals(self):
         """Culprit and remedy, before anything runs."""

@@ -75,6 +75,7 @@ static void check_mistakes(const scope *names)
                {"sqrt(0-1)", 10, "no value"},
                {"(0-8)^0.5", 15, "no value"},
                {"1e999", 10, "too large"},
+               {"1e-999", 10, "too small"},
                {"1e300*1e300", 15, "too large"},
                {"1..3", 11, "range"},
                {"1 2", 12, "operator missing"},

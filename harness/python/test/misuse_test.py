@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import numpy
@@ -222,6 +223,35 @@ class Processes(ModuleTest):
         finally:
             keep.set()
             waiting.join()
+
+    def test_fork_beside_threads(self):
+        """Processes that are forked while other threads solve: no lock of theirs stays closed there."""
+        expected, done = solved_here(2), threading.Event()
+
+        def work():
+            while not done.is_set():
+                solved_here(2)
+
+        threads = [threading.Thread(target=work) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        try:
+            for _ in range(15):
+                child = os.fork()
+                if child == 0:
+                    os._exit(0 if solved_here(2) == expected else 3)
+                end, ended = time.monotonic() + 60, (0, 0)
+                while ended[0] == 0 and time.monotonic() < end:
+                    ended = os.waitpid(child, os.WNOHANG)
+                    time.sleep(0.01)
+                if ended[0] == 0:
+                    os.kill(child, signal.SIGKILL)
+                    os.waitpid(child, 0)
+                self.assertEqual(ended, (child, 0))
+        finally:
+            done.set()
+            for thread in threads:
+                thread.join()
 
     def test_stop(self):
         """A descriptor that can be read ends converge and verify before they are done."""

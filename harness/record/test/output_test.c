@@ -55,7 +55,7 @@ static void write_failures(void)
 {
     char folder[] = "/tmp/beamwork-output-XXXXXX", path[80], nowhere[80];
     gsl_test(mkdtemp(folder) == NULL, "a folder");
-    snprintf(path, sizeof path, "%s/r.h5", folder);
+    snprintf(path, sizeof path, "%s/results", folder);
     snprintf(nowhere, sizeof nowhere, "%s/none/r.h5", folder);
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
@@ -79,6 +79,24 @@ static void write_failures(void)
     gsl_test_int(folder_entries(folder), 1, "the file of before is still there, and nothing else");
     unlink(path);
     rmdir(folder);
+}
+
+/* Of this process all that is not complete goes; what is complete stays. */
+static void abandoned(void)
+{
+    const test_folder of = folder_make();
+    const folder_entry done = folder_path(&of, "done"), half = folder_path(&of, "half"),
+                       hdf5 = folder_path(&of, "text.h5");
+    output o;
+    fault f = {""};
+    gsl_test(folder_write_text(done.text, "whole", &f) != STATUS_OK, "a file %s", f.text);
+    gsl_test(output_open(half.text, &o, &f) != STATUS_OK, "opened %s", f.text);
+    gsl_test_int(folder_entries(of.path), 2, "one complete, one not");
+    output_abandon();
+    gsl_test_int(folder_entries(of.path), 1, "the complete one");
+    gsl_test(output_close(&o, &f) != STATUS_FAULT, "it is gone");
+    gsl_test(output_open(hdf5.text, &o, &f) != STATUS_REFUSED, "no text into %s", hdf5.text);
+    folder_remove(&of);
 }
 
 /* What could not be written leaves the file of before, and its own status. */
@@ -213,6 +231,7 @@ int main(void)
 {
     write_failures();
     finished();
+    abandoned();
     permissions();
     temporary_names();
     streams();

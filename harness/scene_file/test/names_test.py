@@ -4,7 +4,7 @@ import re
 import unittest
 
 from harness.scene_file.test.scene_case import SceneCase
-from harness.test.program import run
+from harness.test.program import ROOT, ProgramTest, run
 
 NUMBERED = re.compile(r"\b(node|member|section|spring|load|analysis|motion)[ _][0-9]")
 
@@ -124,6 +124,18 @@ class NamesTest(SceneCase):
         self.line(2, "node peak: corners of members", "export", "--scene", self.scene(alone), "--to", "calculix")
         free = re.sub(r"members:\n  brace.*\n|  (post|peak).*\n", "", alone).replace("warping: fixed", "warping: free")
         self.line(2, "member left.leaf: its ends warp", "export", "--scene", self.scene(free), "--to", "calculix")
+
+
+class OfFile(ProgramTest):
+    def test_any_file_name(self):
+        """What a name cannot have becomes '_', one for each character."""
+        text = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")
+        text = "\n".join(line for line in text.splitlines() if not line.startswith("name:"))
+        for file, name in (("my-leaf.yaml", "my_leaf"), ("2 blätter.yaml", "scene_2_bl_tter"),
+                           (".yaml", "scene_"), ("x" * 60 + ".yaml", "x" * 47)):
+            path = self.folder / file
+            path.write_text(text, encoding="utf-8")
+            self.assertIn(f"\nname: {name}\n", self.answered("scene", "--scene", path).stdout)
 
 
 if __name__ == "__main__":
