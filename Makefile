@@ -64,8 +64,10 @@ endif
 help: ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-verify: all ## judge every formulation on every case against the stored truths
-	@$(PROGRAM) verify --built-in --scene cases/examples --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(VERIFY)
+# Errors of every mesh are held against the committed ones where LAPACK and libm are theirs; NOT_WORSE= leaves that out.
+NOT_WORSE ?= $(if $(filter 12.%,$(shell cat /etc/debian_version 2>/dev/null)),--not-worse-than $(BASELINE))
+verify: all ## judge every formulation on every case against the stored truths; errors of meshes against the committed ones
+	@$(PROGRAM) verify --built-in --scene cases/examples --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(NOT_WORSE) $(VERIFY)
 
 # What is fuzzed is compiled too: its own targets only run with clang.
 FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/fuzz/*.c))
@@ -149,7 +151,8 @@ compare: ## errors, limits and work of the last verify against the committed one
 	@$(PROGRAM) compare $(BASELINE) $(BUILD)/results.h5 $(COMPARE)
 
 # Its status 1 says that something has changed, which is what is to be accepted.
-baseline: verify ## print what has changed, for the commit message, and accept it
+baseline: all ## print what has changed, for the commit message, and accept it
+	@$(MAKE) --no-print-directory verify NOT_WORSE=
 	@$(PROGRAM) compare $(BASELINE) $(BUILD)/results.h5 || [ $$? = 1 ]
 	@$(PROGRAM) compare $(BUILD)/results.h5 -o $(BASELINE)
 

@@ -4,6 +4,7 @@
 
 #include "harness/algebra/clock.h"
 #include "harness/cli/cli.h"
+#include "harness/command/errors.h"
 #include "harness/command/named.h"
 #include "harness/command/own_tables.h"
 #include "harness/command/scenes.h"
@@ -11,6 +12,7 @@
 #include "harness/imports/import_store.h"
 #include "harness/judge/sentence.h"
 #include "harness/record/output.h"
+#include "harness/request/regressions.h"
 #include "harness/request/verification.h"
 #include "harness/request/verification_files.h"
 #include "harness/spread/verification_work.h"
@@ -112,6 +114,7 @@ typedef struct trial {
     judgement judgement;
     overview overview;
     verification_files files;
+    results former; /* that this run may not be worse than */
     spread_end end; /* of shards, or of batches that are merged */
 } trial;
 
@@ -122,6 +125,8 @@ static status check_files(const command_request *r, const scenes *own, fault *f)
         TRY(files_check_input(r, own->path[i], f));
     for (int i = 0; i < r->beside_count; i++)
         TRY(files_check_input(r, r->beside[i], f));
+    if (r->former != NULL)
+        TRY(files_check_input(r, r->former, f));
     return own_tables_check(r, f);
 }
 
@@ -167,6 +172,8 @@ static status run_and_judge(const command_request *r, const scenes *own,
         TRY(verification_judge(request, whole, &v->truths, &v->sweep, &v->judgement, f));
     else
         TRY(verification_run(request, whole, &reader, &v->truths, &v->sweep, &v->judgement, f));
+    if (r->former != NULL && v->sweep.unfinished == 0)
+        TRY(regressions_find(&v->former, r->former, &v->sweep, &v->judgement, f));
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
 }
 
@@ -174,6 +181,13 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
     const double begun = clock_wall_seconds();
+    double tolerance = 0;
+    int tolerances = 0;
+    if (r->tolerance != NULL &&
+        errors_parse(r->tolerance, 1, &tolerance, &tolerances, f) != STATUS_OK)
+        return fault_set(f, STATUS_REFUSED,
+                         "--tolerance '%.60s': give one between 0 and 100 %%, such as 1%%",
+                         r->tolerance);
     const sweep_request request = {.cases = own->type,
                                    .select = r->select,
                                    .jobs = r->jobs,
@@ -184,9 +198,12 @@ static status run(const command_request *r, const scenes *own, trial *v, fault *
                                    .formulations = r->formulations,
                                    .formulation = r->formulation,
                                    .named = named_alone(r),
+                                   .tolerance = tolerance,
                                    .shapes = states,
                                    .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL};
     TRY(check_files(r, own, f));
+    if (r->former != NULL)
+        TRY(results_read(r->former, &v->former, f));
     TRY(scenes_truths(own, r, &v->truths, f));
     TRY(run_and_judge(r, own, &request, v, f));
     if (v->end.ended)
@@ -212,6 +229,7 @@ static int verify_scenes(const command_request *r, const scenes *own)
     spread_free(&v.end);
     overview_free(&v.overview);
     judgement_free(&v.judgement);
+    results_free(&v.former);
     sweep_free(&v.sweep);
     truths_free(&v.truths);
     return code;
@@ -240,8 +258,10 @@ int cli_verify(int count, char **arguments)
         "that -f names or --element loads gates: against the findings of the ledger that are its "
         "own, which may be none, and by the contract of the interface (element-test), which is "
         "looked at first. One of the tree that nobody named and the project has not accepted yet "
-        "does not. Exit status: 0 every verdict as expected, 1 one differs (one that is undecided, "
-        "too, where no finding expects it) or a contract is broken, 2 refused, 3 nothing was "
+        "does not. --tolerance and --not-worse-than are terms of your own. Exit status: 0 every "
+        "verdict as expected, 1 one differs or a contract is broken (undecided is no pass: it "
+        "counts as one that differs unless a finding expects it, and more meshes, --doublings, or "
+        "a larger --tolerance may decide it), 2 refused, 3 nothing was "
         "judged, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged until "
         "then is in files named .partial; with --exit-zero 0 in the place of 1 and 3. With --shard "
         "K/N --into FOLDER: computes a part, 0 when all of it is there, 5 when some is missing "
@@ -249,5 +269,5 @@ int cli_verify(int count, char **arguments)
         "\vbeamwork verify -k \"c_column and collocation\"\n"
         "beamwork verify --shard 1/4 --into parts\n"
         "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvqpW.ZiCbw0", count, arguments, verify_request);
+        "fokjJUMLPTYBGINvqpW.ZiCbw067", count, arguments, verify_request);
 }

@@ -66,6 +66,8 @@ typedef struct command_request {
     const char *map;          /* of columns without a header */
     int gate;                 /* 1: their verdicts count */
     int exit_zero;            /* 1: verdicts do not change the exit status */
+    const char *tolerance;    /* in the place of those of the cases */
+    const char *former;       /* results that this run may not be worse than */
     const char *to;           /* program that a deck is for */
     int schema, keys;         /* 1: describe the keys of scene files as JSON Schema, as a list */
     const char *shard, *into; /* K/N of the work, into which folder */

@@ -112,6 +112,14 @@ const verb_option option_table[OPTION_MOST] = {
     {"exit-zero", '0', NULL,
      "explore: exit status 0 whatever the verdicts are; files say how it ended as ever",
      offsetof(command_request, exit_zero)},
+    {"tolerance", '6', "R",
+     "limits within R (1% or 0.01) of the reference value pass: in place of the tolerances of the "
+     "cases, and whatever their order",
+     offsetof(command_request, tolerance)},
+    {"not-worse-than", '7', "FILE",
+     "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
+     "fail where the error of any mesh is larger than there by more than 2 %, or its value is gone",
+     offsetof(command_request, former)},
     {"gate", 'G', NULL, "verdicts of --beside count as ours do", offsetof(command_request, gate)},
     {"to", 'O', "calculix", "the program that the deck is for", offsetof(command_request, to)},
     {"schema", 'H', NULL, "describe all keys of scene files as JSON Schema",

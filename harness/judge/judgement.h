@@ -24,6 +24,12 @@ typedef struct breach {
     char why[FAULT_TEXT]; /* the first claim that is broken */
 } breach;
 
+/* A mesh, or a series, that is worse than in a former run. */
+typedef struct regression {
+    char of[FAULT_TEXT]; /* case/parameters/formulation, and the mesh */
+    char why[FAULT_TEXT];
+} regression;
+
 enum { COVERAGE_MESHES = 4 };
 
 /* How often the limits of a formulation on a case lie within their uncertainty of an exact truth,
@@ -45,6 +51,8 @@ typedef struct judgement {
     flaw *flaw; /* [flaws] */
     int breaches;
     breach *breach; /* [breaches] */
+    int regressions;
+    regression *regression; /* [regressions] */
     int by_kind[VERDICT_KINDS];
     int unexpected; /* verdicts that differ from the expected one */
     int is_new;     /* verdicts of new formulations, which do not gate ... */

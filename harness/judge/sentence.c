@@ -129,6 +129,15 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
     add_part(text, size, parts, ", ", part);
 }
 
+/* Of the verdicts that differ. */
+static int count_undecided(const judgement *j)
+{
+    int count = 0;
+    for (int i = 0; i < j->verdicts; i++)
+        count += !j->verdict[i].matches && j->verdict[i].kind == VERDICT_UNDECIDED;
+    return count;
+}
+
 /* What differs, counted. */
 static void failures(const judgement *j, char *text, size_t size)
 {
@@ -137,6 +146,10 @@ static void failures(const judgement *j, char *text, size_t size)
                "formulations break the contract of the interface");
     count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
                "verdicts differ from the expected ones");
+    count_part(text, size, &parts, count_undecided(j), "of them is undecided",
+               "of them are undecided");
+    count_part(text, size, &parts, j->regressions, "result is worse than in the former run",
+               "results are worse than in the former run");
     count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
                "values differ from their stored ones");
     count_part(text, size, &parts, j->flaws, "cell contradicts itself",

@@ -283,8 +283,8 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
         return;
     }
     v->unmodelled = one->without.what != 0 ? one->without.change * scale_of(q, v->truth->value) : 0;
-    v->tolerance =
-        q->tolerance * scale_of(q, v->truth->value) + v->truth->uncertainty + v->unmodelled;
+    v->tolerance = (s->tolerance > 0 ? s->tolerance : q->tolerance) * scale_of(q, v->truth->value) +
+                   v->truth->uncertainty + v->unmodelled;
     v->error = v->departure = verdict_error(q, v->fit.limit, v->truth->value);
     if (v->predicted != NULL)
         v->departure -= verdict_error(q, v->predicted->value, v->truth->value);

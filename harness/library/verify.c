@@ -9,6 +9,7 @@
 #include "harness/record/json.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
+#include "harness/request/regressions.h"
 #include "harness/request/verification.h"
 #include "harness/study/plan.h"
 #include "harness/study/worker.h"
@@ -23,6 +24,8 @@ typedef struct trial {
     const case_type *type[2];
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
+    const char *former_path; /* of results that this run may not be worse than; NULL: none */
+    results former;
     truths truths;
     sweep sweep;
     judgement judgement;
@@ -37,6 +40,14 @@ static status read_truths(trial *v, fault *f)
     return file != NULL ? scene_file_truths_add_all(file, &v->truths, f) : STATUS_OK;
 }
 
+static status read_former(trial *v, fault *f)
+{
+    known_lock();
+    const status outcome = results_read(v->former_path, &v->former, f);
+    known_unlock();
+    return outcome;
+}
+
 static status prepare(trial *v, const char *names, const char *options, fault *f)
 {
     sweep_request *r = &v->request;
@@ -45,6 +56,8 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
                                  {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
                                  {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
                                  {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
+                                 {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},
+                                 {"not_worse_than", OPTION_WORDS, &v->former_path, 0, 0},
                                  {.name = NULL}};
     place where;
     TRY(options_read(options, table, &v->kept, f));
@@ -54,6 +67,8 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
         v->type[0] = source_case(v->scene->from);
         r->cases = v->type;
     }
+    if (v->former_path != NULL)
+        TRY(read_former(v, f));
     if (v->results != NULL)
         TRY(output_try(v->results, OUTPUT_WHOLE_FILE, &where, f));
     return read_truths(v, f);
@@ -65,7 +80,14 @@ static status judge(trial *v, fault *f)
     const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
     TRY(plan_sweep(r, &v->truths, &v->sweep, f));
     TRY(verification_run(r, whole, NULL, &v->truths, &v->sweep, &v->judgement, f));
-    return contestants_finished(&v->sweep, f);
+    TRY(contestants_finished(&v->sweep, f));
+    if (v->former_path == NULL)
+        return STATUS_OK;
+    known_lock();
+    const status outcome =
+        regressions_find(&v->former, v->former_path, &v->sweep, &v->judgement, f);
+    known_unlock();
+    return outcome;
 }
 
 static status keep(const trial *v, const environment *e, fault *f)
@@ -97,6 +119,7 @@ static status verify(trial *v, const char *names, const char *options, char **js
     if (outcome == STATUS_OK)
         outcome = answer(v, json, f);
     judgement_free(&v->judgement);
+    results_free(&v->former);
     sweep_free(&v->sweep);
     truths_free(&v->truths);
     json_decref(v->kept);
@@ -104,12 +127,12 @@ static status verify(trial *v, const char *names, const char *options, char **js
 }
 
 bw_status bw_verify(const bw_scene *from, const char *formulations, const char *select,
-                    const char *options, const char *results, char **json, char **why)
+                    const char *options, const char *into, char **json, char **why)
 {
     call c;
     call_begin(&c, why);
     trial v = {.scene = from,
-               .results = results,
+               .results = into,
                .request = {.select = select, .jobs = contestants_jobs(), .time_limit = TIME_LIMIT}};
     return call_end(&c, verify(&v, formulations, options, json, &c.fault));
 }

@@ -207,6 +207,15 @@ static json_t *breaches_of(const judgement *j)
     return all;
 }
 
+static json_t *regressions_of(const judgement *j)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < j->regressions; i++)
+        json_array_append_new(all, json_pack("{s:s, s:s}", "of", j->regression[i].of, "reason",
+                                             j->regression[i].why));
+    return all;
+}
+
 /* All but the verdicts. */
 static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
 {
@@ -231,6 +240,7 @@ static json_t *around_verdicts(const sweep *s, const judgement *j, const environ
                   j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
     json_object_set_new(root, "outcome", json_string(judgement_outcome(j)));
     json_object_set_new(root, "broken_contracts", breaches_of(j));
+    json_object_set_new(root, "regressions", regressions_of(j));
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
     json_object_set_new(root, "contradictory_cells", json_integer(j->flaws));
     json_object_set_new(root, "counts", counts);

@@ -124,10 +124,10 @@ typedef struct junit_counts {
 static junit_counts count_all(const sweep *s, const judgement *j)
 {
     const int nothing = judgement_exit(j) == JUDGED_NOTHING;
-    junit_counts c = {.tests = j->verdicts + j->agreements + j->breaches + 3 + nothing +
-                               (s->unfinished > 0),
-                      .failures = j->breaches + nothing + (j->unobserved > 0) + (j->unmet > 0) +
-                                  (j->flaws > 0) + (s->unfinished > 0)};
+    junit_counts c = {.tests = j->verdicts + j->agreements + j->breaches + j->regressions + 3 +
+                               nothing + (s->unfinished > 0),
+                      .failures = j->breaches + j->regressions + nothing + (j->unobserved > 0) +
+                                  (j->unmet > 0) + (j->flaws > 0) + (s->unfinished > 0)};
     for (int i = 0; i < j->verdicts; i++) {
         c.skipped += is_skipped(&j->verdict[i]);
         c.failures += !j->verdict[i].matches;
@@ -145,11 +145,12 @@ static void write_ledger(FILE *to, const char *name, int failures, const char *w
     fprintf(to, "  </testcase>\n");
 }
 
-static void write_breach(FILE *to, const breach *b)
+static void write_failed(FILE *to, const char *class, const char *name, const char *why)
 {
-    fprintf(to, "  <testcase classname=\"contract\" name=\"%s\">\n   <failure message=\"",
-            b->formulation);
-    escaped(to, b->why);
+    fprintf(to, "  <testcase classname=\"%s\" name=\"", class);
+    escaped(to, name);
+    fputs("\">\n   <failure message=\"", to);
+    escaped(to, why);
     fprintf(to, "\"/>\n  </testcase>\n");
 }
 
@@ -166,7 +167,9 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
     for (int i = 0; i < j->agreements; i++)
         write_agreement(to, s, &j->agreement[i]);
     for (int i = 0; i < j->breaches; i++)
-        write_breach(to, &j->breach[i]);
+        write_failed(to, "contract", j->breach[i].formulation, j->breach[i].why);
+    for (int i = 0; i < j->regressions; i++)
+        write_failed(to, "not-worse-than", j->regression[i].of, j->regression[i].why);
     write_ledger(to, "findings", j->unobserved, "findings were not observed");
     write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
     write_ledger(to, "cells", j->flaws, "cells contradict themselves");

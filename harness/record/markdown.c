@@ -47,6 +47,22 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
     fprintf(to, " |\n");
 }
 
+static void write_regressions(FILE *to, const judgement *j)
+{
+    if (j->regressions == 0)
+        return;
+    fprintf(to, "\n| worse than in the former run | |\n|---|---|\n");
+    for (int i = 0; i < j->regressions && i < MOST_ROWS; i++) {
+        fputs("| ", to);
+        cell(to, j->regression[i].of);
+        fputs(" | ", to);
+        cell(to, j->regression[i].why);
+        fputs(" |\n", to);
+    }
+    if (j->regressions > MOST_ROWS)
+        fprintf(to, "\n… and %d more.\n", j->regressions - MOST_ROWS);
+}
+
 static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
 {
     int rows = 0;
@@ -238,6 +254,7 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     sentence_of_run(s, j, sentence, sizeof sentence);
     if (sentence[0] != '\0')
         fprintf(to, "\n%s\n", sentence);
+    write_regressions(to, j);
     write_unexpected(to, s, j);
     write_overview(to, o);
     write_omitted(to, s);

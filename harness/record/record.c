@@ -15,13 +15,16 @@ static void check(record *r, int good)
 
 status record_open(record *r, fault *f)
 {
+    static unsigned number; /* files in memory that are open together have names of their own */
+    char name[40];
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    snprintf(name, sizeof name, "beamwork-%u", number++);
     *r = (record){.file = -1, .scalar = H5Screate(H5S_SCALAR)};
     /* The oldest format: an image of the newer ones carries a wrong checksum of its head
      * (HDF5 1.10). */
     if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
-        r->file = H5Fcreate("beamwork", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+        r->file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
     H5Pclose(access);
     if (r->file >= 0 && r->scalar >= 0)
         return STATUS_OK;

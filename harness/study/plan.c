@@ -283,6 +283,7 @@ status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fau
     out->given = request->formulation;
     out->givens = request->formulations;
     out->named = request->named;
+    out->tolerance = request->tolerance;
     out->doublings = request->doublings;
     out->whole_only = request->whole_only;
     const status outcome = plan_all(request, t, out, f);

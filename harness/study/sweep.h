@@ -51,14 +51,15 @@ typedef struct sweep {
     const case_type *const *cases;
     const formulation *given;
     int givens;
-    int named;       /* of the request */
-    int shapes;      /* of the request */
-    int whole_only;  /* 1: what a formulation does not offer keeps it from running */
-    int values_only; /* 1: what only curves and matrices show is not computed */
-    int doublings;   /* of the request */
-    int threads;     /* of the loop over elements in every cell; 0, 1: one */
-    int unfinished;  /* cells that an interrupted run left; series that need them are gone */
-    int partial;     /* 1: nobody interrupted it, they are of batches that are missing */
+    int named;        /* of the request */
+    double tolerance; /* of the request */
+    int shapes;       /* of the request */
+    int whole_only;   /* 1: what a formulation does not offer keeps it from running */
+    int values_only;  /* 1: what only curves and matrices show is not computed */
+    int doublings;    /* of the request */
+    int threads;      /* of the loop over elements in every cell; 0, 1: one */
+    int unfinished;   /* cells that an interrupted run left; series that need them are gone */
+    int partial;      /* 1: nobody interrupted it, they are of batches that are missing */
     int points, seriess;
     point *point;
     series *series;
@@ -94,6 +95,9 @@ typedef struct sweep_request {
     const formulation *formulation;
     int named; /* 1: these were asked for by name: they gate, also where the project has not
                   accepted them yet */
+    /* relative, in the place of those of the cases: who is within it passes; 0: those of the cases
+     */
+    double tolerance;
     /* most states of a path whose centre lines are kept, of the finest mesh at the defaults; 0:
      * none */
     int shapes;

@@ -192,6 +192,9 @@ void table_unexpected(FILE *to, screen look, const sweep *s, const judgement *j,
             print_disagreement(to, s, &j->agreement[i], ++number);
     for (int i = 0; i < j->flaws; i++)
         print_flaw(to, s, &j->flaw[i], ++number);
+    for (int i = 0; i < j->regressions; i++)
+        print_heading(to, ++number, "worse than in the former run: %s: %s", j->regression[i].of,
+                      j->regression[i].why);
     if (j->unobserved > 0)
         print_rules(to, t, &number);
     if (j->unmet > 0)

@@ -1,7 +1,9 @@
 """What is asked for gates: wrong elements through every door by which a run says how it ended."""
 import json
+import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -14,6 +16,23 @@ EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 NAME = "timoshenko"
 RUN = ("-k", "elastica/default or tapered_cantilever/default")
 NOWHERE = ("-k", "hexapod/default")
+# A mass matrix of its own that is a tenth too large, in place of the mass at the nodes that it has else.
+MASS = (("static int strains(const double options[])", """
+static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
+                      inertia_output *out)
+{
+    (void)x;
+    if (frame != NULL || out->M == NULL)
+        return STATUS_REFUSED;
+    memset(out->M, 0, 14 * 14 * sizeof(double));
+    for (int i = 0; i < 3; i++)
+        out->M[15 * i] = out->M[15 * (7 + i)] = 1.1 * d->mass / 2;
+    return STATUS_OK;
+}
+
+static int strains(const double options[])"""), (".stress = stress,", ".stress = stress, .inertia = inertia,"),
+        ("    double length;\n", "    double length, mass;\n"),
+        ("    out->length = l;\n", "    out->length = l;\n    out->mass = c->density * c->A * l;\n"))
 FAULTS = {
     "right": ("", "", "pass"),
     "stiffness": ("1 / Fy,", "1.1 / Fy,", "fail"),
@@ -21,12 +40,31 @@ FAULTS = {
     "torsion": ("c->shear_modulus * c->It / l3", "0.9 * c->shear_modulus * c->It / l3", "fail"),
     "energy": ("out->sigma[i] = d->stiffness[i] * e[i];", "out->sigma[i] = 1.1 * d->stiffness[i] * e[i];", "fail"),
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
+    "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # the same limits, larger errors
 }
+# Two loads in one plane: F l^3/3EI + M l^2/2EI with EI = 1, l = 1; 1.8751^2/2pi sqrt(EI/(rho A l^4)).
+LOADED = """beamwork: 1
+sections: {s: {rectangle: {width: 1, thickness: 0.01}, young: 12e6, shear_modulus: 5e6, density: 100}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
+members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
+loads: {force: {force: [0, 3, 0], on: b}, moment: {moment: [0, 0, SIGN2], on: b}}
+analyses: {linear: {linear: {}}, free: {modal: {wanted: 1}}}
+quantities:
+  uy: {displacement: {analysis: linear, node: b, component: uy}}
+  f1: {frequency: {analysis: free, which: 0}, unit: Hz}
+truths:
+  - {quantity: uy, value: 2, kind: exact, source: beam without shear}
+  - {quantity: f1, value: 0.55959101, kind: exact, source: beam without shear, uncertainty: 1e-8}
+omit: all
+meshes: [1, 2, 4, 8, 16, 32]
+"""
 OUTCOMES = {"pass": 0, "fail": 1, "nothing was judged": 3}
 PYTHON = """
-import beamwork as bw, sys
+import beamwork as bw, json, sys
 bw.load(sys.argv[1])
-found = bw.verify("timoshenko", select=sys.argv[2])
+options = json.loads(sys.argv[2])
+of = bw.Scene.open(options.pop("scene")) if "scene" in options else bw
+found = of.verify("timoshenko", **options)
 print(found.passed, found.outcome)
 """
 
@@ -37,17 +75,23 @@ class Gate(ProgramTest):
         folder = cls.class_folder()
         text = EXAMPLE.read_text(encoding="utf-8")
         cls.element = {}
-        for name, (before, after, _) in FAULTS.items():
-            assert not before or text.count(before) == 1, name
+        plants = {name: ((before, after),) for name, (before, after, _) in FAULTS.items()}
+        plants["mass"] = MASS
+        for name, changes in plants.items():
+            planted = text
+            for before, after in changes:
+                assert not before or planted.count(before) == 1, (name, before)
+                planted = planted.replace(before, after) if before else planted
             source = folder / f"{name}.c"
-            source.write_text(text.replace(before, after) if before else text, encoding="utf-8")
+            source.write_text(planted, encoding="utf-8")
             cls.element[name] = folder / f"{name}.so"
             subprocess.run(["cc", "-O2", "-shared", "-fPIC", "-I", ROOT, source, "-o", cls.element[name]], check=True)
 
     def verified(self, element, *options, what=RUN, named=("-f", NAME)):
         """The process, and what its files say."""
         files = {kind: self.folder / f"out.{kind}" for kind in ("json", "xml", "md", "h5")}
-        done = run("verify", "--element", self.element[element], *named, *what, "--json", files["json"],
+        loaded = ("--element", self.element[element]) if element is not None else ()
+        done = run("verify", *loaded, *named, *what, "--json", files["json"],
                    "--junit", files["xml"], "--markdown", files["md"], "-o", files["h5"], *options)
         return done, files
 
@@ -84,6 +128,48 @@ class Gate(ProgramTest):
                 self.assertEqual(done.stdout.startswith("BROKEN CONTRACT of timoshenko: "), broken)
                 self.assertEqual("element-test" in done.stdout, broken)
 
+    def test_mass_and_sign_of_one_load(self):
+        for name, sign, outcome in (("right", "", "pass"), ("mass", "", "fail"), ("right", "-", "fail")):
+            scene = self.folder / "loaded.yaml"
+            scene.write_text(LOADED.replace("SIGN", sign), encoding="utf-8")
+            done, files = self.verified(name, what=("--scene", scene))
+            document, _ = self.check_doors(done, files, outcome, OUTCOMES[outcome])
+            self.assertEqual(document["unexpected"], int(outcome == "fail"))
+            self.check_report(files, outcome)
+            self.check_python(name, None, f"{outcome == 'pass'} {outcome}", scene=str(scene))
+
+    def test_not_worse_than(self):
+        """Within every tolerance, and worse than before: on one mesh of results, in the short table, not on others."""
+        _, files = self.verified("right")
+        old, table = self.folder / "old.h5", self.folder / "old.csv"
+        files["h5"].rename(old)
+        self.answered("compare", old, "-o", table)
+        for former in (old, table):
+            for name, outcome in (("right", "pass"), ("coarse", "fail")):
+                done, files = self.verified(name, "--not-worse-than", former)
+                document, failures = self.check_doors(done, files, outcome, OUTCOMES[outcome])
+                self.assertEqual(document["unexpected"], 0)
+                self.assertEqual(len(document["regressions"]), len(failures))
+                self.assertEqual("worse than in the former run" in files["md"].read_text(encoding="utf-8"),
+                                 outcome == "fail")
+                self.check_report(files, outcome)
+                self.check_python(name, RUN[1], f"{outcome == 'pass'} {outcome}", not_worse_than=str(former))
+        old.write_bytes(old.read_bytes()[:2000])
+        self.refused(4, "old.h5", "verify", *RUN, "--not-worse-than", old)
+        self.refused(2, "nothing of what was run", "verify", "-k", "roll_up/default", "-f", "beamw",
+                     "--not-worse-than", table)
+
+    def test_tolerance(self):
+        """Of one's own, in the place of those of the cases."""
+        for name, tolerance, outcome in (("stiffness", "50%", "pass"), ("stiffness", "0.1%", "fail"), ("right", "1e-12", "fail")):
+            done, files = self.verified(name, "--tolerance", tolerance)
+            self.check_doors(done, files, outcome, OUTCOMES[outcome])
+            self.check_python(name, RUN[1], f"{outcome == 'pass'} {outcome}",
+                              tolerance=float(tolerance.rstrip("%")) / (100 if "%" in tolerance else 1))
+        self.assertIn("undecided", done.stdout[done.stdout.rfind("FAIL:"):])
+        self.refused(2, "--tolerance '2'", "verify", *RUN, "--tolerance", "2")
+        self.assertIn("undecided is no pass", " ".join(run("verify", "--help").stdout.split()))
+
     def test_loaded_without_a_name(self):
         done, files = self.verified("stiffness", named=())
         self.check_doors(done, files, "fail", 1)
@@ -115,18 +201,27 @@ class Gate(ProgramTest):
         for name, outcome in (("right", "pass"), ("stiffness", "fail")):
             done, files = self.verified(name)
             self.assertEqual(done.returncode, OUTCOMES[outcome])
-            site = self.folder / name
+            self.check_report(files, outcome)
+
+    def check_report(self, files, outcome):
+        with tempfile.TemporaryDirectory() as site:
             self.assertEqual(report(files["h5"], site).returncode, 0)
-            page = (site / "index.html").read_text(encoding="utf-8")
-            self.assertRegex(page, r"Outcome\.</strong> <span" + (">PASS:" if outcome == "pass" else r' class="wrong">FAIL:'))
+            page = (pathlib.Path(site) / "index.html").read_text(encoding="utf-8")
+        self.assertRegex(page, r"Outcome\.</strong> <span" + (">PASS:" if outcome == "pass" else r' class="wrong">FAIL:'))
+
+    def check_python(self, name, what, said, **options):
+        if sanitized():  # Python cannot load such a library
+            return
+        done = subprocess.run([sys.executable, "-c", PYTHON, self.element[name],
+                               json.dumps({"select": what, **options})], text=True,
+                              check=True, stdout=subprocess.PIPE, env=environment(**SETTINGS))
+        self.assertEqual(done.stdout.strip(), said, name)
 
     @unittest.skipIf(sanitized(), "needs a library without sanitizers")
     def test_python(self):
         for name, what, said in (("right", RUN[1], "True pass"), ("stiffness", RUN[1], "False fail"),
                                  ("stub", RUN[1], "False fail"), ("right", NOWHERE[1], "False nothing was judged")):
-            done = subprocess.run([sys.executable, "-c", PYTHON, self.element[name], what], text=True, check=True,
-                                  stdout=subprocess.PIPE, env=environment(**SETTINGS))
-            self.assertEqual(done.stdout.strip(), said, name)
+            self.check_python(name, what, said)
 
 
 if __name__ == "__main__":

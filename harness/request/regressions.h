@@ -1,0 +1,15 @@
+/* What of a verification is worse than in a former run. */
+#ifndef BEAMWORK_REGRESSIONS_H
+#define BEAMWORK_REGRESSIONS_H
+
+#include "harness/comparison/results.h"
+#include "harness/judge/judgement.h"
+
+/* Adds to the judgement every mesh whose error is larger than in the former run (by more than 2 %
+ * and RESULTS_FLOOR), that has no value or no success any more, and what the former run has and
+ * this one should. Of a former run that is known by its short table, series by series. Work is not
+ * compared. REFUSED: the two have nothing in common. */
+status regressions_find(const results *former, const char *name, const sweep *, judgement *,
+                        fault *);
+
+#endif
