@@ -167,6 +167,7 @@ static int list_request(command_request *r)
 {
     list_subject what = {.cases = 0};
     fault f;
+    case_input_example(r);
     if (r->scene_count > 0) {
         what.type = case_input_scene(r);
         if (what.type == NULL)

@@ -128,9 +128,29 @@ static const case_type *named_case(const command_request *r)
     return type;
 }
 
+void case_input_example(command_request *r)
+{
+    static char found[PATH_MAX];
+    static const char *const folder[] = {"cases/examples", "examples/scenes"};
+    char name[PATH_MAX], path[PATH_MAX];
+    fault f;
+    if (r->case_name == NULL || r->scene_count > 0 || r->case_count > 1 ||
+        strchr(r->case_name, '/') != NULL || case_find(r->case_name, &f) != NULL)
+        return;
+    for (size_t i = 0; i < sizeof folder / sizeof folder[0] && r->case_name != NULL; i++) {
+        snprintf(name, sizeof name, "%s/%.100s.yaml", folder[i], r->case_name);
+        if (!data_place(name, path) || realpath(path, found) == NULL)
+            continue;
+        r->scene_path[r->scene_count++] = found;
+        r->case_name = NULL;
+        r->case_count = 0;
+    }
+}
+
 const case_type *case_input_find(command_request *r)
 {
     fault f;
+    case_input_example(r);
     const case_type *type = r->scene_count > 0 ? case_input_scene(r) : named_case(r);
     if (type == NULL)
         return NULL;

@@ -5,6 +5,9 @@
 #include "harness/command/command.h"
 #include "harness/truth/truths.h"
 
+/* A name that is no built-in case but that of an example (cases/examples/NAME.yaml) becomes --scene
+ * of that file. */
+void case_input_example(command_request *r);
 /* The case of the request with its parameters, or NULL after a message. */
 const case_type *case_input_find(command_request *r);
 /* Frees what case_input_find has read. */

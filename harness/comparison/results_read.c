@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "harness/comparison/results.h"
+#include "harness/language/line.h"
 
 static int compare_cells(const void *a, const void *b)
 {
@@ -48,7 +49,10 @@ static int is_hdf5(FILE *from)
 
 static status read_sorted(const char *path, FILE *from, results *out, fault *f)
 {
-    TRY(is_hdf5(from) ? results_hdf5_read(path, out, f) : results_table_read(path, from, out, f));
+    const int whole = is_hdf5(from);
+    if (!whole)
+        line_skip_mark(from);
+    TRY(whole ? results_hdf5_read(path, out, f) : results_table_read(path, from, out, f));
     TRY(sort_cells(path, out, f));
     if (out->whole)
         TRY(results_series_summarise(out, f));

@@ -40,6 +40,12 @@ void claims_asks(claim *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* What comes now. */
 void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* How far apart two numbers are of their size; two that are equal are not, also where both are 0.
+ */
+static inline double claims_share(double apart, double size)
+{
+    return apart == 0 ? 0 : apart / size;
+}
 /* How many of them came out so, and how many comparisons they stand on. */
 int claims_counted(const claims *c, claim_outcome outcome);
 int claims_compared(const claims *c);

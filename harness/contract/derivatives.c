@@ -89,12 +89,12 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
                 (change[a][strain * n + b] * ub + change[b][strain * n + a] * ua) / 2;
             const double given = H[a * n + b] * ua * ub;
             claims_departs(
-                one, fabs(given - found) / size,
+                one, claims_share(fabs(given - found), size),
                 "H: the second derivative of strain %d in coordinates %d and %d (%s, %s) "
                 "is %.6g, differences of J give %.6g: apart by %.1e of its size%s",
                 strain + 1, a + 1, b + 1, specimen_coordinate(a, first),
                 specimen_coordinate(b, other), H[a * n + b], found / (ua * ub),
-                fabs(given - found) / size, s->words);
+                claims_share(fabs(given - found), size), s->words);
         }
 }
 

@@ -66,7 +66,7 @@ static void check_gradient(const place *at, const double sigma[], const double C
         const double size =
             fmax(fabs(sigma[i]), size_of(s, C, i, i) * moved_by * s->request.length);
         claims_departs(
-            one, outcome == 0 ? fabs(sigma[i] - found) / size : NAN,
+            one, outcome == 0 ? claims_share(fabs(sigma[i] - found), size) : NAN,
             "stress: sigma %d is %.6g, the energy's derivative in strain %d is %.6g: one "
             "of them is wrong%s",
             i + 1, sigma[i], i + 1, found, s->words);
@@ -84,12 +84,13 @@ static void check_stiffness(const place *at, const double C[], claims *c)
         const int outcome = stencil_first(stress_at, at, m, j, column);
         for (int i = 0; i < m; i++) {
             const double size = size_of(s, C, i, j), found = column[i] / unit_of(s);
-            claims_departs(derives, outcome == 0 ? fabs(C[i * m + j] - found) / size : NAN,
+            claims_departs(derives,
+                           outcome == 0 ? claims_share(fabs(C[i * m + j] - found), size) : NAN,
                            "C: the derivative of sigma %d in strain %d is %.6g, differences of the "
                            "stress give %.6g%s",
                            i + 1, j + 1, C[i * m + j], found, s->words);
             claims_departs(
-                symmetric, fabs(C[i * m + j] - C[j * m + i]) / size,
+                symmetric, claims_share(fabs(C[i * m + j] - C[j * m + i]), size),
                 "C: entry %d, %d is %.6g and entry %d, %d is %.6g; a stress that derives "
                 "from an energy has a symmetric C%s",
                 i + 1, j + 1, C[i * m + j], j + 1, i + 1, C[j * m + i], s->words);
@@ -142,11 +143,11 @@ static void check_geometric(const specimen *s, const double C[], claims *c)
         for (int j = 0; j < m; j++) {
             const int ij = i * m + j, ji = j * m + i;
             const double size = size_of(s, C, i, j) * moved_by;
-            claims_departs(symmetric, fabs(Ga[ij] - Ga[ji]) / size,
+            claims_departs(symmetric, claims_share(fabs(Ga[ij] - Ga[ji]), size),
                            "geometric: G entry %d, %d is %.6g and entry %d, %d is %.6g; make it "
                            "symmetric%s",
                            i + 1, j + 1, Ga[ij], j + 1, i + 1, Ga[ji], s->words);
-            claims_departs(linear, fabs(Gs[ij] - 2 * Ga[ij] + 3 * Gb[ij]) / size,
+            claims_departs(linear, claims_share(fabs(Gs[ij] - 2 * Ga[ij] + 3 * Gb[ij]), size),
                            "geometric: G entry %d, %d of a sum of prestresses is not the sum of "
                            "theirs%s",
                            i + 1, j + 1, s->words);

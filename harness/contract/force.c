@@ -58,7 +58,7 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
         double found = NAN;
         const double unit = chart_unit(i, s->request.length);
         stencil_first(energy_at, at, 1, i, &found);
-        claims_departs(one, fabs(work[i] - found) / size,
+        claims_departs(one, claims_share(fabs(work[i] - found), size),
                        "force: F in coordinate %d (%s) is %.6g, the energy's derivative is %.6g%s",
                        i + 1, specimen_coordinate(i, where), F[i], found / unit, s->words);
     }
@@ -82,7 +82,7 @@ static void check_stiffness(const specimen_place *at, const double K[], claim *o
                          uj = chart_unit(j, s->request.length);
             const double given = (K[i * n + j] + K[j * n + i]) / 2 * ui * uj,
                          found = (column[j][i] * ui + column[i][j] * uj) / 2;
-            claims_departs(one, fabs(given - found) / size,
+            claims_departs(one, claims_share(fabs(given - found), size),
                            "K: the derivative of the force in coordinate %d (%s) along coordinate "
                            "%d (%s) is %.6g, differences of F give %.6g%s",
                            i + 1, specimen_coordinate(i, first), j + 1,
@@ -99,7 +99,7 @@ static void check_carried(const specimen *s, const node_state x[], double energy
         double other = NAN;
         specimen_carry(s, turn[k], x, carried);
         call(s, carried, &(force_output){.energy = &other});
-        claims_departs(one, fabs(other - energy) / fabs(energy),
+        claims_departs(one, claims_share(fabs(other - energy), fabs(energy)),
                        "force: a rigid turn by (%g, %g, %g) rad takes the energy from %.6g J to "
                        "%.6g J; measure strains in axes that turn with the element%s",
                        turn[k][0], turn[k][1], turn[k][2], energy, other, s->words);

@@ -65,9 +65,10 @@ static void compare(const specimen *s, const double found[], const double right[
 {
     char where[SPECIMEN_WORDS];
     for (int i = 0; i < s->coordinates; i++)
-        claims_departs(one, fabs(found[i] - right[i]) * chart_unit(i, s->request.length) / size,
-                       "inertia: taken in coordinate %d (%s) is %.6g, %s give %.6g%s", i + 1,
-                       specimen_coordinate(i, where), found[i], what, right[i], s->words);
+        claims_departs(
+            one, claims_share(fabs(found[i] - right[i]) * chart_unit(i, s->request.length), size),
+            "inertia: taken in coordinate %d (%s) is %.6g, %s give %.6g%s", i + 1,
+            specimen_coordinate(i, where), found[i], what, right[i], s->words);
 }
 
 /* The forces are quadratic in the rates: central differences are exact. */

@@ -43,7 +43,7 @@ static void check_force(const specimen_place *at, const double force[], claim *o
         const double unit = chart_unit(i, s->request.length);
         double found = NAN;
         stencil_first(potential_at, at, 1, i, &found);
-        claims_departs(one, fabs(force[i] * unit + found) / size,
+        claims_departs(one, claims_share(fabs(force[i] * unit + found), size),
                        "inertia: the centrifugal force in coordinate %d (%s) is %.6g, minus the "
                        "derivative of the potential is %.6g%s",
                        i + 1, specimen_coordinate(i, where), force[i], -found / unit, s->words);
@@ -69,12 +69,12 @@ static void check_stiffness(const specimen_place *at, const double stiffness[], 
                          uj = chart_unit(j, s->request.length), a = stiffness[i * n + j],
                          b = stiffness[j * n + i],
                          found = -(column[j][i] * ui + column[i][j] * uj) / 2;
-            claims_departs(derives, fabs(a * ui * uj - found) / size,
+            claims_departs(derives, claims_share(fabs(a * ui * uj - found), size),
                            "inertia: N entry %d, %d (%s, %s) is %.6g, differences of the "
                            "centrifugal force give %.6g%s",
                            i + 1, j + 1, specimen_coordinate(i, first),
                            specimen_coordinate(j, other), a, found / (ui * uj), s->words);
-            claims_departs(symmetric, fabs(a - b) * ui * uj / size,
+            claims_departs(symmetric, claims_share(fabs(a - b) * ui * uj, size),
                            "inertia: N entry %d, %d is %.6g, and %.6g the other way round%s", i + 1,
                            j + 1, a, b, s->words);
         }
@@ -89,12 +89,14 @@ static void check_skew(const specimen *s, const double G[], claim *one)
                               chart_unit(i % n, s->request.length));
     for (int i = 0; i < n; i++)
         for (int j = 0; j <= i; j++)
-            claims_departs(one,
-                           fabs(G[i * n + j] + G[j * n + i]) * chart_unit(i, s->request.length) *
-                               chart_unit(j, s->request.length) / size,
-                           "inertia: G entry %d, %d is %.6g, and %.6g the other way round; the "
-                           "gyroscopic matrix is skew%s",
-                           i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
+            claims_departs(
+                one,
+                claims_share(fabs(G[i * n + j] + G[j * n + i]) * chart_unit(i, s->request.length) *
+                                 chart_unit(j, s->request.length),
+                             size),
+                "inertia: G entry %d, %d is %.6g, and %.6g the other way round; the "
+                "gyroscopic matrix is skew%s",
+                i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
 /* The motion v of the frame itself has the kinetic energy 1/2 v^T M v = -V, and G v = -2 F. */

@@ -270,7 +270,7 @@ static status read_lines(reader *r, FILE *from, char **line, fault *f)
 
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f)
 {
-    FILE *from = fopen(path, "r");
+    FILE *from = line_open(path);
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.200s: %s", path, strerror(errno));
     reader r = {.set = into, .path = path, .m = m, .header = {.axes = axes_same}};

@@ -166,7 +166,7 @@ static status read_files(map_reader *r, const char *const file[], int files, wan
                          int count, fault *f)
 {
     for (int i = 0; i < files; i++) {
-        FILE *from = fopen(file[i], "r");
+        FILE *from = line_open(file[i]);
         if (from == NULL)
             return fault_set(f, STATUS_FAULT, "%.200s: %s", file[i], strerror(errno));
         read_lines(r, from, file[i], list, count);

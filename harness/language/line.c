@@ -9,6 +9,28 @@ static int is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
+void line_skip_mark(FILE *from)
+{
+    static const int mark[] = {0xef, 0xbb, 0xbf};
+    int got[3], count = 0;
+    do
+        got[count] = getc(from);
+    while (got[count] == mark[count] && ++count < 3);
+    if (count == 3)
+        return;
+    for (int i = count; i >= 0; i--)
+        if (got[i] != EOF)
+            ungetc(got[i], from);
+}
+
+FILE *line_open(const char *path)
+{
+    FILE *from = fopen(path, "r");
+    if (from != NULL)
+        line_skip_mark(from);
+    return from;
+}
+
 char *line_trim(char *line)
 {
     size_t length = strlen(line);

@@ -2,6 +2,13 @@
 #ifndef BEAMWORK_LINE_H
 #define BEAMWORK_LINE_H
 
+#include <stdio.h>
+
+/* Opens a file to read text; a byte order mark at its beginning, as some editors put it, is no text
+ * and skipped. NULL and errno. */
+FILE *line_open(const char *path);
+/* The same of a stream that was opened. */
+void line_skip_mark(FILE *from);
 /* Without blanks at both ends, within the line, which is cut. */
 char *line_trim(char *line);
 /* UTF-8 without control characters? */

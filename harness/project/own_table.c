@@ -77,7 +77,7 @@ status own_table_read(const char *path, const char *columns, own_table *out, mis
     char *line = NULL;
     *out = (own_table){0};
     *m = (mistakes){.file = path};
-    FILE *from = fopen(path, "r");
+    FILE *from = line_open(path);
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
     const status outcome = read_lines(from, columns, &line, out, m, f);

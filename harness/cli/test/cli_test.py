@@ -46,6 +46,34 @@ class Refusals(ProgramTest):
                              "--set", "modes=3", code=1)
         self.assertIn("give newton=mixed", done.stdout + done.stderr)
 
+    def test_byte_order_marks(self):
+        """At the beginning of any text that is read, as some editors put them."""
+        results, table = self.folder / "r.h5", self.folder / "r.csv"
+        self.answered("verify", "-k", "=elastica", "-f", "beamw", "-o", results)
+        self.answered("compare", results, "-o", table)
+        scene = (EXAMPLES / "euler_column.yaml").read_text(encoding="utf-8")
+        columns = {name: (ROOT / "reference" / name).read_text(encoding="utf-8").splitlines()[0] + "\n"
+                   for name in ("findings.csv", "tables/elastica.csv")}
+        imported = ("# beamwork-import: 1\n# program: mine\n# case: elastica\n"
+                    "quantity, unit, elements, value\nw_over_L, 1, 4, 0.3\n")
+        for text, words in ((table.read_text(encoding="utf-8"), ("compare", "FILE", results)),
+                            (scene, ("solve", "--scene", "FILE")), (imported, ("import", "FILE", "-o", self.folder / "i.h5")),
+                            (columns["findings.csv"], ("verify", "-k", "=elastica", "-f", "beamw", "--findings", "FILE")),
+                            (columns["tables/elastica.csv"],
+                             ("verify", "-k", "=elastica", "-f", "beamw", "--truths", "FILE"))):
+            path = self.folder / ("marked.yaml" if text == scene else "marked.csv")
+            path.write_text(text, encoding="utf-8-sig")
+            self.answered(*[path if word == "FILE" else word for word in words])
+
+    def test_examples_have_names(self):
+        """A scene of cases/examples is a case by its name, as in the report."""
+        path = EXAMPLES / "euler_column.yaml"
+        for verb in (("list", ), ("solve", "-f", "beamw", "-n", "2", "--format", "csv"), ("truth", )):
+            by_name, by_file = (self.answered(verb[0], *of, *verb[1:]).stdout
+                                for of in (("euler_column", ), ("--scene", path)))
+            self.assertEqual(re.sub(r"\d\.\d+(e-\d+)?", "#", by_name), re.sub(r"\d\.\d+(e-\d+)?", "#", by_file))
+        self.refused(2, "unknown case 'euler_colum'", "solve", "euler_colum")
+
     def test_truth_files(self):
         foreign, cut = self.folder / "foreign.h5", self.folder / "cut.h5"
         foreign.write_bytes(b"hello")

@@ -28,6 +28,11 @@ FAULTS = {
     "length": (
         ("    out->e[0] -= d->length;\n", ""),
         "strain: strain 1 of the undeformed element is 0.2385 m, not zero"),
+    "no strains": (
+        ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n"
+         "        out->e[3 + i] = d->length * psi[i];\n    }\n    out->e[0] -= d->length;\n",
+         "        out->e[i] = out->e[3 + i] = 0;\n    }\n"),
+        "the deformed element has no energy"),
     "nodes swapped": (
         ("chord[i] = x[1].r[i] - x[0].r[i]", "chord[i] = x[0].r[i] - x[1].r[i]"),
         "strain: strain 1 of the undeformed element"),
@@ -198,6 +203,18 @@ class Planted(Tested):
     def test_each_of_a_force_is_told(self):
         self.told("corotational.c", FORCE_FAULTS)
 
+
+    def test_linear(self):
+        """A formulation is asked for what it offers: strains of first order are right where no large rotations are."""
+        first = ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n",
+                 "        out->e[i] = p[i] + (i == 1 ? -d->length * psi[2] / 2 : i == 2 ? d->length * psi[1] / 2 : 0);\n")
+        small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")
+        unused = ("    const double square", "    (void)q;\n    const double square")
+        one = self.certificate(self.compiled("timoshenko.c", first, small, unused), 0)
+        self.assertNotIn("broken", [c["outcome"] for p in one["parts"] for c in p["claims"]])
+        said = self.broken(self.compiled("timoshenko.c", (first[0], first[1].replace("-d->length * psi[2] / 2", "0")), small,
+                                         unused), 120)
+        self.assertTrue(any("with its nodes exchanged" in s for s in said), said)
 
     def test_endless(self):
         """The first part that does not come back is waited for, those after it are not."""
