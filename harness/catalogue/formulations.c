@@ -7,6 +7,7 @@
 enum { MOST_ACCEPTED = 256 };
 
 static const element_type *loaded[FORMULATIONS_MOST_LOADED + 1];
+static const char *loaded_from[FORMULATIONS_MOST_LOADED];
 static const element_type *accepted[MOST_ACCEPTED + 1];
 static int are_told;
 
@@ -66,7 +67,7 @@ static int is_reserved(const char *name)
     return found;
 }
 
-status formulations_add(const element_type *t, fault *f)
+status formulations_add(const element_type *t, const char *from, fault *f)
 {
     int count = 0;
     if (is_reserved(t->name))
@@ -83,5 +84,14 @@ status formulations_add(const element_type *t, fault *f)
         return fault_set(f, STATUS_REFUSED, "at most %d formulations can be loaded",
                          FORMULATIONS_MOST_LOADED);
     loaded[count] = t;
+    loaded_from[count] = from;
     return STATUS_OK;
+}
+
+const char *formulations_element(const element_type *t)
+{
+    for (int i = 0; loaded[i] != NULL; i++)
+        if (loaded[i] == t)
+            return loaded_from[i];
+    return NULL;
 }

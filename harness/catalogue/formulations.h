@@ -19,7 +19,9 @@ int formulations_is_new(const element_type *t);
 /* One that is accepted (reference/accepted.csv); a name that is not here is passed over. */
 void formulations_accept(const char *name);
 /* Adds one; refuses a name that is there, and words that mean more than one (all). The type stays
- * the caller's. */
-status formulations_add(const element_type *t, fault *f);
+ * the caller's, and so does `from`: what --element calls it, or NULL. */
+status formulations_add(const element_type *t, const char *from, fault *f);
+/* What --element called it; NULL: it was not loaded so. */
+const char *formulations_element(const element_type *t);
 
 #endif

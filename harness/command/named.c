@@ -38,7 +38,7 @@ void named_load(command_request *r)
         const element_type *type;
         fault f;
         if (plugin_load(r->element[i], &type, &f) != STATUS_OK ||
-            formulations_add(type, &f) != STATUS_OK)
+            formulations_add(type, r->element[i], &f) != STATUS_OK)
             message_refuse(f.text);
     }
     for (int i = 0; i < r->named_formulations; i++)

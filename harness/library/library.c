@@ -38,7 +38,7 @@ static status load(const char *path, char **name, fault *f)
     if (path == NULL)
         return fault_set(f, STATUS_REFUSED, "bw_formulation_load: give the path of an object");
     TRY(plugin_load(path, &type, f));
-    TRY(formulations_add(type, f));
+    TRY(formulations_add(type, NULL, f));
     if (name != NULL && (*name = strdup(type->name)) == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a name");
     return STATUS_OK;

@@ -2,6 +2,8 @@
 #ifndef BEAMWORK_WORDS_H
 #define BEAMWORK_WORDS_H
 
+#include <stdio.h>
+
 #include "elements/shared/status.h"
 
 enum { WORDS_MOST = 63 };
@@ -9,5 +11,8 @@ enum { WORDS_MOST = 63 };
 /* *words: NULL-terminated, to be freed at once with what they point to. Blanks part words; quotes '
  * and " keep blanks. REFUSED: none, too many, a quote that does not end; FAULT: memory. */
 status words_split(const char *command, char ***words, fault *f);
+
+/* A word as a shell reads it: as it is, or in quotes where it needs them. */
+void words_quote(FILE *to, const char *word);
 
 #endif

@@ -1,11 +1,14 @@
 #include "harness/ranges/ranges_table.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/formulations.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/model/missing.h"
+#include "harness/process/words.h"
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/tables/paragraph.h"
 
@@ -250,11 +253,18 @@ static void write_command(FILE *to, const ranges *r, int which, const tally_wors
     const int begun = fprintf(to, "to look at the first: ");
     FILE *out = paragraph_begin(&words, to);
     fprintf(out, "beamwork converge ");
-    if (w->scene[0] != '\0')
-        fprintf(out, "--scene %s/%s", folder, w->scene);
-    else
-        fprintf(out, "%s%s", r->request.file != NULL ? "--scene " : "",
-                r->request.file != NULL ? scene_file_path(r->request.type) : r->request.type->name);
+    char path[PATH_MAX];
+    const char *file = r->request.file != NULL ? scene_file_path(r->request.type) : NULL;
+    const char *element = formulations_element(r->formulation[which].type);
+    if (w->scene[0] != '\0' &&
+        snprintf(path, sizeof path, "%s/%s", folder, w->scene) < (int)sizeof path)
+        file = path;
+    fputs(file != NULL ? "--scene " : "", out);
+    words_quote(out, file != NULL ? file : r->request.type->name);
+    if (element != NULL) {
+        fputs(" --element ", out);
+        words_quote(out, element);
+    }
     for (int i = 0; i < r->design.axes && w->scene[0] == '\0'; i++) {
         char word[ASSIGNMENT_VALUE];
         axis_text(&r->axis[i], at[i], word, sizeof word);

@@ -18,6 +18,20 @@ int paragraph_columns(const char *text)
     return columns_of(text, strlen(text));
 }
 
+/* Bytes of the word that begins here; in commands blanks within quotes are of it. */
+static size_t word_at(const char *text, int command)
+{
+    size_t length = strcspn(text, " \n'");
+    if (!command)
+        return strcspn(text, " \n");
+    while (text[length] == '\'') {
+        const char *end = strchr(text + length + 1, '\'');
+        length = end != NULL ? (size_t)(end - text) + 1 : strlen(text);
+        length += strcspn(text + length, " \n'");
+    }
+    return length;
+}
+
 /* joint: what ends a line that is continued. */
 static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
 {
@@ -25,7 +39,7 @@ static void write_words(FILE *to, int at, int indent, const char *joint, const c
     int column = at, begun = 0; /* begun: a word stands on this line */
     static const char blank[] = " \n";
     for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
-        const size_t word = strcspn(text, blank);
+        const size_t word = word_at(text, joint[0] != '\0');
         const int wide = columns_of(text, word);
         if (begun && column + 1 + wide > width) {
             fprintf(to, "%s\n", joint);

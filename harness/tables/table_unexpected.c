@@ -3,9 +3,12 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "harness/catalogue/formulations.h"
 #include "harness/judge/rounding.h"
 #include "harness/judge/sentence.h"
+#include "harness/process/words.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/tables/paragraph.h"
 
@@ -23,6 +26,16 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
+/* Where the formulation comes from, if that is to be said. */
+static void print_element(FILE *to, const element_type *type)
+{
+    const char *element = type != NULL ? formulations_element(type) : NULL;
+    if (element == NULL)
+        return;
+    fputs(" --element ", to);
+    words_quote(to, element);
+}
+
 /* The command that shows a series again; quantity: one of them, or NULL. */
 static void print_command(FILE *to, const point *p, const series *one, const char *quantity)
 {
@@ -31,14 +44,11 @@ static void print_command(FILE *to, const point *p, const series *one, const cha
     if (one->imported != NULL)
         return;
     FILE *line = paragraph_begin(&words, to);
-    if (path != NULL) /* blanks in it stay one word of the shell */
-        fprintf(line,
-                strchr(path, ' ') != NULL ? "beamwork converge --scene '%s'"
-                                          : "beamwork converge --scene %s",
-                path);
-    else
-        fprintf(line, "beamwork converge %s", p->type->name);
+    fputs("beamwork converge ", line);
+    fputs(path != NULL ? "--scene " : "", line);
+    words_quote(line, path != NULL ? path : p->type->name);
     print_settings(line, p->text);
+    print_element(line, one->formulation.type);
     fprintf(line, " -f %s -n ", one->formulation.key);
     for (int i = 0; i < one->meshes; i++)
         fprintf(line, "%s%d", i > 0 ? "," : "", one->mesh[i]);
@@ -174,8 +184,13 @@ void table_breaches(FILE *to, screen look, const judgement *j)
     for (int i = 0; i < j->breaches; i++) {
         screen_put(to, look, SCREEN_BAD, "BROKEN CONTRACT");
         fputs(" of ", to);
-        paragraph_say(to, 19, INDENT, "%s: %s ('beamwork element-test' says all)",
-                      j->breach[i].formulation, j->breach[i].why);
+        const char *key = j->breach[i].formulation;
+        paragraph words;
+        paragraph_say(to, 19, INDENT, "%s: %s; all of it:", key, j->breach[i].why);
+        FILE *line = paragraph_begin(&words, to);
+        fprintf(line, "beamwork element-test -f %s", key);
+        print_element(line, formulations_named(key, strcspn(key, ":")));
+        paragraph_end_command(&words, 0, INDENT);
     }
     if (j->breaches > 0)
         fputc('\n', to);

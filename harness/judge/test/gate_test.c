@@ -14,7 +14,8 @@
 static const size_t failing[] = {
     offsetof(judgement, unexpected), offsetof(judgement, disagreements),
     offsetof(judgement, unobserved), offsetof(judgement, unmet),
-    offsetof(judgement, flaws),      offsetof(judgement, breaches)};
+    offsetof(judgement, flaws),      offsetof(judgement, breaches),
+    offsetof(judgement, regressions)};
 /* Counts of what was checked: with none of these there is no answer. */
 static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
 enum {
@@ -32,9 +33,10 @@ static int is_among(size_t offset, int count, const size_t list[])
 
 static int is_pointer(size_t offset)
 {
-    static const size_t pointer[] = {offsetof(judgement, verdict), offsetof(judgement, agreement),
-                                     offsetof(judgement, coverage), offsetof(judgement, flaw),
-                                     offsetof(judgement, breach)};
+    static const size_t pointer[] = {
+        offsetof(judgement, verdict),  offsetof(judgement, agreement),
+        offsetof(judgement, coverage), offsetof(judgement, flaw),
+        offsetof(judgement, breach),   offsetof(judgement, regression)};
     for (size_t i = 0; i < sizeof pointer / sizeof pointer[0]; i++)
         if (offset >= pointer[i] && offset < pointer[i] + sizeof(void *))
             return 1;
@@ -66,7 +68,8 @@ static void exit_codes(void)
         }
         judgement none = {0};
         set(&none, at, 1);
-        const int broken = at == offsetof(judgement, breaches); /* fails without a verdict */
+        const int broken = at == offsetof(judgement, breaches) ||
+                           at == offsetof(judgement, regressions); /* fail without a verdict */
         gsl_test_int(judgement_exit(&none),
                      is_among(at, CHECKING, checking) ? 0
                      : broken                         ? 1

@@ -213,7 +213,7 @@ static void new_ones(void)
     gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
     gsl_test(o.accepted != 3 || strcmp(o.column[0], "a") != 0, "none is new");
     overview_free(&o);
-    gsl_test(formulations_add(&mine, &f) != STATUS_OK, "added: %s", f.text);
+    gsl_test(formulations_add(&mine, NULL, &f) != STATUS_OK, "added: %s", f.text);
     gsl_test(overview_make(&r.s, &r.j, &o, &f) != STATUS_OK, "made");
     gsl_test(o.columns != 3 || o.accepted != 3, "what is loaded gates");
     overview_free(&o);

@@ -189,7 +189,7 @@ static void load(const char *program, const char *name)
     fault f = {""};
     snprintf(command, sizeof command, "exec:'%s' %s", program, name);
     gsl_test(plugin_load(command, &type, &f) != STATUS_OK ||
-                 formulations_add(type, &f) != STATUS_OK || !process_serves(type),
+                 formulations_add(type, NULL, &f) != STATUS_OK || !process_serves(type),
              "%s in another process: %s", name, f.text);
 }
 
