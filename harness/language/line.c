@@ -12,15 +12,16 @@ static int is_blank(char c)
 void line_skip_mark(FILE *from)
 {
     static const int mark[] = {0xef, 0xbb, 0xbf};
-    int got[3], count = 0;
-    do
-        got[count] = getc(from);
-    while (got[count] == mark[count] && ++count < 3);
-    if (count == 3)
+    for (int i = 0; i < 3; i++) {
+        const int got = getc(from);
+        if (got == mark[i])
+            continue;
+        if (got != EOF)
+            ungetc(got, from);
+        while (i > 0)
+            ungetc(mark[--i], from);
         return;
-    for (int i = count; i >= 0; i--)
-        if (got[i] != EOF)
-            ungetc(got[i], from);
+    }
 }
 
 FILE *line_open(const char *path)
