@@ -8,6 +8,7 @@
 
 #include "harness/catalogue/formulations.h"
 #include "harness/command/command.h"
+#include "harness/record/output.h"
 
 /* What can happen, and the line for each, written before it does. */
 static struct {
@@ -29,6 +30,7 @@ static void tell(int which)
         if (mishap[i].signal == which &&
             write(STDERR_FILENO, mishap[i].line, strlen(mishap[i].line)) > 0)
             break;
+    output_abandon();
     _exit(EXIT_DIFFERS);
 }
 
