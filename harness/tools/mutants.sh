@@ -9,6 +9,10 @@ here=$(pwd)
 work=${1:-build/mutants} only=${2:-} dry=${DRY:-}
 case $work in /*) ;; *) work=$here/$work ;; esac
 killed=0 survived=0 rows= from=${FROM:-}
+if [ -n "$(git ls-files -- "$work" 2>/dev/null | head -n 1)" ]; then
+    echo "mutants.sh: $work holds files of the project, and WORK is emptied first: give another folder" >&2
+    exit 2
+fi
 rm -rf "$work"
 mkdir -p "$work/base"
 git ls-files | tar -cf - -T - | tar -xf - -C "$work/base"
