@@ -11,7 +11,7 @@ enum { LENGTH = TIMED_PARAMETERS, SPEED, DURATION };
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 0.5, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.01, "a fiftieth of the time of spinning up", 1e-4),
+    TIMED_HOW(0.01, "a fiftieth of the time of spinning up", 5e-4),
     [LENGTH] = {"length", "m", 9.0, 1e-3, 1e4, NULL, "length of the beam"},
     [SPEED] = {"omega", "rad/s", 1, -1e3, 1e3, NULL, "angular velocity that it comes to"},
     [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "of spinning up, smoothly"},

@@ -5,7 +5,7 @@
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 1, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.05, "twenty for each second", 1e-4),
+    TIMED_HOW(0.05, "twenty for each second", 1e-3),
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
 

@@ -7,7 +7,7 @@ enum { STIFFENING = TIMED_PARAMETERS };
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 1, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.05, "a sixth of the quickest motion", 1e-4),
+    TIMED_HOW(0.05, "a sixth of the quickest motion", 5e-4),
     [STIFFENING] = {"stiffening", "1", 1, 1, 1e6, NULL, "of elongation and shear"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };

@@ -9,7 +9,7 @@ enum { AMPLITUDE = TIMED_PARAMETERS };
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 0.05, 0, 10, NULL, "when it is looked at"},
-    TIMED_HOW(2e-4, "a twentieth of the block's quickest motion", 3e-4),
+    TIMED_HOW(2e-4, "a twentieth of the block's quickest motion", 1e-3),
     [AMPLITUDE] = {"amplitude", "m", 0.01, 1e-5, 0.05, NULL,
                    "displacement of the block's centre at the begin"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},

@@ -7,7 +7,7 @@ enum { STIFFENING = TIMED_PARAMETERS };
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 0.125, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.005, "a hundredth of a swing", 1e-4),
+    TIMED_HOW(0.005, "a hundredth of a swing", 6e-4),
     [STIFFENING] = {"stiffening", "1", 1, 1, 1e6, NULL, "of elongation"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };

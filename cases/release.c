@@ -13,7 +13,7 @@ enum { BERNOULLI, TIMOSHENKO };
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 0.25, 0, 1e9, NULL, "when it is looked at"},
-    TIMED_HOW(0.01, "a hundredth of the first period", 1e-9),
+    TIMED_HOW(0.01, "a hundredth of the first period", 2e-4),
     [MODEL] = {"model", "", BERNOULLI, 0, 0, "bernoulli|timoshenko",
                "rigid in shear without rotary inertia, or flexible with it"},
     [AMPLITUDE] = {"amplitude", "m", 1e-5, 1e-7, 1e-2, NULL, "deflection of the tip at the begin"},

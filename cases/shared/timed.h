@@ -20,7 +20,7 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         0,                                                                                         \
         0.1,                                                                                       \
         NULL,                                                                                      \
-        "of the error of a step, relative to the size of the structure; 0: all steps are alike"}
+        "of the error of time, relative to the largest motion; 0: all steps are alike"}
 
 /* A straight section by its products [N, N, N m^2, N m^2] and [kg/m, kg m]. */
 typedef struct timed_section {

@@ -211,7 +211,7 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         TRY(accept(p, &t.record, f));
         *size = next_size(p, *size, length, &t);
         const double distance =
-            r->state == NULL ? 0 : metric_distance(p->c->model, p->n.state, r->state);
+            r->state == NULL ? 0 : metric_distance(p->c->model, p->n.state, r->state, NULL);
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
     const double same = goal.by_arc ? goal.value / 2 : 1e-5;

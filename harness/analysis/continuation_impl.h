@@ -52,6 +52,7 @@ typedef struct continuation {
     double *response; /* [free + driven] K^-1 f' */
     double *moved;    /* [free + driven] sum of the increments of the step */
     double *mode;     /* [free + driven] null vector */
+    path_goal goal;   /* of the step that is iterated */
     path_point here, next, trial;
     int first;    /* negative pivots at the begin */
     int narrow;   /* 1: where something changes was told as near as can be */

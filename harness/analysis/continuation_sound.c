@@ -48,7 +48,7 @@ status continuation_sound_report_jump(continuation *p, const rival *r, double fr
                               .factor = p->here.factor,
                               .control = p->here.control,
                               .other_factor = r->factor,
-                              .measure = metric_distance(p->c->model, p->n.state, r->state)};
+                              .measure = metric_distance(p->c->model, p->n.state, r->state, NULL)};
     TRY(history_add_event(p->c->result, &event, f));
     if (p->by->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,

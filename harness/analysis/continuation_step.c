@@ -112,32 +112,36 @@ status continuation_step_correct(continuation *p, path_goal goal, step_record *r
     return continuation_step_go_on(p, goal, record, f);
 }
 
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
+{
+    continuation *p = of;
+    newton *n = &p->n;
+    (void)iteration;
+    TRY(directions(p, record, f));
+    const double change = change_of(p, p->goal, p->response);
+    const double more = (residual_of(p, p->goal) - change_of(p, p->goal, n->dx)) / change;
+    if (!isfinite(more))
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the load does not move the control coordinate at factor %g%s",
+                         kinematics_state_path(n->state), along_path_end(n->c->scene).text);
+    double energy = 0;
+    for (int k = 0; k < n->free; k++) {
+        n->dx[k] += more * p->response[k];
+        p->moved[k] += n->dx[k];
+        energy += n->dx[k] * (n->residual[k] + more * p->load[k]);
+    }
+    n->energy = fabs(energy);
+    p->looked = 0;
+    newton_advance(n, kinematics_state_path(n->state) + more, out);
+    return STATUS_OK;
+}
+
 status continuation_step_go_on(continuation *p, path_goal goal, step_record *record, fault *f)
 {
-    newton *n = &p->n;
-    newton_watch watch = newton_watch_start;
-    for (int done = 0; !done;) {
-        double correction = 0;
-        TRY(directions(p, record, f));
-        const double change = change_of(p, goal, p->response);
-        const double more = (residual_of(p, goal) - change_of(p, goal, n->dx)) / change;
-        if (!isfinite(more))
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "the load does not move the control coordinate at factor %g%s",
-                             kinematics_state_path(n->state), along_path_end(n->c->scene).text);
-        double energy = 0;
-        for (int k = 0; k < n->free; k++) {
-            n->dx[k] += more * p->response[k];
-            p->moved[k] += n->dx[k];
-            energy += n->dx[k] * (n->residual[k] + more * p->load[k]);
-        }
-        n->energy = fabs(energy);
-        p->looked = 0;
-        const double load = kinematics_state_path(n->state) + more;
-        TRY(newton_advance(n, load, &correction, record, f));
-        TRY(newton_judge(n, &watch, load, correction, &done, f));
-    }
-    return STATUS_OK;
+    const newton_use use = newton_on_path(&p->n, p, correct);
+    p->goal = goal;
+    return newton_iterate(p->c, &use, &p->n.arrival, record, f);
 }
 
 /* Of a tangent that is not symmetric, which has no inertia. */

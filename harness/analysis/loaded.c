@@ -265,7 +265,7 @@ static status tangent_at_path(search *s, double path, fault *f)
 /* How fast the structure moves from the kept state to Newton's. */
 static double rate_to(const search *s, double path)
 {
-    return metric_distance(s->n.c->model, s->stable, s->n.state) / (path - s->p[0]);
+    return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
 }
 
 /* The structure at `path`; *stable: it was stable there and has been taken. Beyond a limit point

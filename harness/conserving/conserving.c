@@ -15,9 +15,9 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/scheme/drive.h"
-#include "harness/solver/history.h"
+#include "harness/solver/newton.h"
 
-enum { MAX_ITERATIONS = 20 };
+enum { LEAST_ITERATIONS = 3 };
 
 /* (S + column row^T) dx = residual */
 static status direction(conserving *s, const instant *from, model_state *now, double h,
@@ -66,44 +66,50 @@ static double size_of(const conserving *s)
     return largest;
 }
 
-static status iterate(conserving *s, const instant *from, double h, instant *to, double inc[],
-                      step_record *record, fault *f)
+/* What an iteration of a step works on. */
+typedef struct solution {
+    conserving *s;
+    const instant *from;
+    instant *to;
+    double time;
+} solution;
+
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
 {
-    model *m = s->of.c->model;
-    const double wild = 4, time = record->path;
-    for (int iteration = 1;; iteration++) {
-        TRY(conserving_stresses(s, from, to->state, iteration, f));
-        TRY(direction(s, from, to->state, h, record, f));
-        complement_keep(s->complement, to->state);
-        const double inner = conserving_update(s, from, to->state);
-        for (int c = 0; c < s->free; c++)
-            s->step[c] += s->dx[c];
-        conserving_increment(s, from->state, inc);
-        increment_apply(m, from->state, inc, time, to->state);
-        const double correction = larger(inner, size_of(s));
-        m->counters.iterations++;
-        const advance_stress stress = {s->largest, s->change};
-        arrival_take(correction, &stress, iteration == 1, &s->arrival);
-        record->remaining = s->arrival.remaining;
-        const iteration_record one = {.correction = correction,
-                                      .incompatibility = record->incompatibility};
-        TRY(history_add_iteration(s->of.c->result, record, &one, NAN, f));
-        if (arrival_reached(&s->arrival) && iteration > 2)
-            return s->wild ? fault_set(f, STATUS_NOT_CONVERGED,
-                                       "strains change too much in the step to %g s to keep "
-                                       "energy: take a shorter one",
-                                       time)
-                           : STATUS_OK;
-        if (!isfinite(correction) || correction > 4 * wild || (iteration > 3 && correction > wild))
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "Newton diverged at %g s: correction %.1e in iteration %d", time,
-                             correction, iteration);
-        if (iteration == MAX_ITERATIONS)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "Newton did not converge in %d iterations at %g s: correction %.1e",
-                             iteration, time, correction);
-        complement_strains(s->complement, to->state, iteration, correction);
-    }
+    const solution *one = of;
+    conserving *s = one->s;
+    const model_state *from = one->from->state;
+    model_state *now = one->to->state;
+    double *inc = one->to->algorithm;
+    TRY(conserving_stresses(s, one->from, now, iteration, f));
+    TRY(direction(s, one->from, now, s->h, record, f));
+    complement_keep(s->complement, now);
+    const double inner = conserving_update(s, one->from, now);
+    for (int c = 0; c < s->free; c++)
+        s->step[c] += s->dx[c];
+    conserving_increment(s, from, inc);
+    increment_apply(s->of.c->model, from, inc, one->time, now);
+    out->at = one->time;
+    out->size = larger(inner, size_of(s));
+    out->stress = (advance_stress){s->largest, s->change};
+    return STATUS_OK;
+}
+
+static void prepare(void *of, int iteration, double correction)
+{
+    const solution *one = of;
+    complement_strains(one->s->complement, one->to->state, iteration, correction);
+}
+
+static status accept(void *of, fault *f)
+{
+    const solution *one = of;
+    return one->s->wild ? fault_set(f, STATUS_NOT_CONVERGED,
+                                    "strains change too much in the step to %g s to keep energy: "
+                                    "take a shorter one",
+                                    one->time)
+                        : STATUS_OK;
 }
 
 static status step(scheme *base, const instant *from, double h, instant *to, double *error,
@@ -120,7 +126,11 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     increment_apply(m, from->state, inc, record->path, to->state);
     TRY(conserving_begin(s, from, f));
     instant_recall(from, &s->arrival);
-    TRY(iterate(s, from, h, to, inc, record, f));
+    solution one = {s, from, to, record->path};
+    newton_use use = newton_in_time(s->of.c, &one, correct, prepare);
+    use.accept = accept;
+    use.least = LEAST_ITERATIONS;
+    TRY(newton_iterate(s->of.c, &use, &s->arrival, record, f));
     instant_remember(&s->arrival, to);
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
@@ -130,6 +140,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     to->work += conserving_impulses(s, from, h, to);
     if (!s->massive.ready)
         TRY(massive_of(m, s->of.masses, from->state, &s->massive, f));
+    s->base.light = s->massive.light;
     for (int c = 0; c < s->free; c++) /* of the trapezoidal rule: h^2/12 (a1 - a) */
         s->dx[c] = h * h / 12 * (to->a[c] - from->a[c]);
     *error = massive_norm(&s->massive, m, s->weight, s->dx);
@@ -149,14 +160,21 @@ static void release(scheme *base)
     free(s);
 }
 
+/* Two free angles: what turns by them has an angular velocity across both at the end of a step,
+ * with an energy that their rates have not. */
 static status check(const model *m, fault *f)
 {
-    for (int i = 0; i < m->scene->nodes; i++)
-        if (m->vertex[i].angles > 1)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: the conserving scheme takes one angle of a node at most: take alpha or radau",
-                scene_called(m->scene, SCENE_NODES, i).text);
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        int free = 0;
+        for (int k = 0; k < v->angles; k++)
+            free += v->coordinate[SCENE_RX + k] != NONE && v->coordinate[SCENE_RX + k] < m->free;
+        if (v->angles == 2 && free == 2)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s turns by two free angles: the conserving scheme takes one, three, "
+                             "or driven ones; take alpha or radau",
+                             scene_called(m->scene, SCENE_NODES, i).text);
+    }
     return STATUS_OK;
 }
 
@@ -209,7 +227,7 @@ status conserving_alloc(const scheme_request *request, scheme **out, fault *f)
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
-    s->base = (scheme){.order = 3, .step = step, .free = release};
+    s->base = (scheme){.order = 3, .adds = 1, .step = step, .free = release};
     s->of = *request;
     s->free = size.free;
     s->all = size.free + size.driven;

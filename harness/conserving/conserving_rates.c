@@ -91,15 +91,31 @@ double conserving_impulses(const conserving *s, const instant *from, double h, c
     return sum;
 }
 
-/* Of an angle about an axis: the angular velocity along that. */
-static void angle_rate(const model *m, int vertex, instant *to, const double w[3])
+/* Of a sequence of angles: the rates whose angular velocity is nearest to w. */
+static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
 {
-    const int at = m->vertex[vertex].coordinate[SCENE_RX];
-    double b[3][3];
-    if (m->vertex[vertex].angles == 0 || at == NONE || at >= m->free)
+    const mesh_vertex *v = &m->vertex[vertex];
+    const int n = v->angles;
+    double b[3][3], square[9], rate[3];
+    if (n == 0)
         return;
     kinematics_axes(m, to->state, vertex, b);
-    to->v[at] = vec3_dot(b[0], w);
+    for (int i = 0; i < n; i++) {
+        rate[i] = vec3_dot(b[i], w);
+        for (int k = 0; k < n; k++)
+            square[i * n + k] = vec3_dot(b[i], b[k]);
+    }
+    if (n > 1) {
+        int pivot[3];
+        if (dense_lu_regular(n, square, pivot) != 0)
+            return; /* two axes in one line */
+        dense_lu_solve(n, 1, square, pivot, rate);
+    }
+    for (int k = 0; k < n; k++) {
+        const int at = v->coordinate[SCENE_RX + k];
+        if (at != NONE && at < m->free)
+            to->v[at] = rate[k];
+    }
 }
 
 /* Rates without inertia would change their signs with every step: they become those of the mean.
@@ -194,7 +210,7 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
             if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free && m->vertex[i].angles == 0)
                 to->v[at[SCENE_RX + c]] = p.W1[c];
         }
-        angle_rate(m, i, to, w);
+        angle_rates(m, i, to, w);
     }
     for (int i = 0; i < m->warps; i++) {
         const int c = m->warp[i].coordinate;

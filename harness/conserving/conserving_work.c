@@ -6,7 +6,7 @@
 #include "harness/conserving/deformable.h"
 #include "harness/model/release.h"
 
-/* dr and c of the coordinates; of single angles 2 tan(d angle/2). */
+/* dr and c of the coordinates; of angles 2 tan(d angle/2). */
 static double worked_on(const conserving *s, const double force[])
 {
     const model *m = s->of.c->model;
@@ -16,7 +16,7 @@ static double worked_on(const conserving *s, const double force[])
     for (int i = 0; i < m->vertices; i++) {
         const mesh_vertex *v = &m->vertex[i];
         const mesh_release *r = release_of(m, i);
-        const int turns = r == NULL ? v->body == i && v->angles > 0 : r->turns < 3 ? r->turns : 0;
+        const int turns = r == NULL ? (v->body == i ? v->angles : 0) : r->turns < 3 ? r->turns : 0;
         for (int k = 0; k < turns; k++) {
             const int c = v->coordinate[SCENE_RX + k];
             if (c != NONE)

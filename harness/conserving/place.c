@@ -22,8 +22,9 @@ typedef struct chain {
     int vertex;
     const mesh_release *release; /* NULL: none */
     const double *F;
-    double about[9];                 /* c of the node = about times its measures */
-    double c[3], dc[3 * PLACE_MOST]; /* behind all turns */
+    double about[9];                       /* c of the node = about times its measures */
+    double a[3][3], da[3][3 * PLACE_MOST]; /* its columns where they are mean axes of angles */
+    double c[3], dc[3 * PLACE_MOST];       /* behind all turns */
     double x[3][3], dx[3][3 * PLACE_MOST];
     double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; of rho_1 */
     double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean, (a s)_m */
@@ -48,30 +49,6 @@ static void sweep(const chain *by, int columns, double times, const double v[3],
     product(columns, -times, B, by->dc, out);
 }
 
-/* c of the body: three coordinates, or the angle about an axis. */
-static void begin(const double step[], chain *by, place *p)
-{
-    const mesh_vertex *body = &by->m->vertex[by->m->vertex[by->vertex].body];
-    double b[3][3];
-    for (int i = 0; i < 3; i++)
-        p->measure[i] = body->coordinate[i] != NONE ? step[body->coordinate[i]] : 0;
-    for (int i = 0; i < 3; i++) {
-        const int at = body->coordinate[SCENE_RX + i];
-        const double moved = at != NONE ? step[at] : 0;
-        p->measure[3 + i] = body->angles == 0 ? moved : i == 0 ? 2 * tan(moved / 2) : 0;
-    }
-    if (body->angles > 0)
-        kinematics_axes(by->m, by->from, by->m->vertex[by->vertex].body, b);
-    const double stretch = body->angles > 0 ? 1 + p->measure[3] * p->measure[3] / 4 : 1;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) {
-            const double axis = body->angles == 0 ? i == k : k == 0 ? b[0][i] : 0;
-            by->about[3 * i + k] = axis;
-            by->c[i] += axis * p->measure[3 + k];
-            by->dc[i * p->columns + 3 + k] = axis * stretch;
-        }
-}
-
 static void beside(chain *by, int columns)
 {
     double after[3];
@@ -83,12 +60,13 @@ static void beside(chain *by, int columns)
     sweep(by, columns, 0.5, after, by->drho);
 }
 
-/* One turn more, about b: x and dx, c and dc behind it. */
-static void turn(const double b[3], double angle, int column, int index, int columns, chain *by)
+/* One turn more, about b: x[3] and dx[3 x columns], c and dc behind it. */
+static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
+                 chain *by)
 {
     const double tau = 2 * tan(angle / 2), along = vec3_dot(by->c, b), part = 1 - tau * along / 4,
                  stretch = 1 + tau * tau / 4;
-    double crossed[3], skew[9], N[9], *x = by->x[index], *dx = by->dx[index];
+    double crossed[3], skew[9], N[9];
     vec3_cross(by->c, b, crossed);
     cayley_skew(b, skew);
     for (int i = 0; i < 3; i++) {
@@ -108,6 +86,31 @@ static void turn(const double b[3], double angle, int column, int index, int col
     }
 }
 
+/* c of the body: three coordinates, or a sequence of angles. */
+static void begin(const double step[], chain *by, place *p)
+{
+    const int at = by->m->vertex[by->vertex].body;
+    const mesh_vertex *body = &by->m->vertex[at];
+    double b[3][3];
+    for (int i = 0; i < 6; i++)
+        p->measure[i] = body->coordinate[i] != NONE ? step[body->coordinate[i]] : 0;
+    if (body->angles > 0)
+        kinematics_axes(by->m, by->from, at, b);
+    for (int k = 0; k < body->angles; k++) {
+        const double angle = p->measure[SCENE_RX + k];
+        turn(b[k], angle, SCENE_RX + k, by->a[k], by->da[k], p->columns, by);
+        p->measure[SCENE_RX + k] = 2 * tan(angle / 2);
+    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            by->about[3 * i + k] = body->angles == 0 ? i == k : k < body->angles ? by->a[k][i] : 0;
+            if (body->angles > 0)
+                continue;
+            by->c[i] += (i == k) * p->measure[SCENE_RX + k];
+            by->dc[i * p->columns + SCENE_RX + k] = i == k;
+        }
+}
+
 /* All turns that the end keeps to itself. */
 static void turns(const double step[], chain *by, place *p)
 {
@@ -125,7 +128,7 @@ static void turns(const double step[], chain *by, place *p)
     release_turn_axes(by->m, by->from, by->vertex, b);
     for (int k = 0; k < r->turns; k++) {
         p->measure[FIRST_TURN + k] = 2 * tan(step[own[k]] / 2);
-        turn(b[k], step[own[k]], FIRST_TURN + k, k, p->columns, by);
+        turn(b[k], step[own[k]], FIRST_TURN + k, by->x[k], by->dx[k], p->columns, by);
     }
 }
 
@@ -219,6 +222,16 @@ static void turning_rows(const chain *by, const double moment[3], const double d
     }
 }
 
+/* Rows of the angles of the body, whose mean axes turn with those before them: a' . M. */
+static void angle_rows(const chain *by, const double moment[3], place *p)
+{
+    const int n = p->columns, angles = by->m->vertex[by->m->vertex[by->vertex].body].angles;
+    for (int k = 0; k < angles; k++)
+        for (int i = 0; i < 3; i++)
+            for (int c = 0; c < n; c++)
+                p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
+}
+
 /* All rows, by what the chain came to. */
 static void finish(const chain *by, place *p)
 {
@@ -244,6 +257,11 @@ static void finish(const chain *by, place *p)
     add_curved(ball ? one : by->about, dmoment, ball ? FIRST_TURN : 3, n, p);
     if (by->release != NULL && !ball)
         turning_rows(by, moment, dmoment, p);
+    double lever[3];
+    vec3_cross(by->rho, by->F, lever);
+    for (int i = 0; i < 3; i++)
+        lever[i] += ball ? 0 : moment[i];
+    angle_rows(by, lever, p);
 }
 
 void place_of(const conserving *s, const model_state *from, const model_state *now, int vertex,

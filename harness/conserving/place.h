@@ -2,8 +2,8 @@
  * that a released end keeps to itself: exactly, so that forces do the same work on either. With
  * means m of both ends of the step,
  *   beside a body:        dr = dr_b + c x rho_m,   forces f, m + rho_m x f;
- *   about an axis b:      c = tau b,   tau = 2 tan(d angle/2);
- *   released to turn:     c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4)
+ *   by angles, or released to turn, each about b, with tau = 2 tan(d angle/2):
+ *                         c_k = c_(k-1) + tau_k x_k,  x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4)
  *                         with b at the begin: along the mean axis, about which no moment acts;
  *   released to slide:    dr = .. + c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds. */
 #ifndef BEAMWORK_PLACE_H

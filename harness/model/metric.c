@@ -55,17 +55,39 @@ static double turn(const model_state *a, const model_state *b, int vertex)
     return vec3_norm(angle);
 }
 
-double metric_distance(const model *m, const model_state *a, const model_state *b)
+/* |d - P d|^2 */
+static double square_beside(const double d[3], const double P[9])
+{
+    double light[3] = {0, 0, 0}, sum = 0;
+    if (P != NULL)
+        mat3_mul_vec(P, d, light);
+    for (int k = 0; k < 3; k++)
+        sum += (d[k] - light[k]) * (d[k] - light[k]);
+    return sum;
+}
+
+static void in_own_axes(const double q[4], double v[3])
+{
+    double back[4];
+    rotation_conjugate(q, back);
+    rotation_apply(back, v, v);
+}
+
+double metric_distance(const model *m, const model_state *a, const model_state *b,
+                       const double light[])
 {
     double sum = 0;
     for (int i = 0; i < m->vertices; i++) {
+        const double *P = light != NULL && i < m->first_release ? &light[18 * i] : NULL;
+        double d[3], angle[3];
         if (m->vertex[i].body != i)
             continue;
-        const double angle = turn(a, b, i);
-        double d[3];
         for (int k = 0; k < 3; k++)
             d[k] = (b->u[3 * i + k] - a->u[3 * i + k]) / m->size;
-        sum += vec3_dot(d, d) + angle * angle;
+        rotation_between(&a->q[4 * i], &b->q[4 * i], angle);
+        if (P != NULL)
+            in_own_axes(&a->q[4 * i], angle);
+        sum += square_beside(d, P) + square_beside(angle, P != NULL ? P + 9 : NULL);
     }
     return sqrt(sum / moving_bodies(m));
 }

@@ -24,7 +24,7 @@
 #include "harness/solver/history.h"
 #include "harness/solver/newton.h"
 
-enum { MAX_HALVINGS = 12 };
+enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 
 /* Of a step by that of the last one. */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
@@ -50,9 +50,10 @@ typedef struct motion {
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
     int looked_ahead;                                      /* 1: ahead is known */
     account account;
-    double rounding; /* [J] energy that is none */
-    int quiet;       /* steps since what acts was last smooth no longer */
-    int unjudged;    /* steps whose balance was not yet looked at */
+    extent extent, reaches; /* so far; with the step that is tried */
+    double rounding;        /* [J] energy that is none */
+    int quiet;              /* steps since what acts was last smooth no longer */
+    int unjudged;           /* steps whose balance was not yet looked at */
 } motion;
 
 static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
@@ -92,19 +93,38 @@ static status keep_step(motion *w, const step_record *record, double error, int 
     TRY(watches_step(&w->watches, &w->now, &w->next, f));
     TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
     instant_copy(w->c->model, &w->next, &w->now);
+    w->extent = w->reaches;
     TRY(record_step(w, record, error, f));
     return peaks_here(&w->peaks, &w->now, w->balance, last, f);
 }
 
-/* 1: its error allows the step; the next one has the length that this one should have had. */
+/* [s] of the last motion of the scene that goes on from this one. */
+static double end_of_all(const motion *w)
+{
+    const scene *s = w->c->scene;
+    int last = w->analysis;
+    for (int i = last + 1; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION && s->analysis[i].follows == last)
+            last = i;
+    const scene_path *path = scene_path_of(&s->analysis[last]);
+    return path->value[path->stations - 1];
+}
+
+/* 1: its error allows the step; the next one has the length that this one should have had. Where
+ * errors of steps add up to that of the motion, each step has its share by time. */
 static int allowed(motion *w, double step, double error)
 {
+    w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
     if (w->how->tolerance <= 0)
         return 1;
-    const double ratio =
-        safety * pow(w->how->tolerance / larger(error, 1e-300), 1.0 / w->scheme->order);
+    const double part = w->scheme->adds ? step / end_of_all(w) : 1,
+                 most = extent_allows(&w->reaches, part, w->how->tolerance),
+                 order = w->scheme->order - w->scheme->adds,
+                 of = extent_error(&w->reaches, w->scheme, step, error),
+                 ratio = safety * pow(most / larger(of, 1e-300), 1 / order);
     w->h = step * fmin(longer, fmax(shorter, ratio));
-    return error <= w->how->tolerance;
+    w->reaches.worst = fmax(w->reaches.worst, of / part);
+    return of <= most;
 }
 
 /* The first steps behind a jump of what acts make energy by alpha however short they are. */
@@ -216,7 +236,8 @@ static status integrate(motion *w, fault *f)
         TRY(stations_here(&w->stations, &w->now, w->balance, f));
     }
     return resume_keep(w->c, w->analysis, &w->now,
-                       &(resume_control){w->h, w->account, w->out->origin, w->quiet}, w->out, f);
+                       &(resume_control){w->h, w->account, w->out->origin, w->quiet, w->extent},
+                       w->out, f);
 }
 
 /* Where the motion before it stopped; of another scheme or step: in the same scene only. */
@@ -225,13 +246,14 @@ static status go_on(motion *w, fault *f)
     const scene_motion *former = w->from->analysis == w->analysis
                                      ? w->how
                                      : scene_motion_of(&w->c->scene->analysis[w->from->analysis]);
-    resume_control control;
+    resume_control control = {.extent = w->extent};
     TRY(resume_take(w->c, w->from, &w->now, &control, f));
     w->out->origin = control.origin;
     if (former->step == w->how->step && former->tolerance == w->how->tolerance)
         w->h = control.step;
     w->account = control.account;
     w->quiet = control.quiet;
+    w->extent = control.extent;
     return former->scheme != w->how->scheme
                ? launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f)
                : STATUS_OK;
@@ -289,6 +311,7 @@ static status solve(motion *w, fault *f)
     TRY(integrator_alloc(&request, &w->scheme, f));
     TRY(instant_alloc(m, &w->now, f));
     TRY(instant_alloc(m, &w->next, f));
+    TRY(kinematics_state_alloc(m, &w->extent.begin, f));
     w->stations = (stations){.c = w->c,
                              .analysis = w->analysis,
                              .masses = &w->masses,
@@ -311,14 +334,37 @@ static status solve(motion *w, fault *f)
     TRY(frames_alloc(&w->frames, shapes_frames(w->c->options->shapes), f));
     TRY(checks_massless(w->c, &w->masses, w->how, w->now.state, f));
     if (w->from == NULL)
+        kinematics_state_copy(m, w->now.state, w->extent.begin);
+    if (w->from == NULL)
         TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
     TRY(peaks_here(&w->peaks, &w->now, w->balance, 0, f));
     return integrate(w, f);
 }
 
-status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+static void release(motion *w)
 {
+    instant_free(&w->now);
+    instant_free(&w->next);
+    kinematics_state_free(w->extent.begin);
+    watches_end(&w->watches);
+    peaks_end(&w->peaks);
+    stations_free(&w->stations);
+    watches_free(&w->watches);
+    peaks_free(&w->peaks);
+    frames_free(&w->frames);
+    integrator_free(w->scheme);
+    carried_free(&w->masses);
+    work_free(&w->work);
+    damping_end(w->c->model, &w->damping);
+}
+
+/* Once, with a guess of its extent; *again: it was less, and there is a better guess. */
+static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
+                  fault *f)
+{
+    const history_mark begin = history_here(c->result);
+    const counters before = *model_counters(c->model);
     motion w;
     memset(&w, 0, sizeof w);
     w.c = c;
@@ -327,21 +373,37 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     w.analysis = analysis;
     w.follows = c->scene->analysis[analysis].follows;
     w.out = outcome_motion_in(o);
+    w.extent.scale = *scale;
     status result = solve(&w, f);
-    if (result != STATUS_FAULT &&
+    const int went = result == STATUS_OK || result == STATUS_NOT_CONVERGED;
+    *again = went && w.how->tolerance > 0 && w.out->steps > 1 &&
+             extent_is_less(&w.extent, w.how->tolerance, scale);
+    if (result != STATUS_FAULT && !*again &&
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
-    instant_free(&w.now);
-    instant_free(&w.next);
-    watches_end(&w.watches);
-    peaks_end(&w.peaks);
-    stations_free(&w.stations);
-    watches_free(&w.watches);
-    peaks_free(&w.peaks);
-    frames_free(&w.frames);
-    integrator_free(w.scheme);
-    carried_free(&w.masses);
-    work_free(&w.work);
-    damping_end(c->model, &w.damping);
+    release(&w);
+    if (*again) { /* what it cost stays counted; its steps are none of the motion's */
+        history_go_back(c->result, &begin);
+        model_counters(c->model)->steps = before.steps;
+        model_counters(c->model)->rejected_steps = before.rejected_steps;
+    }
     return result;
+}
+
+status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    double scale = 1;
+    for (int pass = 1;; pass++) {
+        int again;
+        const status result = run(c, analysis, &scale, &again, o, f);
+        if (!again)
+            return result;
+        if (pass == MAX_PASSES)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "the largest motion is not known after it was integrated %d times: "
+                             "give a step",
+                             pass);
+        outcome_free(o);
+        *o = (analysis_outcome){.kind = SCENE_MOTION};
+    }
 }

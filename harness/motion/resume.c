@@ -27,16 +27,18 @@ static void measure(const model *m, const instant *now, outcome_end *out)
 }
 
 /* Where the parts of an instant lie among the numbers of an end, and how many each has. */
-enum { PARTS = 6 };
+enum { PARTS = 7 };
 typedef struct part {
     double *of;
     size_t count;
 } part;
-static void parts_of(const instant *now, const outcome_end *e, part out[PARTS])
+static void parts_of(const instant *now, const extent *so_far, const outcome_end *e,
+                     part out[PARTS])
 {
-    const part list[PARTS] = {{now->state->block, e->states}, {now->v, e->coordinates},
-                              {now->a, e->coordinates},       {now->algorithm, e->coordinates},
-                              {now->strain, 2 * e->strains},  {now->ends, e->released}};
+    const part list[PARTS] = {{now->state->block, e->states},   {so_far->begin->block, e->states},
+                              {now->v, e->coordinates},         {now->a, e->coordinates},
+                              {now->algorithm, e->coordinates}, {now->strain, 2 * e->strains},
+                              {now->ends, e->released}};
     memcpy(out, list, sizeof list);
 }
 
@@ -52,6 +54,10 @@ static status copy(const model *m, int analysis, const instant *now, const resum
                          .dissipated = now->dissipated,
                          .largest = control->account.largest,
                          .turned = control->account.turned,
+                         .scale = control->extent.scale,
+                         .extent = control->extent.largest,
+                         .rate = control->extent.rate,
+                         .density = control->extent.density,
                          .origin = control->origin,
                          .stress = now->stress,
                          .contraction = now->contraction,
@@ -61,7 +67,7 @@ static status copy(const model *m, int analysis, const instant *now, const resum
     if (out->value == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the end of a motion");
     double *to = out->value;
-    parts_of(now, out, of);
+    parts_of(now, &control->extent, out, of);
     for (int i = 0; i < PARTS; i++)
         if (of[i].count > 0) {
             memcpy(to, of[i].of, of[i].count * sizeof *to);
@@ -118,7 +124,7 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
                          "take its formulation and elements",
                          e->states, here.states);
     const double *from = e->value;
-    parts_of(now, e, of);
+    parts_of(now, &control->extent, e, of);
     for (int i = 0; i < PARTS; i++)
         if (of[i].count > 0) {
             memcpy(of[i].of, from, of[i].count * sizeof *from);
@@ -132,6 +138,11 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     now->dissipated = e->dissipated;
     now->stress = e->stress;
     now->contraction = e->contraction;
-    *control = (resume_control){e->step, {e->largest, e->turned, e->work}, e->origin, e->quiet};
+    *control =
+        (resume_control){e->step,
+                         {e->largest, e->turned, e->work},
+                         e->origin,
+                         e->quiet,
+                         {control->extent.begin, e->scale, e->extent, e->rate, e->density, 0}};
     return STATUS_OK;
 }

@@ -3,6 +3,7 @@
 #define BEAMWORK_RESUME_H
 
 #include "harness/motion/account.h"
+#include "harness/motion/extent.h"
 #include "harness/scheme/instant.h"
 #include "harness/solver/context.h"
 
@@ -12,6 +13,7 @@ typedef struct resume_control {
     account account;
     double origin; /* [J] energy at the begin */
     int quiet;     /* steps since what acts was last smooth no longer */
+    extent extent;
 } resume_control;
 
 /* For a motion of the scene that goes on from this one, or, of the last one, for another run

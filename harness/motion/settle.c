@@ -13,6 +13,8 @@
 #include "harness/scheme/damping.h"
 #include "harness/scheme/massless.h"
 #include "harness/scheme/stage.h"
+#include "harness/solver/history.h"
+#include "harness/solver/newton.h"
 
 /* Stiffness that holds what has inertia, in parts of the largest of its own: no more is lost of
  * that of the rest, no more of Newton's order is either. */
@@ -40,47 +42,57 @@ static status forces(stage *s, instant *now, sparse *K, fault *f)
     return STATUS_OK;
 }
 
-static status improve(stage *s, const double zero[], instant *now, double *b, double moved[],
-                      advance_stress *stress, double *correction, fault *f)
+/* What an iteration works on. */
+typedef struct solution {
+    stage *s;
+    const double *zero;
+    instant *now;
+    double b, *moved;
+} solution;
+
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
 {
+    solution *one = of;
+    stage *s = one->s;
+    instant *now = one->now;
     model *m = s->c->model;
+    (void)iteration;
+    (void)record;
     TRY(forces(s, now, &s->S, f));
-    if (*b == 0) {
-        TRY(massless_stiffest(m, s->masses, now->state, diagonal_of(&s->S, s->dx), b, f));
-        *b *= firm;
+    if (one->b == 0) {
+        TRY(massless_stiffest(m, s->masses, now->state, diagonal_of(&s->S, s->dx), &one->b, f));
+        one->b *= firm;
     }
-    const inertia_relation with = {*b, 0, zero};
+    const inertia_relation with = {one->b, 0, one->zero};
     inertia_add_tangent(m, s->masses, now->state, now->v, now->a, &with, &s->S);
     TRY(massless_forces(m, s->masses, now->state, s->residual, f));
     TRY(stage_direction(s, 1, f));
     TRY(massless_motion(m, s->masses, now->state, s->dx, f));
     for (int c = 0; c < s->free; c++)
-        moved[c] += s->dx[c];
-    *correction = advance_state(m, now->state, s->dx, now->time, stress);
-    m->counters.iterations++;
+        one->moved[c] += s->dx[c];
+    out->at = now->time;
+    out->size = advance_state(m, now->state, s->dx, now->time, &out->stress);
     return STATUS_OK;
 }
 
 static status balance(stage *s, const double zero[], instant *now, double moved[], fault *f)
 {
-    const double wild = 4;
-    double b = 0, correction;
+    solution one = {s, zero, now, 0, moved};
+    step_record record = {.path = now->time};
+    const newton_use use = newton_in_time(s->c, &one, correct, NULL);
     instant_recall(now, &s->arrival);
-    for (int iteration = 1;; iteration++) {
-        advance_stress stress;
-        TRY(improve(s, zero, now, &b, moved, &stress, &correction, f));
-        arrival_take(correction, &stress, iteration == 1, &s->arrival);
-        if (arrival_reached(&s->arrival))
-            break;
-        if (!(correction < wild) || iteration == s->max_iterations)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "at %g s what has no inertia comes into no balance with loads and "
-                             "gyroscopic moments (correction %.1e in iteration %d): give it "
-                             "inertia, or less spin",
-                             now->time, correction, iteration);
-    }
-    instant_remember(&s->arrival, now);
-    return STATUS_OK;
+    const status outcome = newton_iterate(s->c, &use, &s->arrival, &record, f);
+    history_drop_step(s->c->result, &record);
+    if (outcome == STATUS_NOT_CONVERGED)
+        return fault_set(f, outcome,
+                         "at %g s what has no inertia comes into no balance with loads and "
+                         "gyroscopic moments (correction %.1e in iteration %d): give it "
+                         "inertia, or less spin",
+                         now->time, record.correction, record.iterations);
+    if (outcome == STATUS_OK)
+        instant_remember(&s->arrival, now);
+    return outcome;
 }
 
 /* Nodes of elements that are damped for long, against a step h: what of them has no inertia comes

@@ -15,64 +15,56 @@
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
 #include "harness/scheme/stage.h"
-#include "harness/solver/history.h"
+#include "harness/solver/newton.h"
 
-enum { MAX_ITERATIONS = 15 };
+/* What an iteration of the stages works on. */
+typedef struct solution {
+    radau *r;
+    const instant *from;
+    double h;
+} solution;
 
-static double advance(radau *r, const instant *from, double h, const step_record *record,
-                      advance_stress *stress)
+static void advance(const solution *of, const step_record *record, newton_correction *out)
 {
+    radau *r = of->r;
     model *m = r->of.c->model;
-    double largest = 0;
-    *stress = (advance_stress){0, 0};
     for (int i = 0; i < STAGES; i++) {
         radau_stage *one = &r->stage[i];
-        advance_stress of;
+        const double time = radau_time(r, of->from, of->h, i, record);
+        advance_stress stress;
         memset(r->dx, 0, (size_t)r->all * sizeof *r->dx);
         memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
         m->work = one->work;
         increment_add(m, one->state, r->dx, one->inc);
         complement_keep(one->complement, one->state);
-        largest = larger(
-            largest, advance_state(m, one->state, r->dx, radau_time(r, from, h, i, record), &of));
-        stress->largest = fmax(stress->largest, of.largest);
-        stress->change = fmax(stress->change, of.change);
+        out->size = larger(out->size, advance_state(m, one->state, r->dx, time, &stress));
+        out->stress.largest = fmax(out->stress.largest, stress.largest);
+        out->stress.change = fmax(out->stress.change, stress.change);
     }
-    return largest;
 }
 
-static status iterate(radau *r, const instant *from, double h, step_record *record, fault *f)
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
 {
-    const double wild = 4;
-    for (int iteration = 1;; iteration++) {
-        advance_stress stress;
-        const int fresh = iteration == 1 || !stage_stands(&r->arrival);
-        TRY(radau_equations(r, fresh, from, h, record, f));
-        if (fresh)
-            TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
-        factor_solve(r->factor, r->residual);
-        context_count_solution(r->of.c, r->factor, fresh, &r->counted);
-        const double correction = advance(r, from, h, record, &stress);
-        radau_rates(r, from, h);
-        model_counters(r->of.c->model)->iterations++;
-        arrival_take(correction, &stress, iteration == 1, &r->arrival);
-        const iteration_record one = {.correction = correction,
-                                      .incompatibility = record->incompatibility};
-        record->remaining = r->arrival.remaining;
-        TRY(history_add_iteration(r->of.c->result, record, &one, NAN, f));
-        if (arrival_reached(&r->arrival))
-            return STATUS_OK;
-        if (!isfinite(correction) || correction > 4 * wild || (iteration > 3 && correction > wild))
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "Newton diverged at %g s: correction %.1e in iteration %d",
-                             from->time + h, correction, iteration);
-        if (iteration == MAX_ITERATIONS)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "Newton did not converge in %d iterations at %g s: correction %.1e",
-                             iteration, from->time + h, correction);
-        for (int i = 0; i < STAGES; i++)
-            complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
-    }
+    const solution *one = of;
+    radau *r = one->r;
+    const int fresh = iteration == 1 || !stage_stands(&r->arrival);
+    TRY(radau_equations(r, fresh, one->from, one->h, record, f));
+    if (fresh)
+        TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
+    factor_solve(r->factor, r->residual);
+    context_count_solution(r->of.c, r->factor, fresh, &r->counted);
+    advance(one, record, out);
+    out->at = one->from->time + one->h;
+    radau_rates(r, one->from, one->h);
+    return STATUS_OK;
+}
+
+static void prepare(void *of, int iteration, double correction)
+{
+    radau *r = ((const solution *)of)->r;
+    for (int i = 0; i < STAGES; i++)
+        complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
 }
 
 /* The power of the stages by the quadrature of the scheme. */
@@ -103,7 +95,9 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     }
     radau_rates(r, from, h);
     instant_recall(from, &r->arrival);
-    TRY(iterate(r, from, h, record, f));
+    solution one = {r, from, h};
+    const newton_use use = newton_in_time(r->of.c, &one, correct, prepare);
+    TRY(newton_iterate(r->of.c, &use, &r->arrival, record, f));
     instant_remember(&r->arrival, to);
     const radau_stage *last = &r->stage[STAGES - 1];
     if (r->of.estimate)

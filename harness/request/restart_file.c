@@ -11,8 +11,8 @@
 #include "harness/truth/checksum.h"
 #include "harness/truth/handles.h"
 
-static const char kind[] = "beamwork-motion-end-3";
-enum { RUN = 3, NUMBERS = 17, MOST_ENDS = 1000 };
+static const char kind[] = "beamwork-motion-end-4";
+enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };
 
 static void to_numbers(const outcome_end *e, double out[NUMBERS])
 {
@@ -32,7 +32,11 @@ static void to_numbers(const outcome_end *e, double out[NUMBERS])
                                   (double)e->strains,
                                   (double)e->released,
                                   (double)e->between,
-                                  e->turned};
+                                  e->turned,
+                                  e->extent,
+                                  e->rate,
+                                  e->density,
+                                  e->scale};
     memcpy(out, list, sizeof list);
 }
 
@@ -54,7 +58,11 @@ static void of_numbers(const double in[NUMBERS], outcome_end *e)
                        .strains = (size_t)in[13],
                        .released = (size_t)in[14],
                        .between = (size_t)in[15],
-                       .turned = in[16]};
+                       .turned = in[16],
+                       .extent = in[17],
+                       .rate = in[18],
+                       .density = in[19],
+                       .scale = in[20]};
 }
 
 static void put_values(record *r, const char *name, size_t count, const double value[])
@@ -161,7 +169,7 @@ static status read_end(const source *from, int i, outcome_end *out, fault *f)
     double *numbers = take_values(from, name, NUMBERS);
     int good = numbers != NULL && whole(numbers[0], MOST_ENDS) && whole(numbers[10], 1e9) &&
                isfinite(numbers[1]) && numbers[2] > 0 && isfinite(numbers[2]);
-    for (int k = 11; good && k < NUMBERS - 1; k++)
+    for (int k = FIRST_COUNT; good && k < FIRST_COUNT + COUNTS; k++)
         good = whole(numbers[k], 1e12);
     if (good) {
         of_numbers(numbers, out);

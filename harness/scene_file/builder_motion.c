@@ -14,8 +14,9 @@ int builder_about(const fields *f, int index)
     return follows < index ? follows : SCENE_NONE;
 }
 
-/* Where neither a step nor a tolerance is given; of the last station. */
-static const double usual_tolerance = 1e-4, usual_step = 1e-3;
+/* Where neither a step nor a tolerance is given: 0.1 % of the motion. The step is of the last
+ * station. */
+static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
 /* A number of one parameter set of alpha, between two. */
 static double between(const fields *f, const char *key, double otherwise, double least, double most,
@@ -42,16 +43,26 @@ static scene_alpha alpha_of(const fields *f)
     return scene_alpha_of_radius(between(f, "rho", 0.9, 0, 1, "a spectral radius from 0 to 1"));
 }
 
+static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
+
+/* Without an integrator: by a parameter that no other one has, or by steps that are all alike. */
+static int asks_for_alpha(const fields *f)
+{
+    int asks = fields_have(f, "step") && !fields_have(f, "tolerance");
+    for (int i = 0; i < 4; i++)
+        asks |= fields_have(f, of_alpha[i]);
+    return asks;
+}
+
 /* Parameters of alpha that another integrator does not have, unless that is a parameter's choice.
  */
 static void check_parameters(const fields *f, scene_scheme scheme)
 {
-    static const char *const key[] = {"rho", "hht", "trapezoidal", "parameters"};
     const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
     for (int i = 0; i < 4 && scheme != SCENE_ALPHA && !chosen; i++)
-        if (fields_have(f, key[i]))
-            document_mistake(f->b->mistakes, document_find(f->map, key[i]), 0,
-                             "%s is of the integrator alpha; leave it out", key[i]);
+        if (fields_have(f, of_alpha[i]))
+            document_mistake(f->b->mistakes, document_find(f->map, of_alpha[i]), 0,
+                             "%s is of the integrator alpha; leave it out", of_alpha[i]);
 }
 
 /* Parameter sets of alpha have names of their own where integrators are compared (motion -u). */
@@ -67,7 +78,8 @@ static scene_scheme scheme_of(const fields *f)
                              given, set[i][1]);
             return SCENE_ALPHA;
         }
-    return (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES, SCENE_ALPHA);
+    return (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES,
+                                     asks_for_alpha(f) ? SCENE_ALPHA : SCENE_RADAU);
 }
 
 static double last_of(int count, const double value[])
@@ -78,7 +90,8 @@ static double last_of(int count, const double value[])
 static void read_steps(const fields *f, double last, scene_motion *how)
 {
     const int steps = fields_have(f, "step");
-    how->tolerance = fields_number(f, "tolerance", steps ? 0 : usual_tolerance);
+    const double usual = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
+    how->tolerance = fields_number(f, "tolerance", steps ? 0 : usual);
     how->step = fields_number(f, "step", usual_step * last);
     if (!steps && how->tolerance == 0)
         document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,

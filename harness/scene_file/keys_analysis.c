@@ -84,13 +84,18 @@ static const scene_key start[] = {{"velocity", KEY_VECTOR, .count = 3, .unit = "
 static const scene_key in_time[] = {
     {"stations", KEY_NUMBERS, .needed = 1, .unit = "s",
      .summary = "instants at which quantities are read, ascending; it begins at 0"},
-    {"integrator", KEY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method", .usual = "alpha"},
+    {"integrator", KEY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method",
+     .left_out = "alpha where there is one of its parameters, or a step without a tolerance; else "
+                 "radau"},
     {"step", KEY_NUMBER, .unit = "s",
      .summary = "of the integration; with a tolerance the first one",
      .left_out = "1/1000 of the last station"},
     {"tolerance", KEY_NUMBER,
-     .summary = "of the error of a step, relative to the size; 0: all steps are alike",
-     .left_out = "0 where there is a step, else 1e-4"},
+     .summary = "of the error of time, relative to the largest motion so far (at most the size of "
+                "the structure): by alpha and conserving of all steps together, each has its share "
+                "by its length, by radau of the estimate of one step, which is far above its "
+                "error; 0: all steps are alike",
+     .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion"},
     {"rho", KEY_NUMBER, .group = 1,
      .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved",
      .usual = "0.9"},

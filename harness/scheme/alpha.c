@@ -49,6 +49,7 @@ static status error_of(alpha *s, const instant *from, const instant *to, double 
     double *one = s->v0;
     if (!s->massive.ready)
         TRY(massive_of(m, s->stage.masses, from->state, &s->massive, f));
+    s->base.light = s->massive.light;
     for (int i = 0; i < s->stage.free; i++)
         one[i] = part * (to->algorithm[i] - from->algorithm[i]);
     *error = massive_norm(&s->massive, m, s->weight, one);
@@ -154,7 +155,7 @@ status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
-    *s = (alpha){.base = {.order = 3, .step = step, .free = release},
+    *s = (alpha){.base = {.order = 3, .adds = 1, .step = step, .free = release},
                  .work = request->work,
                  .strains = damping_acts(request->c->scene)
                                 ? (size_t)size.elements * (size_t)size.strains

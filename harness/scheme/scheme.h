@@ -18,6 +18,10 @@ typedef struct scheme_request {
 typedef struct scheme scheme;
 struct scheme {
     int order;             /* of the error of one step that is estimated, in its size */
+    int adds;              /* 1: the estimates add up to the error of the motion; 0: they are of a
+                              lower order and far above it */
+    const double *light;   /* what has no inertia and is in no error: metric_distance; NULL: none,
+                              or not known before the first step */
     between_degree degree; /* inside a step; quintic: accelerations are as exact as rates */
     /* One step of h [s]; *error: estimate of what it adds to positions, in the measure of
      * metric.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */

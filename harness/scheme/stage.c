@@ -11,9 +11,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/scheme/complement.h"
 #include "harness/scheme/kinks.h"
-#include "harness/solver/history.h"
-
-enum { MAX_ITERATIONS = 20 };
+#include "harness/solver/newton.h"
 
 status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *f)
 {
@@ -25,8 +23,6 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     s->masses = masses;
     s->free = size.free;
     s->all = size.free + size.driven;
-    s->max_iterations =
-        c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     arrival_start(c->options->criterion, model_leaves(c->model) != 0, size.elements, &s->arrival);
     s->residual = calloc(all, sizeof *s->residual);
     s->dx = calloc(all, sizeof *s->dx);
@@ -93,50 +89,43 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
     return stage_direction(s, fresh, f);
 }
 
-static status judge(const stage *s, double time, double correction, double before, int iteration,
-                    int *done, fault *f)
+/* What an iteration of a stage works on. */
+typedef struct solution {
+    stage *s;
+    const model_state *from;
+    double time;
+    stage_rates *r;
+    model_state *now;
+} solution;
+
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
 {
-    const double wild = 4;
-    *done = arrival_reached(&s->arrival);
-    if (*done)
-        return STATUS_OK;
-    if (!isfinite(correction) || correction > 4 * wild || (iteration > 3 && correction > wild) ||
-        (iteration > 4 && correction > before && correction > 1e-6))
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "Newton diverged at %g s: correction %.1e in iteration %d", time,
-                         correction, iteration);
-    if (iteration == s->max_iterations)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "Newton did not converge in %d iterations at %g s: correction %.1e",
-                         iteration, time, correction);
+    const solution *one = of;
+    stage *s = one->s;
+    model *m = s->c->model;
+    const int fresh = iteration == 1 || !stage_stands(&s->arrival);
+    TRY(direction(s, fresh, one->time, one->r, one->now, record, f));
+    increment_add(m, one->now, s->dx, one->r->inc);
+    complement_keep(s->complement, one->now);
+    out->at = one->time;
+    out->size = advance_state(m, one->now, s->dx, one->time, &out->stress);
+    rates_of(s, one->r);
     return STATUS_OK;
+}
+
+static void prepare(void *of, int iteration, double correction)
+{
+    const solution *one = of;
+    complement_strains(one->s->complement, one->now, iteration, correction);
 }
 
 status stage_solve(stage *s, const model_state *from, double time, stage_rates *r, model_state *now,
                    step_record *record, fault *f)
 {
-    model *m = s->c->model;
-    double before = INFINITY;
-    increment_apply(m, from, r->inc, time, now);
+    solution one = {s, from, time, r, now};
+    const newton_use use = newton_in_time(s->c, &one, correct, prepare);
+    increment_apply(s->c->model, from, r->inc, time, now);
     rates_of(s, r);
-    for (int iteration = 1, done = 0; !done; iteration++) {
-        advance_stress stress;
-        const int fresh = iteration == 1 || !stage_stands(&s->arrival);
-        TRY(direction(s, fresh, time, r, now, record, f));
-        increment_add(m, now, s->dx, r->inc);
-        complement_keep(s->complement, now);
-        const double correction = advance_state(m, now, s->dx, time, &stress);
-        rates_of(s, r);
-        model_counters(m)->iterations++;
-        arrival_take(correction, &stress, iteration == 1, &s->arrival);
-        const iteration_record one = {.correction = correction,
-                                      .incompatibility = record->incompatibility};
-        record->remaining = s->arrival.remaining;
-        TRY(history_add_iteration(s->c->result, record, &one, NAN, f));
-        TRY(judge(s, time, correction, before, iteration, &done, f));
-        if (!done)
-            complement_strains(s->complement, now, iteration, correction);
-        before = correction;
-    }
-    return STATUS_OK;
+    return newton_iterate(s->c, &use, &s->arrival, record, f);
 }

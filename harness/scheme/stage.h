@@ -25,7 +25,7 @@ typedef struct stage {
     double *residual, *dx; /* [free + driven] */
     arrival arrival;
     complement *complement;
-    int max_iterations, all, free;
+    int all, free;
     int begins; /* 1: at a kink what acts behind it counts, 0: what acts before */
     long counted;
 } stage;

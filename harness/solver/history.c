@@ -30,6 +30,19 @@ void history_drop_step(solve_result *r, const step_record *step)
         r->iterations = step->first;
 }
 
+history_mark history_here(const solve_result *r)
+{
+    return (history_mark){r->steps, r->iterations, r->ends};
+}
+
+void history_go_back(solve_result *r, const history_mark *mark)
+{
+    while (r->ends > mark->ends)
+        outcome_end_free(&r->end[--r->ends]);
+    r->steps = mark->steps;
+    r->iterations = mark->iterations;
+}
+
 status history_add_step(solve_result *r, const step_record *record, fault *f)
 {
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);

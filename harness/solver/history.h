@@ -22,6 +22,12 @@ status history_add_step(solve_result *, const step_record *, fault *);
 /* path: parameter of the state that it starts from; NAN: it has none. */
 status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
                           fault *);
+/* What is there so far; what was added since then is forgotten. */
+typedef struct history_mark {
+    int steps, iterations, ends;
+} history_mark;
+history_mark history_here(const solve_result *);
+void history_go_back(solve_result *, const history_mark *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
 #endif

@@ -249,31 +249,28 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     return outcome;
 }
 
-status newton_advance(newton *n, double path, double *correction, step_record *record, fault *f)
+void newton_advance(newton *n, double path, newton_correction *out)
 {
-    advance_stress stress;
     phases_start(model_phases(n->c->model));
-    *correction = advance_state(n->c->model, n->state, n->dx, path, &stress);
+    out->size = advance_state(n->c->model, n->state, n->dx, path, &out->stress);
     phases_stop(model_phases(n->c->model));
-    model_counters(n->c->model)->iterations++;
-    arrival_take(*correction, &stress, record->iterations == 0, &n->arrival);
-    const iteration_record one = {.correction = *correction,
-                                  .incompatibility = record->incompatibility};
-    record->remaining = n->arrival.remaining;
-    TRY(history_add_iteration(n->c->result, record, &one, n->energy, f));
-    return isfinite(*correction)
-               ? STATUS_OK
-               : fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
+    out->at = path;
+    out->energy = n->energy;
+}
+
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
+{
+    (void)iteration;
+    newton *n = of;
+    TRY(newton_direction(n, n->path, record, f));
+    newton_advance(n, n->path, out);
+    return STATUS_OK;
 }
 
 status newton_to(newton *n, double path, step_record *record, fault *f)
 {
-    newton_watch watch = newton_watch_start;
-    for (int done = 0; !done;) {
-        double correction = 0;
-        TRY(newton_direction(n, path, record, f));
-        TRY(newton_advance(n, path, &correction, record, f));
-        TRY(newton_judge(n, &watch, path, correction, &done, f));
-    }
-    return STATUS_OK;
+    newton_use use = newton_on_path(n, n, correct);
+    n->path = path;
+    return newton_iterate(n->c, &use, &n->arrival, record, f);
 }

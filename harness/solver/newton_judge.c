@@ -1,6 +1,7 @@
 /* Whether a step has ended, goes on or leads nowhere; whether the state it ends in is one that the
  * formulation follows. */
 #include <math.h>
+#include <stdio.h>
 
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
@@ -9,6 +10,7 @@
 #include "harness/model/model_impl.h"
 #include "harness/model/release.h"
 #include "harness/model/turns.h"
+#include "harness/solver/history.h"
 #include "harness/solver/newton.h"
 
 static status judge_twist(const model *m, const model_state *s, fault *f)
@@ -171,33 +173,102 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
     return STATUS_OK;
 }
 
-status newton_judge(const newton *n, newton_watch *w, double path, double correction, int *done,
-                    fault *f)
+/* Of the corrections of one step. */
+typedef struct watch {
+    double last, first, largest; /* the largest behind the first */
+    int growing;                 /* so many after another */
+} watch;
+
+/* Limits of all iterations: a correction of several radians or lengths leads nowhere, nor do those
+ * that grow again and again. */
+static const double wild = 4, wild_at_first = 16;
+enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
+
+static status give_up(const newton_use *use, const newton_correction *one, const char *why,
+                      int iteration, fault *f)
 {
-    const double wild = 4; /* a correction of several radians or lengths leads nowhere */
-    const double astray = 0.5, behind_first = 2;
-    *done = arrival_reached(&n->arrival);
-    w->first = w->iteration == 0 ? correction : w->first;
-    w->largest = w->iteration == 0 ? 0 : fmax(w->largest, correction);
-    if (*done) {
-        TRY(newton_accept(n->c->model, n->backup, n->state, f));
-        if (w->largest > astray && w->largest > behind_first * w->first)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "at path %g Newton strayed by %.2g rad or lengths and may have found "
-                             "another equilibrium: use smaller steps, or follow a continuation",
-                             path, w->largest);
-        return STATUS_OK;
-    }
-    w->growing = correction > w->last && w->iteration > 1 ? w->growing + 1 : 0;
+    char at[40];
+    snprintf(at, sizeof at, use->on == NULL ? "%g s" : "path %g", one->at);
+    return fault_set(f, STATUS_NOT_CONVERGED, "Newton %s at %s: correction %.1e in iteration %d",
+                     why, at, one->size, iteration);
+}
+
+static void take(watch *w, double correction, int iteration)
+{
+    if (iteration == 1)
+        w->first = correction;
+    else
+        w->largest = fmax(w->largest, correction);
+    w->growing = correction > w->last && iteration > 2 ? w->growing + 1 : 0;
     w->last = correction;
-    w->iteration++;
-    if (correction > wild * 4 || (w->iteration > 3 && correction > wild) || w->growing >= 4)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "Newton diverged at path %g: correction %.1e in iteration %d", path,
-                         correction, w->iteration);
-    if (w->iteration == n->max_iterations)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "Newton did not converge in %d iterations at path %g: correction %.1e",
-                         n->max_iterations, path, correction);
-    return STATUS_OK;
+}
+
+static status judge(const newton_use *use, const watch *w, const newton_correction *one,
+                    int iteration, fault *f)
+{
+    if (!isfinite(w->last))
+        return fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
+    if (w->last > wild_at_first || (iteration > AT_FIRST && w->last > wild) ||
+        w->growing >= GROWING)
+        return give_up(use, one, "diverged", iteration, f);
+    return iteration == use->most ? give_up(use, one, "did not converge", iteration, f) : STATUS_OK;
+}
+
+static status judge_strayed(const newton_use *use, const watch *w, double path, fault *f)
+{
+    const double astray = 0.5, behind_first = 2;
+    if (use->on == NULL || w->largest <= astray || w->largest <= behind_first * w->first)
+        return STATUS_OK;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "at path %g Newton strayed by %.2g rad or lengths and may have found another "
+                     "equilibrium: use smaller steps, or follow a continuation",
+                     path, w->largest);
+}
+
+static status accept(const newton_use *use, fault *f)
+{
+    if (use->on != NULL)
+        TRY(newton_accept(use->on->c->model, use->on->backup, use->on->state, f));
+    return use->accept != NULL ? use->accept(use->of, f) : STATUS_OK;
+}
+
+newton_use newton_on_path(newton *n, void *of,
+                          status (*correct)(void *, int, newton_correction *, step_record *,
+                                            fault *))
+{
+    return (newton_use){.of = of, .on = n, .most = n->max_iterations, .correct = correct};
+}
+
+newton_use newton_in_time(const analysis_context *c, void *of,
+                          status (*correct)(void *, int, newton_correction *, step_record *,
+                                            fault *),
+                          void (*prepare)(void *, int, double))
+{
+    const int asked = c->options->max_iterations;
+    return (newton_use){
+        .of = of, .most = asked > 0 ? asked : MOST_IN_TIME, .correct = correct, .prepare = prepare};
+}
+
+status newton_iterate(analysis_context *c, const newton_use *use, arrival *a, step_record *record,
+                      fault *f)
+{
+    watch w = {INFINITY, INFINITY, 0, 0};
+    for (int iteration = 1;; iteration++) {
+        newton_correction one = {.energy = NAN};
+        TRY(use->correct(use->of, iteration, &one, record, f));
+        model_counters(c->model)->iterations++;
+        arrival_take(one.size, &one.stress, iteration == 1, a);
+        record->remaining = a->remaining;
+        const iteration_record kept = {.correction = one.size,
+                                       .incompatibility = record->incompatibility};
+        TRY(history_add_iteration(c->result, record, &kept, one.energy, f));
+        take(&w, one.size, iteration);
+        if (arrival_reached(a) && iteration >= use->least) {
+            TRY(accept(use, f));
+            return judge_strayed(use, &w, one.at, f);
+        }
+        TRY(judge(use, &w, &one, iteration, f));
+        if (use->prepare != NULL)
+            use->prepare(use->of, iteration, one.size);
+    }
 }

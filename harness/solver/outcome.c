@@ -130,7 +130,7 @@ outcome_path *outcome_walk(analysis_outcome *o)
 
 size_t outcome_end_values(const outcome_end *e)
 {
-    return e->states + 3 * e->coordinates + 2 * e->strains + e->released + 5 * e->between;
+    return 2 * e->states + 3 * e->coordinates + 2 * e->strains + e->released + 5 * e->between;
 }
 
 void outcome_end_free(outcome_end *e)

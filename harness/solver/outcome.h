@@ -90,19 +90,20 @@ typedef struct outcome_step {
 
 /* Where a motion stopped: all that one needs which goes on from there. */
 typedef struct outcome_end {
-    int analysis;               /* of the scene */
-    double time, step;          /* [s] step: the next one */
-    double path;                /* of the state */
-    double work, dissipated;    /* [J] since the begin */
-    double largest, origin;     /* [J] largest energy so far; that of the begin */
-    double turned;              /* [J] sum of the work of all steps, whatever their signs */
-    double stress, contraction; /* of arrival.h */
-    int quiet;                  /* steps since what acts was last smooth no longer */
+    int analysis;            /* of the scene */
+    double time, step;       /* [s] step: the next one */
+    double path;             /* of the state */
+    double work, dissipated; /* [J] since the begin */
+    double largest, origin;  /* [J] largest energy so far; that of the begin */
+    double turned;           /* [J] sum of the work of all steps, whatever their signs */
+    double scale, extent, rate, density; /* of extent.h */
+    double stress, contraction;          /* of arrival.h */
+    int quiet;                           /* steps since what acts was last smooth no longer */
     size_t states, coordinates, strains, released, between;
-    double *value; /* [states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
-                      state; rates, their derivatives, and what generalized-alpha has of these;
-                      rates of damped strains and their derivatives; rates of released ends as
-                      conserving steps have them; turns of nodes against others (turns.h) */
+    double *value; /* [2 states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
+                      state; that of the begin; rates, their derivatives, and what generalized-alpha
+                      has of these; rates of damped strains and their derivatives; rates of released
+                      ends as conserving steps have them; turns of nodes against others (turns.h) */
 } outcome_end;
 /* How many numbers `value` has. */
 size_t outcome_end_values(const outcome_end *);

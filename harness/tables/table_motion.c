@@ -4,6 +4,7 @@
 
 #include "cases/scene/along_path.h"
 #include "cases/scene/names.h"
+#include "harness/catalogue/choice.h"
 #include "harness/motion/account.h"
 #include "harness/tables/paragraph.h"
 
@@ -21,9 +22,23 @@ static double length_at(const motion_record *r, int of)
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* `end`: the last instant that is asked for. */
-static void steps_line(FILE *to, const extent *e, double end)
+/* By what, and how well. */
+static void method(FILE *to, const scene_motion *how)
 {
+    char name[SCENE_NAME];
+    choice_name(SCENE_SCHEME_CHOICES, how->scheme, name, sizeof name);
+    fprintf(to, " by %s", name);
+    if (how->tolerance <= 0)
+        fputs(", whose error of time nothing bounds", to);
+    else if (how->scheme == SCENE_RADAU)
+        fprintf(to, ", each step to %g of the largest motion", how->tolerance);
+    else
+        fprintf(to, " to %g of the largest motion", how->tolerance);
+}
+
+static void steps_line(FILE *to, const extent *e, const scene_motion *how)
+{
+    const double end = how->path.value[how->path.stations - 1];
     const outcome_step *begin = &e->record[e->first].at, *last = &e->record[e->end - 1].at;
     const int steps = e->end - e->first - 1;
     double least = INFINITY, largest = 0;
@@ -40,7 +55,9 @@ static void steps_line(FILE *to, const extent *e, double end)
     const int at = fprintf(to, "motion: ");
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
-    fprintf(text, "%g to %g s in %d step%s", begin->time, last->time, steps, steps == 1 ? "" : "s");
+    fprintf(text, "%g to %g s", begin->time, last->time);
+    method(text, how);
+    fprintf(text, "; %d step%s", steps, steps == 1 ? "" : "s");
     if (steps > 0 && largest - least <= 1e-9 * largest)
         fprintf(text, " of %.4g s", largest);
     else if (steps > 0)
@@ -156,8 +173,7 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
         while (e.end < r->motions && r->motion[e.end].analysis == r->motion[e.first].analysis)
             e.end++;
         const int analysis = r->motion[e.first].analysis;
-        const scene_path *path = &s->analysis[analysis].of.motion.path;
-        steps_line(to, &e, path->value[path->stations - 1]);
+        steps_line(to, &e, scene_motion_of(&s->analysis[analysis]));
         jump_lines(to, s, r->motion[e.first].path);
         energy_line(to, &e);
         damping_line(to, &e);

@@ -1,6 +1,6 @@
 /* Rotations without inertia with the conserving scheme: what is kept is kept, their rates follow
- * the motion instead of changing their signs, and a scene where nothing that turns has inertia is
- * refused, as are several angles of a node. */
+ * the motion instead of changing their signs, a node turns by several angles; a scene where nothing
+ * that turns has inertia is refused, as is a node that turns by two free angles. */
 #include <stdio.h>
 
 #include "cases/shared/timed.h"
@@ -33,8 +33,10 @@ static status build(const double value[], scene *s, fault *f)
         scene_node *n = scene_node_at(s, A);
         scene_hold(s, A, SCENE_UX, SCENE_UZ);
         n->rotation = SCENE_ROTATION_SEQUENCE;
-        n->axis[0][0] = n->axis[1][1] = 1;
-        n->angle[0] = n->angle[1] = SCENE_FREE;
+        for (int k = 0; k < how.angles; k++) {
+            n->axis[k][k] = 1;
+            n->angle[k] = SCENE_FREE;
+        }
     }
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
     scene_add_motion(s, SCENE_NONE, 1, &end,
@@ -83,6 +85,23 @@ static void refused(const char *words)
     flight_end(&f);
 }
 
+/* A node that turns by three angles, which carry each other, keeps energy. */
+static void by_angles(void)
+{
+    flight f;
+    double energy = 0, drift = 0;
+    status outcome = flight_begin(&f, build, "geometrically_exact", 2);
+    for (int i = 0; i < 200 && outcome == STATUS_OK; i++) {
+        outcome = flight_step(&f, 0.05);
+        energy = i == 30 ? flight_energy(&f) : energy;
+        drift = fmax(drift, i <= 30 ? 0 : fabs(flight_energy(&f) / energy - 1));
+    }
+    gsl_test(outcome != STATUS_OK, "by angles: %s", f.why.text);
+    gsl_test(!(energy > 1e-3 && drift < 1e-11), "by angles: %g J, and energy drifts by %.1e",
+             energy, drift);
+    flight_end(&f);
+}
+
 int main(void)
 {
     const double first = roughest(0.05), second = roughest(0.025);
@@ -91,7 +110,9 @@ int main(void)
     how.polar = 0;
     refused("no rotation has inertia");
     how.polar = 20;
-    how.angles = 1;
-    refused("one angle of a node at most");
+    how.angles = 3;
+    by_angles();
+    how.angles = 2;
+    refused("two free angles");
     return gsl_test_summary();
 }

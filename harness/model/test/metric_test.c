@@ -33,7 +33,7 @@ static void one_motion(const model *m, int vertex, int component, double size)
     } else {
         b->u[3 * vertex + component] += amount;
     }
-    gsl_test_rel(metric_distance(m, a, b), amount * sqrt(share), 1e-13,
+    gsl_test_rel(metric_distance(m, a, b, NULL), amount * sqrt(share), 1e-13,
                  "vertex %d, component %d: distance", vertex, component);
     gsl_test_abs(metric_turn_between(m, a, b), turns ? amount : 0, 1e-13,
                  "vertex %d, component %d: turn", vertex, component);
