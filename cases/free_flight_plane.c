@@ -10,7 +10,7 @@ enum { SMOOTH, STEP };
 
 static const parameter_type parameters[] = {
     [TIMED_TIME] = {"time", "s", 1, 0, 100, NULL, "when it is looked at"},
-    TIMED_HOW(0.05, "a sixth of the quickest motion", 5e-5),
+    TIMED_HOW(0.05, "a sixth of the quickest motion", 3e-5),
     [LOAD] = {"load", "", SMOOTH, 0, 0, "smooth|step", "how it comes and goes"},
     [STIFFENING] = {"stiffening", "1", 1, 1, 1e6, NULL, "of elongation and shear"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},

@@ -5,6 +5,8 @@
 
 #include "harness/model/metric.h"
 
+const double extent_guess = 0.02;
+
 extent extent_with(const extent *so_far, const model *m, const scheme *s, const instant *from,
                    const instant *to, double h, double error)
 {
@@ -31,7 +33,8 @@ static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
-    return part * fmax(tolerance * so_far->scale, rounding);
+    const double size = 1; /* flights far away leave the structure its size */
+    return part * fmax(tolerance * fmax(so_far->scale, fmin(size, so_far->largest)), rounding);
 }
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)

@@ -1,6 +1,6 @@
 /* How far and how fast the motion has been so far. Tolerances of steps are relative to the largest
- * motion of all, which is known when it is over: it is integrated with a guess of that, at first
- * the size of the structure, and again where it comes to less than half of the guess. */
+ * motion so far, and to no less than a guess of the largest one of all: at first 2 % of the size of
+ * the structure. A motion that comes to less than half of its guess is integrated again. */
 #ifndef BEAMWORK_EXTENT_H
 #define BEAMWORK_EXTENT_H
 
@@ -14,6 +14,9 @@ typedef struct extent {
     double density;     /* error of a step by its size to the order of the scheme: extent_error */
     double worst;       /* largest error of a step that was taken, by its part of the motion */
 } extent;
+
+/* The guess to begin with. */
+extern const double extent_guess;
 
 /* With a step of h [s]. */
 extent extent_with(const extent *, const model *, const scheme *, const instant *from,

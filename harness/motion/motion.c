@@ -392,7 +392,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
 
 status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    double scale = 1;
+    double scale = extent_guess;
     for (int pass = 1;; pass++) {
         int again;
         const status result = run(c, analysis, &scale, &again, o, f);
