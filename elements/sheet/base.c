@@ -32,8 +32,7 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
                              "element of length %g m: its stiffness overflows; use fewer elements",
                              l0);
     sheet_strains_set_rest(request, &out->table);
-    if (request->features & FEATURE_MASS)
-        field_mass_prepare(request, 2, &out->mass);
+    field_mass_prepare(request, 2, &out->mass);
     return STATUS_OK;
 }
 

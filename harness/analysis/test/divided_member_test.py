@@ -93,6 +93,8 @@ class DividedMember(ProgramTest):
             for name in ("u", "w", "M"):
                 step = [values[i + 1][name] - values[i][name] for i in range(3)]
                 for i in range(2):
+                    if abs(step[i + 1]) < 1e-11 * abs(values[0][name]):
+                        continue  # rounding: collocation has loads in its equilibrium
                     order = math.log2(abs(step[i] / step[i + 1]))
                     self.assertGreater(order, 3.6, f"{formulation}, {name}")
 
