@@ -215,7 +215,8 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the structure without loads are those at the begin of any path. */
+/* Frequencies of the structure without loads are those at the begin of any path, where elements of
+ * two nodes lack what is inside of them. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;
@@ -226,8 +227,9 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
         return;
     solve(&p, e, &about);
     const double off = largest_apart(with, &about, modes);
-    gsl_test(!(off <= 2e-5), "%s: modal, %s: as at the begin of a path (%g)", e->name, in->name,
-             off);
+    const double inside = strcmp(e->name, "geometrically_exact") == 0 ? 0 : 8e-4;
+    gsl_test(!(off <= 2e-5 + inside), "%s: modal, %s: as at the begin of a path (%g)", e->name,
+             in->name, off);
 }
 
 /* Under small loads what the stresses of a linear analysis add is what the path adds. */

@@ -15,7 +15,8 @@ class Certificates(Tested):
             self.assertIn(one["formulation"], listed)
             self.assertGreater(one["compared"], 5000)
             (along, ) = [p for p in one["parts"] if p["family"] == "along"]
-            self.assertEqual([c["outcome"] for c in along["claims"]], 2*["holds"])
+            self.assertEqual({c["outcome"] for c in along["claims"]}, {"holds"})
+            self.assertGreaterEqual(len(along["claims"]), 2)
             self.assertEqual([m["name"] for p in one["parts"] for m in p["measured"]
                               if m["wrong_limit"]], [], one["formulation"])
         self.assertGreaterEqual(len(record["certificates"]), 10)
@@ -26,7 +27,7 @@ class Certificates(Tested):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("contract: KEPT", out)
             self.assertIn("not claimed", out)
-            self.assertIn("loads along one element are as exact as forces at its nodes (96 compared)",
+            self.assertIn("loads along one element are as exact as forces at its nodes (97 compared)",
                           out)
 
     def test_with_options(self):
