@@ -25,7 +25,7 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
     const mesh_kind *kind = &m->kind[m->element[i].kind];
     const element_rotating_frame *turning = m->rotates ? &frame : NULL;
     status outcome;
-    if (m->scene->lumped) {
+    if (m->scene->lumped || m->lumps != LUMPS_NOTHING) { /* as a motion that starts there does */
         const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
         outcome = lumped_element(&whole, m->nodes, x, turning, out);
     } else {

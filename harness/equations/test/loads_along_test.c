@@ -74,7 +74,8 @@ static void turning_faster(void)
         gsl_test_abs(steady[k], whole[k], 1e-15,
                      "an angular velocity that does not follow the path, force %d", k);
     }
-    gsl_test_rel(whole[1], 0.3 * 0.3 * 2, 1e-13, "half of the mass at the end, at radius 2");
+    gsl_test_rel(whole[1], 0.3 * 0.3 * 2 * 2 / 3, 1e-13,
+                 "the mass along the element, by the displacements of its end");
 }
 
 int main(void)
