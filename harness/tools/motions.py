@@ -27,7 +27,7 @@ FORMULATION = "geometrically_exact"
 HOW = ("integrator", "step", "tolerance")
 COLUMNS = ("case,parameters,time,quantity,unit,kind,truth,truth_uncertainty,elements,finest,limit,"
            "limit_uncertainty,off,within").split(",")
-# meshes, and the tolerance of a step; of those named alone: with these parameters
+# meshes, and the tolerance, relative to the motion; of those named alone: with these parameters
 CASES = {
     "rigid_body": {"": ((1, 2, 4), 1e-11)},
     "spin_up": {"": ((2, 4, 8), 1e-8)},
@@ -36,7 +36,7 @@ CASES = {
     "elbow": {"": ((4, 8, 16), 1e-5)},
     "pendulum": {"": ((4, 8, 16), 1e-6)},
     "leaf_guide": {"": ((2, 4, 8), 1e-6)},
-    "release": {"": ((8, 16, 32), 1e-10)},
+    "release": {"": ((8, 16, 32), 2e-6)},
 }
 FINE = {
     **CASES,
