@@ -4,8 +4,14 @@
 #include <math.h>
 
 #include "harness/model/metric.h"
+#include "harness/model/model_impl.h"
 
 const double extent_guess = 0.02;
+
+void extent_begin(extent *e, const model *m)
+{
+    e->bent = metric_distance(m, m->rest, e->begin, NULL);
+}
 
 extent extent_with(const extent *so_far, const model *m, const scheme *s, const instant *from,
                    const instant *to, double h, double error)
@@ -34,12 +40,15 @@ static const double rounding = 32 * DBL_EPSILON;
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
     const double size = 1; /* flights far away leave the structure its size */
-    return part * fmax(tolerance * fmax(so_far->scale, fmin(size, so_far->largest)), rounding);
+    const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
+                 noise = 8 * DBL_EPSILON * so_far->bent;
+    return fmax(part * fmax(most, rounding), noise);
 }
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)
 {
-    const double part = 0.5;
+    const double part = 0.5, known = 1e-10; /* of an equilibrium, by Newton */
     *scale = fmax(so_far->largest, rounding);
-    return *scale < part * so_far->scale && so_far->worst > tolerance * *scale;
+    return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&
+           so_far->worst > tolerance * *scale;
 }

@@ -8,6 +8,7 @@
 
 typedef struct extent {
     model_state *begin; /* where the motion began */
+    double bent;        /* its distance from the undeformed state: what that is known to is noise */
     double scale;       /* the guess, in the measure of metric.h: 1 is the size of the structure */
     double largest;     /* distance from the begin so far, of what has inertia */
     double rate;        /* [1/s] largest mean one of a step, likewise */
@@ -18,6 +19,7 @@ typedef struct extent {
 /* The guess to begin with. */
 extern const double extent_guess;
 
+void extent_begin(extent *, const model *);
 /* With a step of h [s]. */
 extent extent_with(const extent *, const model *, const scheme *, const instant *from,
                    const instant *to, double h, double error);
@@ -28,8 +30,8 @@ double extent_error(const extent *, const scheme *, double h, double error);
 /* The error that a part of the motion may have by a tolerance of all: what coordinates are rounded
  * by is none. */
 double extent_allows(const extent *, double part, double tolerance);
-/* 1: the motion, which is over, was less than half of the guess, and its steps too long for a
- * tolerance relative to that. *scale: a better guess. */
+/* 1: the motion, which is over, was less than half of the guess, its steps too long for a tolerance
+ * relative to that, and it is more than the noise of where it began. *scale: a better guess. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
 #endif

@@ -335,6 +335,7 @@ static status solve(motion *w, fault *f)
     TRY(checks_massless(w->c, &w->masses, w->how, w->now.state, f));
     if (w->from == NULL)
         kinematics_state_copy(m, w->now.state, w->extent.begin);
+    extent_begin(&w->extent, m);
     if (w->from == NULL)
         TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));

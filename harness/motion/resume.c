@@ -143,6 +143,6 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
                          {e->largest, e->turned, e->work},
                          e->origin,
                          e->quiet,
-                         {control->extent.begin, e->scale, e->extent, e->rate, e->density, 0}};
+                         {control->extent.begin, 0, e->scale, e->extent, e->rate, e->density, 0}};
     return STATUS_OK;
 }
