@@ -118,7 +118,9 @@ const verb_option option_table[OPTION_MOST] = {
      offsetof(command_request, tolerance)},
     {"not-worse-than", '7', "FILE",
      "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
-     "fail where the error of any mesh is larger than there by more than 2 %, or its value is gone",
+     "fail where the error of any mesh is larger than there by more than 2 %, its value is gone, "
+     "or "
+     "a limit has moved by more than 0.001 % that no exact value judges as closely",
      offsetof(command_request, former)},
     {"gate", 'G', NULL, "verdicts of --beside count as ours do", offsetof(command_request, gate)},
     {"to", 'O', "calculix", "the program that the deck is for", offsetof(command_request, to)},

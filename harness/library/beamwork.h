@@ -139,8 +139,8 @@ BW_API bw_status bw_converge(const bw_scene *scene, const char *formulations, co
  * its defaults and the points of its truths, or that case. select: as -k, NULL: all. results: an
  * HDF5 file to write, NULL: none. options: "jobs", "time_limit" ([s] of a cell, 120), "doublings",
  * "shapes", "stop", "tolerance" (relative, in place of those of the cases), "not_worse_than" (a
- * file of results: larger errors than there fail). OK also where verdicts differ from the expected
- * ones: the document counts them ("unexpected"). */
+ * file of results: larger errors than there fail, and limits that moved). OK also where verdicts
+ * differ from the expected ones: the document counts them ("unexpected"). */
 BW_API bw_status bw_verify(const bw_scene *scene, const char *formulations, const char *select,
                            const char *options, const char *results, char **json, char **why);
 

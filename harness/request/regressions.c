@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,11 @@
 /* An error may be so much larger: between processors the kernels of LAPACK move errors near
  * rounding of some series by up to 1.2 %. */
 static const double LARGER = 0.02;
+
+/* A limit may move by so much of itself where no truth judges it as closely: a hundredth of a
+ * thousandth, so that a fault of a thousandth shows wherever it changes a limit by a hundredth of
+ * itself. */
+static const double MOVED = 1e-5;
 
 /* The run as it will be stored, read back: both sides are known by the same means. */
 static status read_back(const sweep *s, const judgement *j, results *out, fault *f)
@@ -88,6 +94,57 @@ static status compare(const results *former, const char *name, const results *no
     return outcome;
 }
 
+/* The limit of a quantity of a series at its default point in the former run, or NULL. */
+static const result_limit *limit_of_former(const results *former, const sweep *s, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    char name[FAULT_TEXT];
+    snprintf(name, sizeof name, "%s/default/%s", p->type->name, one->formulation.key);
+    for (int i = 0; p->text[0] == '\0' && i < former->seriess; i++)
+        for (int k = 0; strcmp(former->series[i].name, name) == 0 && k < former->series[i].limits;
+             k++)
+            if (strcmp(former->series[i].limit[k].quantity, p->scene.quantity[v->quantity].name) ==
+                0)
+                return &former->series[i].limit[k];
+    return NULL;
+}
+
+/* Does a truth say as closely where the limit belongs? An estimate does not, nor does any truth of
+ * a limit that is not known so closely, or that a finding lets be elsewhere. */
+static int is_judged_closely(const verdict *v, double slack)
+{
+    return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||
+            v->kind == VERDICT_WRONG_AS_PREDICTED) &&
+           strcmp(v->truth->kind, "exact") == 0 &&
+           3 * v->fit.limit_uncertainty + v->truth->uncertainty <= slack;
+}
+
+static status find_moved(const results *former, const sweep *s, judgement *j, fault *f)
+{
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        const series *one = &s->series[v->series];
+        const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
+        const result_limit *old = isfinite(v->fit.limit) && v->kind != VERDICT_OTHER_MODEL
+                                      ? limit_of_former(former, s, v)
+                                      : NULL;
+        if (old == NULL || one->imported != NULL)
+            continue;
+        const double slack = MOVED * fmax(fabs(old->value), q->near_zero);
+        if (fabs(v->fit.limit - old->value) <= slack || is_judged_closely(v, slack))
+            continue;
+        regression new;
+        snprintf(new.of, sizeof new.of, "%s/default/%s", s->point[one->point].type->name,
+                 one->formulation.key);
+        snprintf(new.why, sizeof new.why,
+                 "limit of %s %.10g -> %.10g %s, which no truth judges as closely", q->name,
+                 old->value, v->fit.limit, q->unit);
+        TRY(memory_append(&j->regression, &j->regressions, &new, sizeof new, "regressions", f));
+    }
+    return STATUS_OK;
+}
+
 status regressions_find(const results *former, const char *name, const sweep *s, judgement *j,
                         fault *f)
 {
@@ -95,6 +152,8 @@ status regressions_find(const results *former, const char *name, const sweep *s,
     status outcome = read_back(s, j, &now, f);
     if (outcome == STATUS_OK)
         outcome = compare(former, name, &now, j, f);
+    if (outcome == STATUS_OK)
+        outcome = find_moved(former, s, j, f);
     results_free(&now);
     return outcome;
 }
