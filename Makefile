@@ -66,8 +66,9 @@ help: ## this list
 
 # Errors of every mesh are held against the committed ones where LAPACK and libm are theirs; NOT_WORSE= leaves that out.
 NOT_WORSE ?= $(if $(filter 12.%,$(shell cat /etc/debian_version 2>/dev/null)),--not-worse-than $(BASELINE))
-verify: all ## judge every formulation on every case against the stored truths; errors of meshes against the committed ones
+verify: all ## judge every formulation on every case against the stored truths; errors of meshes against the committed ones, bounds of findings against what they show
 	@$(PROGRAM) verify --built-in --scene cases/examples --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(NOT_WORSE) $(VERIFY)
+	@$(if $(VERIFY),,$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv --loose)
 
 # What is fuzzed is compiled too: its own targets only run with clang.
 FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/fuzz/*.c))

@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """What each rule of the ledger allows, beside what was seen, and how its predicted limits were met.
 
-usage: bounds.py VERIFY_JSON FINDINGS_CSV
+usage: bounds.py VERIFY_JSON FINDINGS_CSV [--loose]
 
 A rule's largest_error is the least of 1, 2 and 5 times a power of ten that no limit of its verdicts
 exceeds: in its distance from the derived limit where there is one, else from the truth, relative to
-the truth; empty where none of them has an error.  Status 1 where the ledger says anything else.  The
-digits are those of the limit that is farthest from its prediction, on the meshes of the verdict.
+the truth; empty where none of them has an error.  Where one of them has no derived limit it is the
+least of 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten.  Status 1 where the ledger says anything else.
+It is loose where it is more than ten times what those with a derived limit show, or more than 1.5
+times what those without one do; --loose says that alone.  The digits are those of the limit that is
+farthest from its prediction, on the meshes of the verdict.
 """
 import argparse
 import csv
@@ -15,15 +18,16 @@ import math
 
 PREDICTED = "wrong limit, as predicted"
 SURELY, KNOWN = 3, 1e-9  # uncertainties of a limit (judge/verdict.c); relative one of a prediction
-STEPS = (1, 2, 5, 10)
+STEPS, FINE_STEPS = (1, 2, 5, 10), (1, 1.5, 2, 3, 4, 5, 7, 10)
+LOOSE, FINE_LOOSE = 10, 1.5  # so many times what is seen
 
 
-def bound_of(seen):
-    """The least of 1, 2, 5 times a power of ten that is not below; as the ledger writes it."""
+def bound_of(seen, steps=STEPS):
+    """The least of the steps times a power of ten that is not below; as the ledger writes it."""
     if seen is None:
         return ""
     power = math.floor(math.log10(seen))
-    text = next(f"{step}e{power}" for step in STEPS if float(f"{step}e{power}") >= seen)
+    text = next(f"{step}e{power}" for step in steps if float(f"{step}e{power}") >= seen)
     return "%g" % float(text)
 
 
@@ -48,12 +52,23 @@ def digits(verdicts):
 
 def line(rule, verdicts):
     """What is said of a rule: its verdicts, errors and predictions, and whether its bound stands."""
-    seen = max((departure(v) for v in verdicts if v["error"] is not None), default=None)
-    allowed = rule["largest_error"]
-    stands = (allowed and float(allowed)) == (bound_of(seen) and float(bound_of(seen)))
+    derived, others = (
+        max((departure(v) for v in verdicts if v["error"] is not None and (v["predicted"] is None) == free),
+            default=None) for free in (False, True)
+    )  # yapf: disable
+    seen = max((one for one in (derived, others) if one is not None), default=None)
+    allowed, bound = rule["largest_error"], bound_of(seen, STEPS if others is None else FINE_STEPS)
+    stands = (allowed and float(allowed)) == (bound and float(bound))
+    loose, apart = (
+        size != "" and any(one is not None and float(size) > times * one
+                           for one, times in ((derived, LOOSE), (others, FINE_LOOSE)))
+        for size in (allowed, bound)
+    )  # yapf: disable
     return {
         "rule": rule["rule"], "verdicts": len(verdicts), "seen": seen, "allowed": allowed,
-        "bound": bound_of(seen), "stands": stands, "digits": digits(verdicts), "met": sum(
+        "bound": bound, "stands": stands and not loose, "loose": loose, "apart": apart,
+        "least": min((one for one in (derived, others) if one is not None), default=None),
+        "digits": digits(verdicts), "met": sum(
             v["verdict"] == PREDICTED for v in verdicts)
     }
 
@@ -81,6 +96,8 @@ def text_of(one):
     seen = "" if one["seen"] is None else "%.3g" % one["seen"]
     met = "" if one["digits"] is None else "%d met, %.1f digits" % (one["met"], one["digits"])
     remark = "" if one["stands"] else f"  should allow {one['bound'] or 'nothing'}"
+    if one["apart"]:
+        remark = "  some of its verdicts show %.2g at most: they need a rule of their own" % one["least"]
     return "%-26s %5d verdicts  seen %-9s allowed %-8s %s%s" % (one["rule"], one["verdicts"], seen,
                                                                 one["allowed"], met, remark)
 
@@ -90,11 +107,17 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("verdicts")
     parser.add_argument("ledger")
+    parser.add_argument("--loose", action="store_true")
     given = parser.parse_args()
     with open(given.verdicts, encoding="utf-8") as file:
         verdicts = json.load(file)["verdicts"]
     with open(given.ledger, newline="", encoding="utf-8") as file:
         found = lines(list(csv.DictReader(file)), verdicts)
+    if given.loose:
+        loose = [one for one in found if one["loose"]]
+        for one in loose:
+            print(f"bound of a finding is loose: {text_of(one)}")
+        return 1 if loose else 0
     for one in found:
         print(text_of(one).rstrip())
     print("%d of %d limits lie within 3 U of their prediction" % covered(verdicts))

@@ -24,11 +24,21 @@ class Bounds(unittest.TestCase):
 
     def test_what_differs_is_said(self):
         given = [verdict(-3e-4), verdict(1e-4), verdict(0.5, rule="")]
-        self.assertTrue(self.said("5e-4", given)["stands"])
-        for allowed in ("2e-4", "1e-3", ""):
+        self.assertTrue(self.said("3e-4", given)["stands"])
+        for allowed in ("2e-4", "5e-4", "1e-3", ""):
             one = self.said(allowed, given)
             self.assertFalse(one["stands"])
-            self.assertIn("should allow 0.0005", bounds.text_of(one))
+            self.assertIn("should allow 0.0003", bounds.text_of(one))
+
+    def test_loose(self):
+        """Ten times what is seen beside a derived limit, 1.5 times without one; each by itself."""
+        derived = {**verdict(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # by 1e-3
+        for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
+                                         ("1.5e-3", [verdict(1e-3)], False), ("1.6e-3", [verdict(1e-3)], True),
+                                         ("1e-3", [derived, verdict(1e-9)], True), ("", [verdict(None)], False),
+                                         ("1e-3", [derived, verdict(9e-4)], False)):
+            self.assertEqual(self.said(allowed, verdicts)["loose"], loose, allowed)
+        self.assertIn("a rule of their own", bounds.text_of(self.said("1e-3", [derived, verdict(1e-9)])))
 
     def test_derived_limits_bind(self):
         """The distance counts from the derived limit where there is one, in parts of the truth."""
