@@ -30,6 +30,7 @@ PRICES := $(BUILD)/price_table.c
 EXPENSES := $(BUILD)/expense_table.c
 LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
+PLANTED := $(BUILD)/planted
 TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
@@ -72,7 +73,7 @@ verify: all ## judge every formulation on every case against the stored truths; 
 
 # What is fuzzed is compiled too: its own targets only run with clang.
 FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/fuzz/*.c))
-tests: all library $(TESTS) $(FUZZED) ## build what make test runs
+tests: all library $(TESTS) $(FUZZED) $(PLANTED) ## build what make test runs
 
 test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
 	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" harness/tools/run_tests.sh $(BUILD)/logs $(sort $(PYTHON_TESTS)) $(TESTS)
@@ -169,6 +170,10 @@ causes: all ## errors that the rules of the ledger allow beside those seen; expe
 	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
 	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
+
+.PHONY: blind-spots
+blind-spots: verify $(PLANTED) ## the smallest fault in each stiffness, mass and load that the gate notices, by quantity and by formulation: ten minutes of one processor; harness/blind_spots.csv, harness/planted_faults.csv
+	@BEAMWORK_TRUTHS=$(TRUTHS) $(PYTHON) harness/tools/blind_spots.py $(PLANTED) $(BUILD)/verify.json $(BUILD)/results.h5 reference/findings.csv -o harness/blind_spots.csv -p harness/planted_faults.csv
 
 .PHONY: engines
 # Installs nothing: an engine that is not there is skipped by name.
@@ -271,6 +276,10 @@ $(BUILD)/program_libraries: FORCE
 
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(BUILD)/program_libraries
 	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $(filter %.o %.a,$^) $(LDFLAGS) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
+
+# The same with a fault in it (harness/tools/plant/plant.c).
+$(PLANTED): $(BUILD)/harness/tools/plant/plant.o $(PROGRAM)
+	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $< $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(LDFLAGS) $(foreach name,adapters_complete case_build lumped_of judgement_doubts,-Wl,--wrap=$(name)) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
 
 $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

@@ -1,9 +1,11 @@
-"""What was checked, and how often: truths by kind, cells judged, limits' uncertainties, planted
-faults, executions with any bytes as input."""
+"""What was checked, and how often: truths by kind, cells judged, limits' uncertainties, the smallest
+faults that the gate notices, planted faults, executions with any bytes as input."""
+import csv
 import functools
 import json
 import pathlib
 
+from reports.site import ROOT
 from reports.tally import count_verdicts
 
 NAVIGATION = [("checks.html", "checks")]
@@ -15,6 +17,27 @@ def stored(site, name):
     """A table that another target left beside the results, or None."""
     path = pathlib.Path(site.results).parent / name
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+
+def noticed(cases):
+    """The committed tables of the smallest faults that are noticed, of these cases; false: there are
+    none, as where beamwork is installed."""
+    paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
+    if not all(path.is_file() for path in paths):
+        return None
+    rows, faults = (
+        list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) for path in paths
+    )
+    names = {case.name for case in cases}
+    here = [row for row in rows if row["case"] in names]
+    constants = list(dict.fromkeys(fault["constant"] for fault in faults))
+    by_formulation = {}
+    for fault in faults:
+        by_formulation.setdefault(fault["formulation"], {})[fault["constant"]] = fault
+    return here and {
+        "rows": here, "passing": [row for row in here if row["reason"]],
+        "constants": constants, "formulations": by_formulation
+    }  # yapf: disable
 
 
 def counted(cases):
@@ -73,6 +96,7 @@ def write(site):
         counts=count_verdicts(site.cases),
         coverage=coverages(site.cases),
         kinds=site.kinds,
+        noticed=noticed(site.cases),
         mutants=stored(site, "mutants.json"),
         fuzz=stored(site, "fuzz.json"),
     )

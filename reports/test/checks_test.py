@@ -40,6 +40,16 @@ class Checks(ProgramTest):
         found = self.context()
         self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))
 
+    def test_smallest_faults(self):
+        """Of the cases that are shown; what passes has its reason; every constant of a formulation."""
+        self.assertFalse(self.context(case("none"))["noticed"])
+        found = self.context(case("elastica"), case("cross_flexure"))["noticed"]
+        self.assertEqual({row["case"] for row in found["rows"]}, {"elastica", "cross_flexure"})
+        self.assertIn("shift_x", {row["quantity"] for row in found["passing"]})
+        self.assertNotIn("elastica", {row["case"] for row in found["passing"]})
+        for of in found["formulations"].values():
+            self.assertEqual(list(of), found["constants"])
+
     def test_coverages(self):
         """Sums over cases; formulations with limits of their own stand apart."""
         rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]

@@ -1,0 +1,91 @@
+"""What the gate notices: the tables are whole and within what is asked, and samples of them hold."""
+import csv
+import json
+import pathlib
+import unittest
+
+from harness.test.program import PROGRAM, ROOT, environment, run
+from harness.tools import blind_spots
+
+PLANTED = pathlib.Path(PROGRAM).parent / "planted"
+MOST = 40  # quantities of which a fault of 0.1 % passes in some formulation
+
+
+def table(name):
+    with open(ROOT / "harness" / name, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def listed(*what):
+    return json.loads(run("list", *what, "--format", "json").stdout)
+
+
+class BlindSpots(unittest.TestCase):
+    rows, faults = table("blind_spots.csv"), table("planted_faults.csv")
+
+    def test_every_quantity(self):
+        """Of every case, and of every scene that is judged."""
+        here = {(r["case"], r["quantity"]) for r in self.rows}
+        for case in listed()["cases"]:
+            told = listed(case["case"])
+            self.assertEqual({(case["case"], q["name"]) for q in told["quantities"] if not q["is_curve"]} - here, set())
+        scenes = {path.stem for path in (ROOT / "cases" / "examples").glob("*.yaml")}
+        self.assertEqual(scenes - {case for case, _ in here}, set())
+
+    def test_what_passes_has_a_reason(self):
+        passing = [r for r in self.rows if blind_spots.passes(r["noticed"])]
+        self.assertLessEqual(len(passing), MOST)
+        for row in self.rows:
+            self.assertEqual(bool(row["reason"]), row in passing, row)
+
+    def test_every_constant_of_every_formulation(self):
+        """A verdict notices 0.1 % of it, unless nothing depends on it; of an option, where it matters."""
+        keys = {(f["formulation"], f["constant"]) for f in self.faults}
+        for name in (f["formulation"] for f in listed()["formulations"]):
+            for constant in blind_spots.CONSTANTS:
+                self.assertIn((name, constant), keys)
+        for fault in self.faults:
+            if blind_spots.passes(fault["noticed"]) and ":" not in fault["formulation"]:
+                self.assertIn("depends on it", fault["reason"])
+                self.assertEqual(fault["noticed"], "", fault)
+
+    def seen(self, row, constant, size, *options):
+        """Is the gate red with a fault of that size?  A formulation that is named would be held to its
+        contract too, which sees masses."""
+        select = f"={row['case']} and =default and ={row['formulation']} and ={row['quantity']}"
+        done = run("verify", "-k", select, "-j", 1, *options, program=PLANTED,
+                   env=environment(BEAMWORK_PLANT=f"{constant}={size}"))
+        self.assertIn(done.returncode, (0, 1, 3), done.stderr)
+        return done.returncode == 1
+
+    def sample(self, rows):
+        """Every so many of what is judged at a default point of a built-in case."""
+        quick = [r for r in rows if not r["parameters"] and (ROOT / "cases" / f"{r['case']}.c").is_file()
+                 and r["noticed"] and "motion" not in r["case"] and not blind_spots.passes(r["noticed"])]
+        return quick[::max(1, len(quick) // 6)]
+
+    def test_quantities_measured(self):
+        """Twice the fault is seen, whatever its sign; a third of it is not."""
+        former = ("--not-worse-than", ROOT / "harness" / "baseline.csv")
+        rows = self.sample(self.rows)
+        self.assertEqual({row["by"] for row in rows}, {"verdict", "baseline"})
+        for row in rows:
+            size = max(2 * float(row["noticed"]), 1e-7)
+            with self.subTest(row=row):
+                for sign in (1, -1):
+                    self.assertTrue(self.seen(row, row["constant"], sign * size, *former))
+                if float(row["noticed"]) > 1e-7:
+                    small = [self.seen(row, row["constant"], sign * float(row["noticed"]) / 3, *former)
+                             for sign in (1, -1)]
+                    self.assertIn(False, small)
+
+    def test_constants_measured(self):
+        """By a verdict alone, without the committed table."""
+        for fault in self.sample([f for f in self.faults if f["noticed"]]):
+            with self.subTest(fault=fault):
+                self.assertFalse(self.seen(fault, fault["constant"], 0))
+                self.assertTrue(self.seen(fault, fault["constant"], 1e-3))
+
+
+if __name__ == "__main__":
+    unittest.main()
