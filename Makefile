@@ -51,12 +51,12 @@ in_order = $(if $(word 2,$(1)),$(eval $(word 2,$(1)): | $(word 1,$(1)))$(call in
 $(call in_order,$(MAKECMDGOALS))
 endif
 
-QUIET := $(filter help clean format format-check mutants,$(or $(MAKECMDGOALS),help))
+QUIET := $(filter help clean format format-check mutants faults,$(or $(MAKECMDGOALS),help))
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test tests film newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test tests film newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants faults layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -182,6 +182,10 @@ engines: all ## run shards by Slurm, mpirun, GNU parallel and Snakemake, killed,
 
 mutants: ## plant faults one by one; each must be noticed
 	@harness/tools/mutants.sh $(BUILD)/mutants
+
+faults: ## plant one-edit faults that are made, a fixed sample of all sources; FAULTS=HEAD~1.. on lines that commits touched, FAULTS='--count 500' more; build/faults.json
+	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/faults.py $(FAULTS) >$(BUILD)/faults.list
+	@LIST=$(BUILD)/faults.list harness/tools/mutants.sh $(BUILD)/faults
 
 .PHONY: fuzz
 fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)

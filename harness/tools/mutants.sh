@@ -2,13 +2,15 @@
 # Plants one fault at a time (mutants.list) into a copy of the project. Each must be noticed, with the right exit status, by the narrowest check that should:
 # a selection of 'verify', one test, 'compare' with a run before the fault, or a deriving program.
 # Writes WORK.json and ends in one line: N killed, M survived. Survivors are listed.
-# usage: [DRY=1] [FROM=WORD] mutants.sh [WORK [WORD]]
+# usage: [DRY=1] [FROM=WORD] [LIST=FILE [TIME=SECONDS]] mutants.sh [WORK [WORD]]
 #   WORD: only the faults whose name has it; FROM: leave out those before; DRY=1: only whether each change still matches its file, nothing is built
+#   LIST: other faults, as faults.py makes them: each is noticed by the first of several checks that fails; one that does not compile, or gives the same
+#   machine code, does not count
 set -u
 here=$(pwd)
-work=${1:-build/mutants} only=${2:-} dry=${DRY:-}
+work=${1:-build/mutants} only=${2:-} dry=${DRY:-} list=${LIST:-harness/tools/mutants.list}
 case $work in /*) ;; *) work=$here/$work ;; esac
-killed=0 survived=0 rows= from=${FROM:-}
+killed=0 survived=0 idle=0 rows= from=${FROM:-}
 if [ -n "$(git ls-files -- "$work" 2>/dev/null | head -n 1)" ]; then
     echo "mutants.sh: $work holds files of the project, and WORK is emptied first: give another folder" >&2
     exit 2
@@ -26,7 +28,9 @@ prepare() {
 }
 
 result() { # name expected status check
-    if [ "$3" = "$2" ]; then
+    if [ "$3" = idle ]; then
+        idle=$((idle + 1)) word=idle
+    elif [ "$3" = "$2" ]; then
         killed=$((killed + 1)) word=killed
     else
         survived=$((survived + 1)) word=SURVIVED
@@ -50,13 +54,46 @@ check() {
         BEAMWORK=build/beamwork BEAMWORK_TRUTHS=build/truths.h5 timeout 300 /usr/bin/python3 -m unittest "$@"
         ;;
     run) timeout 300 "$@" ;;
+    any) noticed "$@" ;;
     esac
+}
+
+# The first of several checks that fails, into $work/noticed: tests in C, modules of tests in Python, verify:SELECTION. One that hangs fails.
+noticed() {
+    export BEAMWORK="$PWD/build/beamwork" BEAMWORK_TRUTHS="$PWD/build/truths.h5" BEAMWORK_REFERENCE="$PWD/reference"
+    until=$(($(date +%s) + ${TIME:-600}))
+    for one; do
+        [ "$(date +%s)" -lt $until ] || { echo "the checks of ${TIME:-600} s" >"$work/noticed"; return 0; }
+        case $one in
+        verify:*) timeout 120 build/beamwork verify -j 2 -k "${one#*:}" --not-worse-than harness/baseline.csv ;;
+        */*) built "build/$one" && timeout 300 "build/$one" ;;
+        *) timeout 300 /usr/bin/python3 -m unittest -f "$one" ;;
+        esac
+        status=$?
+        [ $status = 0 ] || { echo "$one ($status)" >"$work/noticed"; return $status; }
+    done
 }
 
 # Is the fault asked for?
 wanted() {
     case $1 in *"$from"*) from= ;; *) return 1 ;; esac
     case $1 in *"$only"*) ;; *) return 1 ;; esac
+}
+
+# A fault that faults.py has made: any failure will do.
+generated() {
+    object=$work/base/build/${file%.c}.o
+    cp -p "$object" "$work/object"
+    if ! built "build/${file%.c}.o" >"$work/log" 2>&1; then
+        result "$name" noticed idle "does not compile"
+    elif cmp -s "$object" "$work/object"; then
+        result "$name" noticed idle "the same machine code"
+    elif ! built all >"$work/log" 2>&1; then
+        result "$name" noticed noticed "the build"
+    else
+        echo "all of $# checks" >"$work/noticed"
+        (check "$@") >"$work/log" 2>&1 && result "$name" noticed 0 "$(cat "$work/noticed")" || result "$name" noticed noticed "$(cat "$work/noticed")"
+    fi
 }
 
 # plant NAME FILE SED-EXPRESSION EXPECTED-STATUS CHECK...
@@ -73,6 +110,8 @@ plant() {
     touch "$work/base/$file"
     if [ "$dry" ]; then
         result "$name" matches matches "$*"
+    elif [ "$expected" = noticed ]; then
+        generated "$@"
     elif built all >"$work/log" 2>&1; then
         (check "$@") >"$work/log" 2>&1
         result "$name" "$expected" $? "$*"
@@ -92,8 +131,8 @@ damage() {
     result "$name" "$expected" $? "$*"
 }
 [ "$dry" ] || prepare
-. harness/tools/mutants.list
+. "$list"
 rm -rf "$work"
 printf '{"killed": %d, "survived": %d, "mutants": [%s\n]}\n' "$killed" "$survived" "$rows" >"$work.json"
-[ "$dry" ] && echo "$killed match, $survived do not" || echo "$killed killed, $survived survived"
+[ "$dry" ] && echo "$killed match, $survived do not" || echo "$killed killed, $survived survived$([ $idle = 0 ] || echo ", $idle do not count")"
 [ $survived = 0 ]

@@ -1,0 +1,315 @@
+"""Faults of one edit each in C sources, as a list for mutants.sh.
+
+usage: faults.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still stand
+
+An edit swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign, changes a constant or
+an index, or negates a condition; at most one on a line. Which ones are taken hangs on the texts of
+the file, the line and the edit alone: the same sources give the same faults, and what changes
+nearby changes nothing. Comments, strings, the preprocessor, types, sizes of arrays and of memory,
+and assertions stay as they are. Edits that nobody can see are in faults_equivalent.csv, each with
+its reason, and left out.
+"""
+
+import argparse
+import csv
+import hashlib
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EQUIVALENT = "harness/tools/faults_equivalent.csv"
+PAIRS = ("+", "-"), ("*", "/"), ("+=", "-="), ("*=", "/="), ("<", "<="), (">", ">="), \
+    ("==", "!="), ("&&", "||")
+SWAPS = dict(PAIRS) | {b: a for a, b in PAIRS}
+TOKEN = re.compile(
+    r"""(?P<skip>\s+|/\*.*?\*/|//[^\n]*)
+    |(?P<text>"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')
+    |(?P<number>(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)[uUlLfF]*)
+    |(?P<word>[A-Za-z_]\w*)
+    |(?P<sign>->|\+\+|--|<<=|>>=|<<|>>|[-+*/%&|^<>=!]=|&&|\|\||.)""", re.S | re.X)
+PREPROCESSOR = re.compile(r"^[ \t]*#(?:\\\n|[^\n])*", re.M)
+NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
+# What is called with a size of memory, or must hold.
+UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
+
+
+def tokens(source):
+    """(kind, text, line from 1, column from 0) of what is code."""
+    source = PREPROCESSOR.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), source)
+    at, line, begin = 0, 1, 0
+    while at < len(source):
+        found = TOKEN.match(source, at)
+        if found.lastgroup != "skip":
+            yield found.lastgroup, found[0], line, at - begin
+        if "\n" in found[0]:
+            line += found[0].count("\n")
+            begin = at + found[0].rfind("\n") + 1
+        at = found.end()
+
+
+def constant(text, index):
+    """Another constant; None: there is none that is of use."""
+    value = re.sub(r"[uUlLfF]+$", "", text)
+    if value.isdigit():
+        other = int(value) - 1 if index and int(value) > 0 else int(value) + 1
+        return text.replace(value, str(other))
+    if value.lower().startswith("0x"):
+        return None
+    return "1.0" if float(value) == 0 else f"(2 * {text})"
+
+
+class Reader:
+    """Walks through a source and gathers edits: (function or table, line, column, old, new)."""
+
+    def __init__(self, source):
+        self.lines = source.split("\n")
+        self.tokens = list(tokens(source))
+        self.edits = []
+        self.open = []  # brackets around, each with whether edits inside count
+        self.statement = 0  # its first token
+        self.begin = 0  # how many brackets were open there
+        self.name = ""  # of the function or table
+        for at, (kind, text, _, _) in enumerate(self.tokens):
+            if not self.open and text in ("(", "[", "=") and self.tokens[at - 1][0] == "word":
+                self.name = self.word(at - 1)
+            if kind == "sign" and text in ("(", "[", "{"):
+                self.open.append((text, self.inside(at)))
+            elif kind == "sign" and text in (")", "]", "}") and self.open:
+                self.open.pop()
+            elif self.open and self.open[-1][1]:
+                self.token(at)
+            if text in (";", "{", "}") and self.ends(at):
+                self.statement, self.begin = at + 1, len(self.open)
+
+    def word(self, at):
+        return self.tokens[at][1] if 0 <= at < len(self.tokens) else ""
+
+    def ends(self, at):
+        """Does a statement begin behind a token?"""
+        text = self.word(at)
+        if not self.open or text == ";":
+            return not (self.open and self.open[-1][0] == "(")
+        if text == "{":
+            return self.word(at - 1) not in ("=", ",", "{", "(")
+        return self.word(at + 1) not in (",", ";", "}", ")")
+
+    def declares(self):
+        """Does the statement begin with a type and a name?"""
+        first = self.statement
+        while self.word(first) in ("static", "const", "struct", "unsigned"):
+            first += 1
+        after = first + 1
+        while self.word(after) in ("*", "const", "long", "int"):
+            after += 1
+        return after < len(self.tokens) and self.word(first) not in NO_TYPES and \
+            self.tokens[first][0] == self.tokens[after][0] == "word"
+
+    def is_size(self, at):
+        """Is a bracket the size of an array that is declared?"""
+        if len(self.open) != self.begin or not self.declares():
+            return False
+        depth = 0
+        for k in range(at - 1, self.statement - 1, -1):
+            text = self.word(k)
+            depth += text in (")", "]", "}")
+            depth -= text in ("(", "[", "{")
+            if depth == 0 and text == ",":
+                break
+            if text == "=":
+                return False
+        return True
+
+    def inside(self, at):
+        """Do edits within the bracket at a token count?"""
+        text, before = self.word(at), self.word(at - 1)
+        if not self.open:  # bodies of functions, values of tables
+            return text == "{" and before in (")", "=")
+        if not self.open[-1][1] or UNSEEN.match(before):
+            return False
+        if text == "{" and self.word(self.statement) in ("enum", "struct", "union", "typedef"):
+            return "=" in (self.word(k) for k in range(self.statement, at))
+        return not (text == "[" and self.is_size(at))
+
+    def operand(self, at):
+        """Does an operand end at a token?"""
+        kind, text = self.tokens[at][:2]
+        return kind in ("number", "text") or (kind == "word" and text not in NO_TYPES) or \
+            text in (")", "]")
+
+    def condition(self, at):
+        """Where the bracket behind an "if" closes on its line; None: it does not."""
+        depth, close = 0, at + 1
+        while close < len(self.tokens) and self.tokens[close][2] == self.tokens[at][2]:
+            depth += (self.word(close) == "(") - (self.word(close) == ")")
+            if depth == 0:
+                return self.tokens[close][3]
+            close += 1
+        return None
+
+    def add(self, at, new):
+        _, text, line, column = self.tokens[at]
+        self.edits.append((self.name, line, column, text, new))
+
+    def token(self, at):
+        kind, text, line, column = self.tokens[at]
+        index = self.open[-1][0] == "["
+        alone = index and self.word(at - 1) == "[" and self.word(at + 1) == "]"
+        # The layout has blanks around products, none behind the star of a pointer.
+        spaced = self.lines[line - 1][column + len(text):][:1] in (" ", "")
+        if kind == "number" and (alone or not index):
+            if new := constant(text, index):
+                self.add(at, new)
+        elif kind == "word" and alone and text.islower():
+            self.add(at, "0")
+        elif kind == "word" and text == "if" and (close := self.condition(at)) is not None:
+            self.add(at, self.lines[line - 1][column + 3:close].join(("if (!", "))")))
+        elif text in SWAPS and self.operand(at - 1) and (text != "*" or spaced):
+            self.add(at, SWAPS[text])
+        elif text == "-" and not self.operand(at - 1):
+            self.add(at, "")
+
+
+def faults(source):
+    """All faults of a source: (line, function or table, its text, edit, the line with it)."""
+    found, seen = [], {}
+    reader = Reader(source)
+    for name, line, column, old, new in reader.edits:
+        text = reader.lines[line - 1]
+        seen[line, old] = seen.get((line, old), 0) + 1
+        length = len(old) if old != "if" else len(new) - 3
+        words = "if not" if old == "if" else new or "none"
+        found.append((line, name, text.strip(), f"{old} to {words} ({seen[line, old]})",
+                      text[:column] + new + text[column + length:]))
+    return found
+
+
+def listed(*arguments):
+    return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True,
+                          check=True).stdout.splitlines()
+
+
+def sources():
+    """The library's and the program's own: no tests, no tools."""
+    every = listed("ls-files", "elements/*.c", "cases/*.c", "harness/*.c")
+    return [file for file in every if not re.search("/(test|tools|examples|fuzz)/", file)]
+
+
+def touched(commits, file):
+    """Lines of a file that commits wrote and that still stand."""
+    blamed = listed("blame", "-l", "-s", "--root", file)
+    return {k for k, line in enumerate(blamed, 1) if line[:40] in commits}
+
+
+def equivalent():
+    """The reason of each fault that nobody can see, by file, function, line and edit."""
+    with open(ROOT / EQUIVALENT, encoding="utf-8", newline="") as file:
+        return {(row["file"], row["function"], row["line"], row["edit"]): row["reason"]
+                for row in csv.DictReader(file)}
+
+
+def chosen(count, span=None):
+    """Sorted (file, line, function, text, edit, line with it); how many more are equivalent."""
+    files, commits = sources(), set()
+    if span:
+        commits = set(listed("rev-list", span))
+        files = sorted(set(files) & set(listed("log", "--format=", "--name-only", span)))
+    best = {}
+    for file in files:
+        lines = touched(commits, file) if span else None
+        for line, name, text, edit, changed in faults((ROOT / file).read_text(encoding="utf-8")):
+            if lines is None or line in lines:
+                rank = hashlib.sha256(f"{file}\n{text}\n{edit}".encode()).hexdigest()
+                one = rank, file, line, name, text, edit, changed
+                best[file, line] = min(best.get((file, line), one), one)
+    taken = sorted(one[1:] for one in sorted(best.values())[:count])
+    known = equivalent()
+    left = [one for one in taken if (one[0], *one[2:5]) not in known]
+    return left, len(taken) - len(left)
+
+
+# Tests of other rooms, in Python, that show what a room does.
+BESIDE = {
+    "harness/(command|catalogue|language|tables|request|schema|division|study|truth|judge|library"
+    "|model)/": "cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
+                "|printed|had|gate)",
+    "harness/(record|judge|study|request|command|tables|schema|shards)/":
+        "comparison/compare|record/schema|study/follow|judge",
+    "harness/(contract|certificate|adapters)/": "cli/(element_test_test|certificate)",
+    "harness/(ranges|shards|spread)/": "cli/sweep|spread",
+    "harness/(timing|contest|study)/": "timing|cli/beside",
+    "harness/(pace|motion|radau|scheme|explicit|conserving)/":
+        "pace/motion|cli/(restart|own_motion|motion_error)",
+    "harness/project/": "cli/new_formulation|project",
+    "harness/(turning|flutter|solver|algebra|equations|model|recovery)/":
+        "analysis/(shapes|flutter|rotor|about|along|turns|sym|divided)",
+    "cases/scene/|harness/(model|scene_writer|language|truth|comparison)/":
+        "scene_file/(keys|scene|loads|units|parts|contents|stability|warping)",
+    "cases/extremes/|harness/extremes/": "extremes",
+    "cases/closed_forms/": "scene_file/closed",
+    "harness/cli/": "timing|extremes|imports|export|pace",
+}
+# Tests in C of other rooms that are near all the same.
+NEAR = {
+    "elements": "elements/test/|harness/contract/test/contract_|harness/analysis/test/(frequency"
+                "|critical|along_eq)|harness/motion/test/consistent_test",
+    "cases": "cases/test/",
+}
+CALLERS = 8
+# They last half a minute and more: after all others.
+SLOW = tuple(f"{name}_test.c" for name in ("invariants", "consistent_mesh", "inputs",
+                                           "condensation"))
+JUDGED = "verify:" + " or ".join(f"{case}/default" for case in (
+    "elastica", "c_column", "unsymmetric_column", "warping_torsion", "wagner_torsion",
+    "lateral_buckling"))
+UNJUDGED = tuple(f"harness/{room}/" for room in ("manual", "completion", "timing", "ranges"))
+
+
+def tests():
+    """The texts of tests."""
+    files = set(listed("ls-files", "*/test/*_test.c", "harness/*_test.py"))
+    return {file: (ROOT / file).read_text(encoding="utf-8") for file in sorted(files)}
+
+
+def checks(file, texts):
+    """What should notice a fault of a file: tests of its room, of others that call its functions,
+    cells that are judged, and tests in Python that show it."""
+    room = file.split("/")
+    near = re.compile(NEAR.get(room[0], f"{room[0]}/{room[1]}/test/"))
+    defined = re.findall(r"^(?!static|typedef)\w[\w ]*[ *](\w+)\(",
+                         (ROOT / file).read_text(encoding="utf-8"), re.M)
+    names = re.compile(r"\b(" + "|".join([*defined, re.escape(file[:-2] + ".h")]) + r")\b")
+    told = {test: len(set(names.findall(text))) for test, text in texts.items()}
+    ranked = sorted(texts, key=lambda test: (test.endswith(SLOW), -told[test], test))
+    ours = [test for test in ranked if near.match(test)]
+    in_c = [test[:-2] for test in ours if test.endswith(".c")]
+    callers = [test[:-2] for test in ranked
+               if told[test] and not near.match(test) and test.endswith(".c")][:CALLERS]
+    shown = "|".join(those for rooms, those in BESIDE.items() if re.match(rooms, file))
+    python = [test for test in ranked if test.endswith(".py") and (near.match(test) or (
+        shown and re.match(f"harness/({shown})", test.replace("/test/", "/"))))]
+    python.sort(key=lambda test: (room[-1][:-2] not in test, not near.match(test)))
+    judged = [] if file.startswith(UNJUDGED) else [JUDGED]
+    return [*in_c, *callers, *judged, *(test[:-3].replace("/", ".") for test in python)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("span", nargs="?", metavar="A..B")
+    parser.add_argument("--count", type=int, default=120)
+    asked = parser.parse_args()
+    left, known = chosen(asked.count, asked.span)
+    texts = tests()
+    print(f"# {len(left)} faults; {known} more are equivalent: {EQUIVALENT}")
+    for file, line, _, text, edit, changed in left:
+        name = re.sub(r"[\"\\]", "", f"{file}:{line} {edit} in {text}")
+        change = re.sub(r"([\\&|])", r"\\\1", changed)
+        print("plant", shlex.quote(name), file, shlex.quote(f"{line}s|.*|{change}|"),
+              "noticed any", *(shlex.quote(one) for one in checks(file, texts)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
