@@ -378,6 +378,65 @@ static void linear(int stages, int matrices, const double curvature[3], int acro
     free(s.data);
 }
 
+enum { MANY = 6 }; /* more than go together */
+
+/* Many at once give what each gives alone, to the bit, and nothing behind the last is written. */
+static void many(int stages, const double curvature[3])
+{
+    const subject s = subject_of(stages, 0, curvature);
+    const element_data *data[MANY];
+    double q[3 * POINTS], e[MANY][STRAINS], inner[MANY][INNER], sigma[2][MANY][STRAINS],
+        C[2][MANY][STRAINS * STRAINS], memory[2][MANY][MEMORY], mixed[2][MANY][3 * STRAINS],
+        H[2][MANY][N * N];
+    node_state x[2 * MANY];
+    load_of(3, 1, q);
+    for (int k = 0; k < MANY; k++) {
+        data[k] = s.data;
+        state_of(&s, 0.02 * (k + 1), x + (ptrdiff_t)2 * k);
+        element_collocation.strain(s.data, x + (ptrdiff_t)2 * k, &(strain_output){.e = e[k]});
+        element_collocation.rest(s.data, inner[k]);
+    }
+    for (int count = 1; count <= MANY; count++) {
+        along_output out[2][MANY];
+        status outcome[2][MANY];
+        for (int k = 0; k < MANY; k++)
+            for (int i = 0; i < 2; i++) {
+                out[i][k] = (along_output){.force = q,
+                                           .e = e[k],
+                                           .inner = inner[k],
+                                           .sigma = sigma[i][k],
+                                           .C = C[i][k],
+                                           .memory = memory[i][k],
+                                           .mixed = mixed[i][k],
+                                           .H = H[i][k]};
+                outcome[i][k] = STATUS_SINGULAR;
+                sigma[i][k][0] = out[i][k].second[0] = 17;
+            }
+        element_collocation.along(count, data, x, out[0], outcome[0]);
+        for (int k = 0; k < count; k++)
+            element_collocation.along(1, &data[k], x + (ptrdiff_t)2 * k, &out[1][k],
+                                      &outcome[1][k]);
+        int differ = 0, written = 0;
+        for (int k = 0; k < count; k++)
+            differ += outcome[0][k] != STATUS_OK || outcome[1][k] != STATUS_OK ||
+                      memcmp(sigma[0][k], sigma[1][k], sizeof sigma[0][k]) != 0 ||
+                      memcmp(C[0][k], C[1][k], sizeof C[0][k]) != 0 ||
+                      memcmp(mixed[0][k], mixed[1][k], sizeof mixed[0][k]) != 0 ||
+                      memcmp(H[0][k], H[1][k], sizeof H[0][k]) != 0 ||
+                      memcmp(out[0][k].turn, out[1][k].turn, sizeof out[0][k].turn) != 0 ||
+                      memcmp(out[0][k].ends, out[1][k].ends, sizeof out[0][k].ends) != 0 ||
+                      memcmp(out[0][k].moment, out[1][k].moment, sizeof out[0][k].moment) != 0 ||
+                      memcmp(out[0][k].second, out[1][k].second, sizeof out[0][k].second) != 0;
+        for (int k = count; k < MANY; k++)
+            written += outcome[0][k] != STATUS_SINGULAR || sigma[0][k][0] != 17 ||
+                       out[0][k].second[0] != 17;
+        gsl_test(differ || written,
+                 "%d stages, %d of %d at once: %d differ, %d too many are written", stages, count,
+                 MANY, differ, written);
+    }
+    free(s.data);
+}
+
 int main(void)
 {
     static const double straight[3] = {0}, curved[3] = {0.4, -0.7, 0.9};
@@ -387,6 +446,7 @@ int main(void)
         tangent(stages, 1, curved);
         closed_path(stages, curved);
         rate(stages);
+        many(stages, curved);
         resultants(stages, curved);
         linear(stages, 0, curved, 1);
         linear(stages, 1, curved, 1);
