@@ -18,7 +18,7 @@ fi
 rm -rf "$work"
 mkdir -p "$work/base"
 git ls-files | tar -cf - -T - | tar -xf - -C "$work/base"
-built() { make -s -C "$work/base" -j2 CFLAGS="-O1" "$@"; }
+built() { make -s -C "$work/base" -j2 CFLAGS="${CFLAGS:--O1}" "$@"; }
 
 # The copy without a fault, and a run of it to compare with.
 prepare() {

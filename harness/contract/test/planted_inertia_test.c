@@ -23,6 +23,12 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
+/* Of a radian more than of a length, in units of the specimen's length [m]. */
+INERTIA(
+    unsymmetric_turns, if (out->N != NULL) {
+        out->N[14 * 5 + 4] += 0.03 * 0.2385 * 0.2385 * out->N[0];
+        out->N[14 * 2 + 1] += 0.01 * out->N[0];
+    })
 INERTIA(not_skew, if (out->G != NULL) out->G[14 * 1 + 1] += out->G[14 + 2])
 INERTIA(half_coriolis, if (out->G != NULL) EACH(196, out->G[i] /= 2))
 INERTIA(half_convective, if (out->taken != NULL) EACH(14, out->taken[i] *= 0.5))
@@ -50,6 +56,7 @@ int main(void)
           "displacement along y of node 2");
     PLANT(inertia, wrong_softening, "rotating", "N entry 3, 3", "differences");
     PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "other way round");
+    PLANT(inertia, unsymmetric_turns, "rotating", "N entry 6, 5", "other way round");
     PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
     PLANT(inertia, half_coriolis, "rotating", "G times the frame's own motion", "centrifugal");
     PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
