@@ -14,7 +14,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/test/scenes.h"
 
-enum { MOST = 60 };
+enum { MOST = 120 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
 
 /* A leg longer than the other: principal axes off the walls. */
@@ -112,6 +112,27 @@ static void along_a_member(const char *name)
     }
 }
 
+/* A load that varies along a part of a member: q = (v + w)/2 + s (w - v), x = c + h s. */
+static void along_a_part(const char *name, int lumped)
+{
+    static const double v[3] = {1, -2, 3}, w[3] = {-0.5, 1, 2}, range[2] = {0.15, 0.72};
+    const double h = range[1] - range[0], c = (range[0] + range[1]) / 2;
+    double F[3], M[3], arm[3], expected[3];
+    scene_load load = scene_load_of(SCENE_DISTRIBUTED, 0, v[0], v[1], v[2]);
+    load.varies = 1;
+    load.lumped = lumped;
+    memcpy(load.last, w, sizeof load.last);
+    memcpy(load.range, range, sizeof load.range);
+    for (int i = 0; i < 3; i++)
+        arm[i] = 2 * h * ((2 * c - 1) * (v[i] + w[i]) / 2 + h * (w[i] - v[i]) / 6);
+    vec3_cross(along, arm, expected);
+    sums_of(&load, name, F, M);
+    for (int i = 0; i < 3; i++) {
+        gsl_test_abs(F[i], h * (v[i] + w[i]), 1e-13, "%s: force %d of a part", name, i);
+        gsl_test_abs(M[i], expected[i], 1e-13, "%s: moment %d of a part", name, i);
+    }
+}
+
 /* A load at an offset of a bent cantilever's tip: force and reacting moment. */
 static void cantilever(const element_type *type, int attached, int follower, double out[6])
 {
@@ -162,9 +183,13 @@ static void offset_is_an_arm(const element_type *type)
 
 int main(void)
 {
-    along_a_member("geometrically_exact:nodes=2");
-    along_a_member("geometrically_exact:nodes=3");
-    along_a_member("beamw_consistent");
+    static const char *const name[] = {"geometrically_exact:nodes=2", "geometrically_exact:nodes=3",
+                                       "beamw_consistent"};
+    for (size_t i = 0; i < sizeof name / sizeof *name; i++) {
+        along_a_member(name[i]);
+        along_a_part(name[i], 0);
+        along_a_part(name[i], 1);
+    }
     for (int i = 0; registry_formulations[i] != NULL; i++)
         offset_is_an_arm(registry_formulations[i]);
     return gsl_test_summary();

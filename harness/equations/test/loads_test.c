@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/test/sections.h"
+#include "harness/catalogue/formulation.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/test/turned_body.h"
+#include "harness/test/scenes.h"
 
 /* Five points: the error is of the fourth order. */
 static double slope(const turned_body *s, int k)
@@ -102,6 +105,38 @@ static void factors(void)
     turned_body_release(&s);
 }
 
+/* Each load has its own factor: along x proportional to the path, along y by stations. */
+static void reference(void)
+{
+    static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
+    const double end = 1, at = 0.75, expected[2] = {3 * 0.75, -5 * 1.125};
+    const section_spec spec = sections_of(1, 1, 1, 1);
+    formulation chosen;
+    scene s;
+    model *m = NULL;
+    fault f = {""};
+    double out[MOST];
+    scene_init(&s, "two loads");
+    const int tip = scenes_cantilever(&s, &spec);
+    scene_add_load(&s, SCENE_FORCE, tip, 3, 0, 0);
+    follow_stations(scene_load_at(&s, scene_add_load(&s, SCENE_FORCE, tip, 0, -5, 0)), path, value);
+    scene_add_static(&s, 1, &end, 1);
+    formulation_parse("beamw", &chosen, &f);
+    const model_request request = {
+        .scene = &s, .type = chosen.type, .options = chosen.option, .elements = 1};
+    const int good =
+        scene_validate(&s, &f) == STATUS_OK && model_alloc(&request, &m, &f) == STATUS_OK;
+    gsl_test(!good, "%s", f.text);
+    if (!good)
+        return;
+    loads_reference(m, at, out);
+    for (int i = 0; i < 2; i++)
+        gsl_test_abs(out[kinematics_coordinate(m, tip, SCENE_UX + i)], expected[i], 1e-14,
+                     "load %d at path %g", i, at);
+    model_free(m);
+    scene_free(&s);
+}
+
 int main(void)
 {
     for (int body = 0; body < BODIES; body++) {
@@ -110,5 +145,6 @@ int main(void)
     }
     rates();
     factors();
+    reference();
     return gsl_test_summary();
 }
