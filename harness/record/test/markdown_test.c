@@ -29,6 +29,66 @@ static void holds(const char *text, const char *part)
     gsl_test(strstr(text, part) == NULL, "written: %s", part);
 }
 
+static int lines_with(const char *text, const char *part)
+{
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, part)) != NULL; at += strlen(part))
+        count++;
+    return count;
+}
+
+/* Fifty rows of a list are written, and how many are left; of more cases than rows those that pass
+ * are named, and those without a verdict apart from them. */
+static void long_lists(void)
+{
+    enum { MANY = 60, JUDGED = 40, WORSE = 53 };
+    scene_quantity quantity = {.name = "load"};
+    static char name[MANY][16];
+    static case_type types[MANY];
+    static point p[MANY];
+    static series one[MANY];
+    static verdict v[MANY];
+    static regression worse[WORSE];
+    truth row = {.value = 2};
+    for (int i = 0; i < MANY; i++) {
+        snprintf(name[i], sizeof name[i], "case_%d", i);
+        types[i].name = name[i];
+        p[i] = (point){
+            .type = &types[i], .text = "", .scene = {.quantities = 1, .quantity = &quantity}};
+        one[i] = (series){.point = i, .formulation.key = "beam"};
+        v[i] = (verdict){.series = i, .kind = VERDICT_WRONG_LIMIT, .truth = &row, .reason = ""};
+    }
+    for (int i = 0; i < WORSE; i++) {
+        snprintf(worse[i].of, sizeof worse[i].of, "mesh %d", i);
+        snprintf(worse[i].why, sizeof worse[i].why, "twice as far off");
+    }
+    const sweep s = {.points = MANY, .seriess = MANY, .point = p, .series = one};
+    judgement j = {.verdicts = MANY,
+                   .verdict = v,
+                   .judged = MANY,
+                   .unexpected = MANY,
+                   .regressions = WORSE,
+                   .regression = worse};
+    char *text = written(&s, &j);
+    gsl_test_int(lines_with(text, " | twice as far off |"), 50, "rows of what is worse");
+    gsl_test_int(lines_with(text, " | **wrong limit** | "), 50, "rows of what differs");
+    holds(text, "| mesh 49 | twice as far off |\n\n… and 3 more.\n");
+    holds(text, "\n\n… and 10 more.\n");
+    free(text);
+
+    for (int i = 0; i < MANY; i++) {
+        v[i].kind = v[i].expected = VERDICT_PASS;
+        v[i].matches = 1;
+    }
+    j = (judgement){.verdicts = JUDGED, .verdict = v, .judged = JUDGED};
+    text = written(&s, &j);
+    holds(text, "\nAll pass in what is judged: case_0, case_1, ");
+    holds(text, ", case_39.\n");
+    holds(text, "\nNothing is judged: case_40, case_41, ");
+    holds(text, ", case_59.\n");
+    free(text);
+}
+
 int main(void)
 {
     scene_quantity quantity = {.name = "load"};
@@ -90,5 +150,6 @@ int main(void)
     text = written(&s, &j);
     holds(text, "## beamwork: nothing was judged");
     free(text);
+    long_lists();
     return gsl_test_summary();
 }
