@@ -58,6 +58,41 @@ static status half_energy(const element_data *d, const double e[], const double 
     return outcome;
 }
 
+/* What is no number is taken for a node at rest: its position, its rotation. */
+static void deaf(const node_state x[], int node, int turn, node_state out[2])
+{
+    memcpy(out, x, 2 * sizeof *out);
+    for (int i = 0; i < 3 && !turn; i++)
+        if (!isfinite(x[node].r[i]))
+            out[node].r[i] = out[node].u[i] = 0.1;
+    for (int i = 0; i < 9 && turn; i++)
+        if (!isfinite(x[node].R[i]))
+            out[node].R[i] = i % 4 == 0;
+}
+
+static void deaf_to_places(const element_data *d, const node_state x[], strain_output *out)
+{
+    node_state y[2];
+    deaf(x, 0, 0, y);
+    base->strain(d, y, out);
+}
+
+static void deaf_to_turns(const element_data *d, const node_state x[], strain_output *out)
+{
+    node_state y[2];
+    deaf(x, 1, 1, y);
+    base->strain(d, y, out);
+}
+
+static status deaf_to_strains(const element_data *d, const double e[], const double inner[],
+                              stress_output *out)
+{
+    double f[8];
+    memcpy(f, e, sizeof f);
+    f[3] = isfinite(f[3]) ? f[3] : 0;
+    return base->stress(d, f, inner, out);
+}
+
 static status softer(const element_data *d, const double e[], const double inner[],
                      stress_output *out)
 {
@@ -209,6 +244,9 @@ static void the_rest(void)
     PLANT(strain, no_amplitudes, "features", "offers warping", "nothing depends on the warping");
     PLANT(strain_many, one_strain, "many", "many at once gives other strains", "of 5");
     PLANT(stress_many, one_energy, "many", "many at once gives other energies", "of 5");
+    PLANT(strain, deaf_to_places, "unsound", "a position of node 1 that is", "look sound");
+    PLANT(strain, deaf_to_turns, "unsound", "a rotation of node 2 that is", "look sound");
+    PLANT(stress, deaf_to_strains, "unsound", "stress: strain 4 that is", "look sound");
     PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
     PLANT(strain, turn_of_root, "along", "one element held at its first node",
           "as reaction to the rotation about z of node 1");

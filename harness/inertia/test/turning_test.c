@@ -86,10 +86,29 @@ static void turn(double angle)
     check("one turn behind another", angle, back, other);
 }
 
+/* Where series take over they are exact to rounding: nothing jumps there. */
+static void seam(double angle)
+{
+    static const char *const what[] = {"Jr", "its inverse", "its derivative"};
+    double value[2][3][9], t[3];
+    for (int side = 0; side < 2; side++) {
+        for (int i = 0; i < 3; i++)
+            t[i] = angle * (side ? 1 + 1e-14 : 1 - 1e-14) * along[i];
+        turning_jacobian(t, value[side][0]);
+        turning_inverse(t, value[side][1]);
+        turning_derivative(t, other, value[side][2]);
+    }
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 9; i++)
+            gsl_test_abs(value[1][k][i], value[0][k][i], 2e-15, "%s at %g rad, entry %d", what[k],
+                         angle, i);
+}
+
 int main(void)
 {
     static const double angle[] = {0, 1e-3, 0.02, 0.0499, 0.0501, 0.4, 1.3, 1.9};
     for (int i = 0; i < (int)(sizeof angle / sizeof angle[0]); i++)
         turn(angle[i]);
+    seam(0.05);
     return gsl_test_summary();
 }
