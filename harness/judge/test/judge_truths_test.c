@@ -5,6 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "harness/judge/agreements.h"
 #include "harness/judge/test/bench.h"
 
 static void predictions(void)
@@ -250,6 +254,40 @@ static void stored_values(void)
     bench_free(&b);
 }
 
+/* Behind the series of another formulation, which has other values on its meshes. */
+static void of_its_own_series(void)
+{
+    bench b;
+    fault f = {""};
+    bench_converge(&b);
+    truth *stored = bench_add_row(&b, b.quantity[1].value);
+    stored->formulation = words[ELEMENT];
+    stored->elements = 4;
+    quantity_result value[MESHES];
+    cell_result cell[MESHES];
+    memcpy(value, b.quantity, sizeof value);
+    memcpy(cell, b.cell, sizeof cell);
+    for (int i = 0; i < MESHES; i++) {
+        value[i].value *= 2;
+        cell[i].solve.quantity = &value[i];
+    }
+    series both[2] = {b.one, b.one};
+    snprintf(both[0].formulation.key, sizeof both[0].formulation.key, "%s", words[OTHER]);
+    both[0].cell = cell;
+    const sweep s = {.points = 1, .point = &b.p, .seriess = 2, .series = both};
+    for (int i = 0; i < 2; i++) {
+        judgement j = {0};
+        gsl_test(agreements_add(&s, &b.t, i, &j, &f) != STATUS_OK, "%s", f.text);
+        gsl_test_int(j.agreements, i, "agreements of series %d", i);
+        gsl_test_int(j.disagreements, 0, "they agree");
+        for (int k = 0; k < j.agreements; k++)
+            gsl_test(j.agreement[k].value != b.quantity[1].value, "with its own value: %g",
+                     j.agreement[k].value);
+        free(j.agreement);
+    }
+    bench_free(&b);
+}
+
 int main(void)
 {
     predictions();
@@ -259,5 +297,6 @@ int main(void)
     expectations();
     other_instants();
     stored_values();
+    of_its_own_series();
     return gsl_test_summary();
 }
