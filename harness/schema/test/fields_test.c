@@ -2,10 +2,12 @@
  * read field by field. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "harness/schema/gather.h"
 #include "harness/timing/price.h"
+#include "harness/timing/timing.h"
 
 enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
 static const case_type made_up = {.name = "made_up"};
@@ -199,6 +201,70 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
+/* Every round, of the cell as it is and with nothing left out; none where there was none. */
+static void timings(void)
+{
+    cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},
+                     .keep_all = {.setup = 3, .solve = 4, .rounds = ROUNDS_COUNT},
+                     .free_keep_all = 7};
+    const subject s = {.record = &t};
+    static const char *const part[PHASES] = {"seconds_elements", "seconds_assembly",
+                                             "seconds_factorisation", "seconds_solution",
+                                             "seconds_rest"};
+    for (int k = 0; k < ROUNDS_COUNT; k++) {
+        t.as_is.round[k] = 20 - k;
+        t.keep_all.round[k] = 30 - k;
+    }
+    for (int k = 0; k < PHASES; k++)
+        t.phase[k] = 40 + k;
+    for (int k = 0; k < ROUNDS_COUNT; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "round_%d", k + 1);
+        expect(&record_timing, &s, name, 0, 20 - k);
+        snprintf(name, sizeof name, "keep_all_round_%d", k + 1);
+        expect(&record_timing, &s, name, 0, 30 - k);
+    }
+    for (int k = 0; k < PHASES; k++)
+        expect(&record_timing, &s, part[k], 0, 40 + k);
+    expect(&record_timing, &s, "seconds_setup", 0, 1);
+    expect(&record_timing, &s, "seconds_solve", 0, 2);
+    expect(&record_timing, &s, "seconds_least", 0, 21 - ROUNDS_COUNT);
+    expect(&record_timing, &s, "seconds_most", 0, 20);
+    expect(&record_timing, &s, "keep_all_setup", 0, 3);
+    expect(&record_timing, &s, "keep_all_solve", 0, 4);
+    expect(&record_timing, &s, "keep_all_free", 0, 7);
+    t.as_is.rounds = t.keep_all.rounds = 0;
+    gsl_test(!isnan(number_of(&record_timing, &s, "round_2", 0)), "no round was run");
+    gsl_test(!isnan(number_of(&record_timing, &s, "keep_all_setup", 0)), "nor one of all");
+}
+
+static element_order order_of(element_analysis a, const double options[])
+{
+    (void)options;
+    return (element_order){10 * (int)a + 1, 10 * (int)a + 2};
+}
+
+/* Orders of every analysis. */
+static void declarations(void)
+{
+    static const element_type ordered = {.name = "ordered", .order = order_of};
+    static const struct {
+        const char *name;
+        element_analysis analysis;
+    } row[] = {{"statics", ELEMENT_STATICS},
+               {"vibration", ELEMENT_VIBRATION},
+               {"buckling", ELEMENT_BUCKLING}};
+    const series one = {.formulation = {.type = &ordered, .key = "ordered"}};
+    const subject s = {.series = &one};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s_least", row[i].name);
+        expect(&record_declaration, &s, name, 0, 10 * row[i].analysis + 1);
+        snprintf(name, sizeof name, "%s_highest", row[i].name);
+        expect(&record_declaration, &s, name, 0, 10 * row[i].analysis + 2);
+    }
+}
+
 int main(void)
 {
     static bench b;
@@ -210,6 +276,8 @@ int main(void)
     paths(&g);
     curves(&g);
     errors(&g);
+    timings();
+    declarations();
     scene_free(&b.p.scene);
     return gsl_test_summary();
 }
