@@ -23,7 +23,10 @@ static void one_motion(const model *m, int vertex, int component, double size)
     gsl_test(kinematics_state_alloc(m, &a, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &b, &f) != STATUS_OK,
              "states: %s", f.text);
+    for (int i = 0; i <= n; i++)
+        weight[i] = 17;
     metric_of(m, weight);
+    gsl_test(weight[n] != 17, "what stands behind the weights is left alone");
     gsl_test_rel(weight[m->vertex[vertex].coordinate[component]], share, 1e-14,
                  "vertex %d, component %d: weight", vertex, component);
     if (turns) {
