@@ -111,6 +111,23 @@ class KeysTest(SceneCase):
         super().setUpClass()
         cls.schema = json.loads(run("scene", "--schema").stdout)
 
+    def test_words_of_keys(self):
+        """What an editor offers is what the list says, word by word."""
+        said = "".join(self.answered("scene", "--keys").stdout.split())
+        offered = []
+
+        def gather(node):
+            for value in node.values() if isinstance(node, dict) else node:
+                if isinstance(value, (dict, list)):
+                    gather(value)
+            if isinstance(node, dict) and isinstance(node.get("examples"), list):
+                offered.append(node["examples"])
+
+        gather(self.schema)
+        self.assertGreater(len(offered), 10)
+        for words in offered:
+            self.assertTrue(f"({','.join(words)})" in said, words)
+
     def test_every_key(self):
         """It must be there, or the list and the schema say what it comes to."""
         lines = []
