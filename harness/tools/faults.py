@@ -236,7 +236,7 @@ BESIDE = {
     "|model)/": "cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
                 "|printed|had|gate)",
     "harness/(record|judge|study|request|command|tables|schema|shards)/":
-        "comparison/compare|record/schema|study/follow|judge",
+        "comparison/compare|record/schema|study/follow|judge|analysis/shapes",
     "harness/(contract|certificate|adapters)/": "cli/(element_test_test|certificate)",
     "harness/(ranges|shards|spread)/": "cli/sweep|spread",
     "harness/(timing|contest|study)/": "timing|cli/beside",
@@ -263,7 +263,7 @@ SLOW = tuple(f"{name}_test.c" for name in ("invariants", "consistent_mesh", "inp
                                            "condensation"))
 JUDGED = "verify:" + " or ".join(f"{case}/default" for case in (
     "elastica", "c_column", "unsymmetric_column", "warping_torsion", "wagner_torsion",
-    "lateral_buckling"))
+    "lateral_buckling", "hexapod")) + " and collocation"
 UNJUDGED = tuple(f"harness/{room}/" for room in ("manual", "completion", "timing", "ranges"))
 
 
