@@ -28,6 +28,14 @@ class Lists(ProgramTest):
         self.assertLessEqual(max(map(len, text.splitlines())), WIDEST, text)
         return " ".join(text.split()), text
 
+    def test_orders(self):
+        """Least and highest of each analysis, as the formulation declares them."""
+        for name, statics in (("collocation", "2 to 10"), ("sheet_third", "2 to 4")):
+            told = " ".join(self.shown(name)[0].split()).partition("order of convergence: ")[2]
+            self.assertTrue(told.startswith(f"{statics} in statics, 4 to 8 in vibration, "
+                                            "2 to 4 in motion, 2 to 4 in linear buckling"),
+                            told[:99])
+
     def test_every_case(self):
         for name in self.cases:
             words, text = self.shown(name)

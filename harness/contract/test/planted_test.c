@@ -93,6 +93,39 @@ static status deaf_to_strains(const element_data *d, const double e[], const dou
     return base->stress(d, f, inner, out);
 }
 
+/* Bending about z is softer than the constants of the section say. */
+static status soft_about_z(const element_data *d, const double e[], const double inner[],
+                           stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    for (int i = 4; i < 6; i++) {
+        if (out->sigma != NULL)
+            out->sigma[i] *= 0.9;
+        for (int j = 0; j < 8 && out->C != NULL; j++)
+            out->C[8 * i + j] *= 0.9;
+    }
+    return outcome;
+}
+
+/* What is not claimed says by how much the element misses. */
+static void not_exact(void)
+{
+    static claims c;
+    formulation chosen;
+    element_type t = changed("beamw_consistent");
+    int said = 0;
+    t.stress = soft_about_z;
+    formulation_default(base, &chosen);
+    chosen.type = &t;
+    checks_along(&chosen, &c);
+    for (int i = 0; i < c.count; i++)
+        said += strstr(c.claim[i].sentence,
+                       "not exact under a force at its end (along y by 0.00") != NULL;
+    gsl_test_int(said, 2, "loads along an element that is too soft");
+    for (int i = 0; i < c.count && said != 2; i++)
+        gsl_test(1, "it said: %s", c.claim[i].sentence);
+}
+
 static status softer(const element_data *d, const double e[], const double inner[],
                      stress_output *out)
 {
@@ -258,6 +291,7 @@ static void the_rest(void)
 int main(void)
 {
     derivatives();
+    not_exact();
     the_rest();
     return gsl_test_summary();
 }
