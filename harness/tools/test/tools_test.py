@@ -248,6 +248,47 @@ class Mutants(Folder):
         self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, "1 match, 1 do not"))
         self.assertIn("SURVIVED  nowhere", done.stdout)
 
+    def test_faults_that_are_made(self):
+        """Noticed by any of several checks; what does not compile, or changes nothing, is told."""
+        root = self.folder / "clone"
+        root.mkdir()
+        texts = {
+            "Makefile": """\
+                all: build/beamwork build/a.o
+                build/beamwork: ; @mkdir -p build; (echo '#!/bin/sh'; echo 'for last; do :; done'; \\
+                    echo ': >"$$last"') >$@; chmod +x $@
+                build/a.o: a.c ; @mkdir -p build; cc -O1 -c a.c -o $@
+                build/a/true_test: ; @mkdir -p build/a; cp /bin/true $@
+                build/a/a_test: build/a.o ; @mkdir -p build/a; cc build/a.o -o $@
+                """,
+            "a.c": """\
+                int main(void)
+                {
+                    volatile int n = 3;
+                    return 1 + 1 - 2 * (n > 0);
+                }
+                """,
+            "list": "".join(f"plant {name} a.c '{change}' noticed any a/true_test a/a_test\n"
+                            for name, change in (("sum", "4s|1 .|1 -|"), ("more", "3s|3|4|"),
+                                                 ("alike", "4s|1 . 1|2 + 0|"),
+                                                 ("broken", "4s|;|];|")))}
+        for name, text in texts.items():
+            (root / name).write_text(textwrap.dedent(text), encoding="ascii")
+        for command in (["git", "init", "-q"], ["git", "add", "-A"]):
+            subprocess.run(command, check=True, cwd=root)
+        environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "CFLAGS"))}
+        done = subprocess.run([TOOLS / "mutants.sh", self.folder / "work"], cwd=root, text=True,
+                              capture_output=True, check=False,
+                              env=environment | {"LIST": str(root / "list")})
+        told = [" ".join(line.split()) for line in done.stdout.splitlines()]
+        self.assertEqual(told, [
+            "killed sum exit noticed a/a_test (254)",
+            "SURVIVED more exit 0, not noticed all of 2 checks",
+            "idle alike exit idle the same machine code",
+            "idle broken exit idle does not compile",
+            "1 killed, 1 survived, 2 do not count"], done.stderr)
+        self.assertEqual(done.returncode, 1)
+
 
 
 class Make(Folder):
