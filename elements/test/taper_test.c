@@ -97,6 +97,26 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
+/* Walls along z, or oblique, beside the shear centre: the web along an axis turned by an angle. */
+static void turned_walls(double angle)
+{
+    const double c = cos(angle), d = sin(angle);
+    section_spec shape[3] = {i_shape(0.1, 0.06, 2e-3), i_shape(0.1, 0.03, 1e-3),
+                             i_shape(0.2, 0.06, 2e-3)};
+    fault f = {""};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < shape[k].points; i++) {
+            double *at = shape[k].point[i];
+            const double y = c * at[0] - d * at[1];
+            at[1] = d * at[0] + c * at[1];
+            at[0] = y;
+        }
+    gsl_test(checked(&shape[0], &shape[1], &f) != STATUS_OK, "in their planes at %g: %s", angle,
+             f.text);
+    gsl_test(checked(&shape[0], &shape[2], &f) != STATUS_REFUSED, "out of their planes at %g",
+             angle);
+}
+
 int main(void)
 {
     const section_spec rectangle = section_spec_rectangle(2e11, 8e10, 0.04, 0.02),
@@ -105,6 +125,8 @@ int main(void)
     rectangles();
     constants();
     walls();
+    turned_walls(1.5707963267948966);
+    turned_walls(0.3);
     gsl_test(checked(&rectangle, &i, &f) != STATUS_REFUSED ||
                  strstr(f.text, "a rectangle to walls") == NULL,
              "another form: %s", f.text);
