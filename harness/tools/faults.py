@@ -246,7 +246,7 @@ BESIDE = {
     "harness/(turning|flutter|solver|algebra|equations|model|recovery)/":
         "analysis/(shapes|flutter|rotor|about|along|turns|sym|divided)",
     "cases/scene/|harness/(model|scene_writer|language|truth|comparison)/":
-        "scene_file/(keys|scene|loads|units|parts|contents|stability|warping)",
+        "scene_file/(keys|scene|loads|units|parts|contents|stability|warping)|cli/(plane|physics)",
     "cases/extremes/|harness/extremes/": "extremes",
     "cases/closed_forms/": "scene_file/closed",
     "harness/cli/": "timing|extremes|imports|export|pace",

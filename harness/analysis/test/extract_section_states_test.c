@@ -141,6 +141,49 @@ static void tapered(const element_type *e, ask_tally *tally, int elements)
                      a.name[i], elements);
 }
 
+/* An angle whose legs change turns its principal axes along the member: forces at its ends are in
+ * those of the section there, not of the element. */
+static void turning_axes(const element_type *e, ask_tally *tally, int elements)
+{
+    const double y[3] = {0, 1, 0}, F[3] = {0, 30, 50}, l = 0.9, t[2] = {2e-3, 2e-3};
+    const double leg[2][2] = {{0.08, 0.03}, {0.05, 0.045}};
+    static const int walls[2][2] = {{0, 1}, {0, 2}};
+    static answer a;
+    scene s;
+    section c[2];
+    int profile[2];
+    scene_init(&s, "angle");
+    const int root = scene_add_node(&s, 0, 0, 0), tip = scene_add_node(&s, l, 0, 0);
+    for (int k = 0; k < 2; k++) {
+        const double point[3][2] = {{0, 0}, {leg[k][0], 0}, {0, leg[k][1]}};
+        const section_spec spec = section_spec_walls(200e9, 80e9, 2, point, walls, t);
+        gsl_test(section_compute(&spec, &c[k], NULL) != STATUS_OK, "an angle");
+        profile[k] = scene_add_section(&s, &spec);
+    }
+    scene_member_at(&s, scene_add_member(&s, root, tip, profile[0], y))->section_q = profile[1];
+    scene_hold_all(&s, root);
+    scene_omit(&s, FEATURE_WARPING);
+    scene_add_load(&s, SCENE_FORCE, tip, F[0], F[1], F[2]);
+    const int linear = scene_add_linear(&s);
+    static const char *const name[2][2] = {{"Qy from", "Qz from"}, {"Qy to", "Qz to"}};
+    for (int k = 0; k < 2; k++) {
+        scene_add_quantity(&s, name[k][0], "N", linear, scene_internal_at(0, k, SCENE_QY));
+        scene_add_quantity(&s, name[k][1], "N", linear, scene_internal_at(0, k, SCENE_QZ));
+    }
+    ask_scene(&s, e, NULL, elements, &a);
+    scene_free(&s);
+    if (!ask_count(tally, &a, "an angle that tapers, %d elements", elements))
+        return;
+    gsl_test(!(fabs(c[0].axes_angle - c[1].axes_angle) > 0.1), "its axes turn");
+    for (int k = 0; k < 2; k++) {
+        const double cosine = cos(c[k].axes_angle), sine = sin(c[k].axes_angle);
+        gsl_test_rel(a.value[2 * k], cosine * F[1] + sine * F[2], 1e-8, "%s: %s of %d", e->name,
+                     a.name[2 * k], elements);
+        gsl_test_rel(a.value[2 * k + 1], cosine * F[2] - sine * F[1], 1e-8, "%s: %s of %d", e->name,
+                     a.name[2 * k + 1], elements);
+    }
+}
+
 /* All of it, of a section without symmetry under every load. */
 static void everything(scene *s, int whole)
 {
@@ -215,6 +258,8 @@ int main(void)
         channel(e, &tally);
         tapered(e, &tally, 1);
         tapered(e, &tally, 4);
+        turning_axes(e, &tally, 1);
+        turning_axes(e, &tally, 4);
         in_other_words(e, &tally);
         ask_conclude(&tally, e, "resultants of states");
     }
