@@ -211,5 +211,6 @@ const element_type element_collocation = {
     .stress_many = stress_many,
     .inertia = inertia,
     .along = along,
+    .spreads = 1,
     .mass_of_field = mass_of_field,
 };

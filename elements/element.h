@@ -229,8 +229,9 @@ typedef struct element_type {
     void (*equations_many)(int count, const element_data *const data[], const node_state x[],
                            const double *const e[], const double *const inner[],
                            const double *const s[], equations_output out[], status outcome[]);
-    /* Optional: 1: `inertia` gives what motions in time with consistent mass need (rate and what
-     * stands below it). 0: they have the mass lumped at the nodes. */
+    /* Optional: 1: `inertia` of two nodes gives what motions in time with consistent mass need
+     * (rate and what stands below it). 0: they have the mass lumped at the nodes. Of a type without
+     * `inertia`: 1. */
     int spreads;
     /* With LIMIT_TENSION: length of the element over the largest one that the axial force of its
      * stresses allows; 0: any. */
@@ -259,7 +260,8 @@ static inline element_order element_order_in(const element_type *t, element_anal
         return t->order(a, options);
     return t->constants && t->constants->order[a].highest > 0 ? t->constants->order[a] : usual;
 }
-/* Of motions in time: masses lumped at nodes have two, with all types alike. */
+/* Of motions in time: masses along elements have four in slender bending and two with shear,
+ * stretch and twist, lumped at two nodes two. */
 static inline element_order element_order_of_motion(void)
 {
     return (element_order){2, 4};
@@ -273,6 +275,12 @@ static inline int element_nodes(const element_type *t, const double options[])
     if (t->nodes)
         return t->nodes(options);
     return t->constants && t->constants->nodes > 0 ? t->constants->nodes : 2;
+}
+/* 1: motions in time can have its mass along the element. */
+static inline int element_spreads(const element_type *t, const double options[])
+{
+    return t->spreads && t->inertia != NULL && element_nodes(t, options) == 2 &&
+           (t->mass_of_field == NULL || t->mass_of_field(options));
 }
 static inline int element_strains(const element_type *t, const double options[])
 {

@@ -158,6 +158,7 @@ const element_type element_geometrically_exact = {
     .strain_many = strain_many,
     .stress_many = stress_many,
     .inertia = inertia,
+    .spreads = 1,
     .mass_of_field = mass_of_field,
     .order = order,
     .tension = tension,

@@ -22,7 +22,7 @@ typedef struct stress_output {
 
 /* What `inertia` fills. */
 typedef struct inertia_output {
-    double *M; /* [7n x 7n] mass matrix: translations [kg] */
+    double *M; /* [7n x 7n] mass matrix: translations [kg]; with `rate` that of motions in time */
     /* In a rotating frame; zero without one. */
     double *potential; /* [1] centrifugal: -1/2 int |Omega x r|^2 dm [J] */
     double *force;     /* [7n] centrifugal, outward: -d potential/dx [N, N m, N m^2] */

@@ -140,6 +140,32 @@ int scene_spreads(const scene_analysis *a)
     return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;
 }
 
+/* The first of the motions that go on from each other. */
+static int first_motion(const scene *s, int analysis)
+{
+    const int before = s->analysis[analysis].follows;
+    return before != SCENE_NONE && s->analysis[before].kind == SCENE_MOTION
+               ? first_motion(s, before)
+               : analysis;
+}
+
+int scene_may_spread(const scene *s, int analysis)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    if (a->kind != SCENE_MOTION || scene_motion_of(a)->mass != SCENE_MASS_USUAL)
+        return scene_spreads(a);
+    for (int i = 0; i < s->analyses; i++) {
+        if (s->analysis[i].kind != SCENE_MOTION || first_motion(s, i) != first_motion(s, analysis))
+            continue;
+        const scene_motion *m = scene_motion_of(&s->analysis[i]);
+        if (m->mass != SCENE_MASS_USUAL)
+            return m->mass == SCENE_CONSISTENT;
+        if (m->scheme != SCENE_ALPHA && m->scheme != SCENE_RADAU)
+            return 0;
+    }
+    return !s->lumped;
+}
+
 const scene_path *scene_path_of(const scene_analysis *a)
 {
     switch (a->kind) {

@@ -90,8 +90,10 @@ typedef enum scene_scheme {
 
 /* How the mass of members lies. */
 typedef enum scene_mass {
-    SCENE_LUMPED,    /* at the nodes, with all formulations alike */
-    SCENE_CONSISTENT /* along the elements, as a formulation has it that offers that */
+    SCENE_MASS_USUAL, /* consistent where the formulation and all integrators of the motions that
+                         go on from each other have it so, and the scene does not lump it */
+    SCENE_LUMPED,     /* at the nodes, with all formulations alike */
+    SCENE_CONSISTENT  /* along the elements, as a formulation has it that offers that */
 } scene_mass;
 
 #define SCENE_MASS_CHOICES "lumped|consistent"
@@ -153,8 +155,10 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
-/* Is it a motion whose elements spread their mass? */
+/* Is it a motion that is told to spread its mass along the elements? */
 int scene_spreads(const scene_analysis *a);
+/* Is it a motion whose elements are to do that where they can? */
+int scene_may_spread(const scene *s, int analysis);
 /* NULL: the kind has none. */
 const scene_path *scene_path_of(const scene_analysis *a);
 /* What a motion starts from, and the motions before it that it goes on from: a static path, a

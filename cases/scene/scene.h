@@ -202,8 +202,7 @@ struct scene {
     unsigned omits;    /* of SCENE_OMITTABLE what the scene leaves out: scene_omit sets them */
     unsigned demands;  /* FEATURE_* bits beyond what its data call for: scene_demand sets them */
     scene_shear shear_theory;
-    int lumped; /* 1: the mass of members is at nodes in vibration and steady rotation too; motions
-                   in time say it themselves */
+    int lumped; /* 1: the mass of members is at nodes, but in motions that say otherwise */
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
     int out_of_memory;

@@ -36,7 +36,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
                          "%s: alpha_m = %g, alpha_f = %g are not stable for every step; keep -1 <= "
                          "alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
                          scene_called(s, SCENE_ANALYSES, i).text, m->alpha.mass, m->alpha.force);
-    if (m->mass != SCENE_LUMPED && m->mass != SCENE_CONSISTENT)
+    if (m->mass < SCENE_MASS_USUAL || m->mass > SCENE_CONSISTENT)
         return fault_set(f, STATUS_REFUSED, "%s: no such mass; name LUMPED or CONSISTENT",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (m->mass == SCENE_CONSISTENT && m->scheme != SCENE_ALPHA && m->scheme != SCENE_RADAU)

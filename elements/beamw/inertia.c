@@ -13,9 +13,9 @@
 
 #include <string.h>
 
+#include "elements/beamw/in_time.h"
 #include "elements/beamw/inertia_point.h"
 #include "elements/beamw/modes.h"
-#include "elements/beamw/modes_rates.h"
 #include "elements/math/dense.h"
 
 static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU_Z, 1}}},
@@ -42,31 +42,15 @@ static void gather_curvature(beamw_inertia_state *c, const double F[3],
     }
 }
 
-/* Room for columns, or NULL. */
-static double *zeroed(int wanted, double A[3 * N])
-{
-    if (!wanted)
-        return NULL;
-    memset(A, 0, 3 * N * sizeof *A);
-    return A;
-}
-
 static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values *at,
                              const beamw_inertia_vector *y, double mass)
 {
-    double T[3 * N], rates[3 * N], displacement[3 * N], fixed[2][3],
-        F[3], *const stiffness = moving_stiffness(c->frame, c->out);
+    double T[3 * N], fixed[2][3], F[3], *const stiffness = moving_stiffness(c->frame, c->out);
     moving_vector v = {.mass = mass, .at = 0, .columns = N, .T = T};
     beamw_inertia_place(c, at, y, v.y, fixed);
     beamw_inertia_gradient(c, at, y, T);
     moving_rotation_gradient(fixed[0], TP, N, T);
     moving_rotation_gradient(fixed[1], TQ, N, T);
-    if (c->in_time) {
-        v.rates = zeroed(c->out->C != NULL, rates);
-        v.displacement = zeroed(c->out->K != NULL, displacement);
-        beamw_inertia_convective(c, at, y, fixed, v.convective, c->out->C != NULL ? rates : NULL,
-                                 c->out->K != NULL ? displacement : NULL);
-    }
     moving_add(&v, c->frame, N, c->out, F);
     if (stiffness == NULL)
         return;
@@ -79,51 +63,30 @@ static void add_interpolated(beamw_inertia_state *c, const beamw_inertia_values 
 static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *at, double mass)
 {
     double row[N];
-    moving_twist t = {.mass = mass,
-                      .row = row,
-                      .nodes = 2,
-                      .at = {TP, TQ},
-                      .weight = {1 - at->x, at->x},
-                      .slope = at->slope[CHI_X]};
     memcpy(row, at->gradient[CHI_X], sizeof row);
     for (int i = 0; i < 3; i++) {
         row[TP + i] += (1 - at->x) * c->vector[0][0][i];
         row[TQ + i] += at->x * c->vector[1][0][i];
-    }
-    memcpy(t.axis[0], c->vector[0][0], sizeof t.axis[0]);
-    memcpy(t.axis[1], c->vector[1][0], sizeof t.axis[1]);
-    if (c->in_time) {
-        t.curvature = at->curvature[CHI_X];
-        moving_add_twist(&t, N, c->out);
     }
     for (int i = 0; i < N && c->out->M != NULL; i++)
         for (int j = 0; j < N; j++)
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-/* y += size times a vector of the field, whose T, rates and displacement are those of y likewise.
- */
+/* y += size times a vector of the field, whose T is that of y likewise. */
 static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
                      const beamw_inertia_vector *part, double size, moving_vector *y,
-                     double T[3 * N], double rates[3 * N], double displacement[3 * N],
-                     double fixed[2][3])
+                     double T[3 * N], double fixed[2][3])
 {
-    double own[3 * N], own_rates[3 * N] = {0}, own_displacement[3 * N] = {0}, r[3], turned[2][3],
-                                     convective[3] = {0};
+    double own[3 * N], r[3], turned[2][3];
     beamw_inertia_place(c, at, part, r, turned);
     beamw_inertia_gradient(c, at, part, own);
     moving_rotation_gradient(turned[0], TP, N, own);
     moving_rotation_gradient(turned[1], TQ, N, own);
-    if (c->in_time)
-        beamw_inertia_convective(c, at, part, turned, convective, own_rates, own_displacement);
-    for (int i = 0; i < 3 * N; i++) {
+    for (int i = 0; i < 3 * N; i++)
         T[i] += size * own[i];
-        rates[i] += size * own_rates[i];
-        displacement[i] += size * own_displacement[i];
-    }
     for (int i = 0; i < 3; i++) {
         y->y[i] += size * r[i];
-        y->convective[i] += size * convective[i];
         fixed[0][i] += size * turned[0][i];
         fixed[1][i] += size * turned[1][i];
     }
@@ -136,17 +99,12 @@ static void add_vectors(beamw_inertia_state *c, const beamw_spread *d,
     double *const stiffness = moving_stiffness(c->frame, c->out);
     for (int n = 0; n < d->lumped.vectors; n++) {
         const double *of = d->lumped.vector[n];
-        double T[3 * N] = {0}, rates[3 * N] = {0}, displacement[3 * N] = {0}, fixed[2][3] = {{0}},
-                     F[3];
-        moving_vector v = {.mass = at->mass * d->lumped.carried[n],
-                           .columns = N,
-                           .T = T,
-                           .rates = rates,
-                           .displacement = displacement};
+        double T[3 * N] = {0}, fixed[2][3] = {{0}}, F[3];
+        moving_vector v = {.mass = at->mass * d->lumped.carried[n], .columns = N, .T = T};
         if (n == 0)
-            add_part(c, at, &position, 1, &v, T, rates, displacement, fixed);
+            add_part(c, at, &position, 1, &v, T, fixed);
         for (int k = 0; k < 3; k++)
-            add_part(c, at, &director[k], of[k], &v, T, rates, displacement, fixed);
+            add_part(c, at, &director[k], of[k], &v, T, fixed);
         moving_add(&v, c->frame, N, c->out, F);
         if (stiffness == NULL)
             continue;
@@ -183,7 +141,7 @@ static void add_point(beamw_inertia_state *c, const beamw_spread *d, int g)
         add_interpolated(c, &at, &warping, weight * d->lumped.warping);
 }
 
-/* N or K -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
+/* N -= sum F . d2y/dx2: products of what turns with the gradients of the strains, and what the
  * strains' own second derivatives do. */
 static void add_curvature(const beamw_spread *d, const beamw_inertia_state *c)
 {
@@ -202,26 +160,10 @@ static void add_curvature(const beamw_spread *d, const beamw_inertia_state *c)
         out[i] -= H[i];
 }
 
-static void set_rates(const beamw_spread *d, beamw_inertia_state *c)
-{
-    moving_turn_of(c->out, TP, &c->node[0]);
-    moving_turn_of(c->out, TQ, &c->node[1]);
-    for (int k = 0; k < 3; k++) {
-        double p[3], q[3];
-        vec3_cross(c->node[0].w, c->vector[0][k], p);
-        vec3_cross(c->node[1].w, c->vector[1][k], q);
-        for (int i = 0; i < 3; i++)
-            c->mean_rate[k][i] = (p[i] + q[i]) / 2;
-    }
-    beamw_modes_slopes(d->l0, c->x, c->J, c->out->rate, c->slope);
-    dense_mul_vec(8, N, c->slope, c->out->rate, c->ec);
-}
-
 static void add_consistent(const beamw_spread *d, const node_state x[2],
                            const element_rotating_frame *frame, inertia_output *out)
 {
-    beamw_inertia_state c = {
-        .x = x, .frame = frame, .out = out, .in_time = moving_in_time(frame, out)};
+    beamw_inertia_state c = {.x = x, .frame = frame, .out = out};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) {
             for (int node = 0; node < 2; node++)
@@ -229,11 +171,9 @@ static void add_consistent(const beamw_spread *d, const node_state x[2],
             c.mean[k][i] = (c.vector[0][k][i] + c.vector[1][k][i]) / 2;
         }
     beamw_modes_evaluate(d->l0, x, &(strain_output){.e = c.e, .J = c.J});
-    if (c.in_time)
-        set_rates(d, &c);
     for (int g = 0; g < d->points; g++)
         add_point(&c, d, g);
-    if (moving_stiffness(frame, out) != NULL)
+    if (frame != NULL && out->N != NULL)
         add_curvature(d, &c);
 }
 
@@ -241,6 +181,11 @@ status beamw_spread_inertia(const beamw_spread *d, const node_state x[2],
                             const element_rotating_frame *frame, inertia_output *out)
 {
     moving_clear(N, out);
+    if (frame == NULL && out->rate != NULL) {
+        REAL_CHOSEN(beamw_in_time)(d, x, out);
+        moving_complete(N, out);
+        return STATUS_OK;
+    }
     if (d->share < 1)
         for (int node = 0; node < 2; node++)
             lumped_add(&d->lumped, 1 - d->share, &x[node], frame, NODE_COORDINATES * node, N, out);

@@ -16,19 +16,6 @@ static void gradient_of(const double J[8 * N], const double f[8], double out[N])
     out[AQ] = f[7] * J[7 * N + AQ];
 }
 
-/* Of the field k. */
-static void rates_at(const beamw_inertia_state *c, int k, beamw_inertia_values *out)
-{
-    const double *field = out->field[k];
-    out->rate[k] = out->curvature[k] = 0;
-    for (int i = 0; i < N; i++)
-        out->rate[k] += out->gradient[k][i] * c->out->rate[i];
-    for (int i = 0; i < 6; i++) /* those of warping are linear */
-        out->curvature[k] += field[i] * c->ec[i];
-    if (c->out->C != NULL)
-        gradient_of(c->slope, field, out->slope[k]);
-}
-
 void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_spread *d, int g,
                              beamw_inertia_values *out)
 {
@@ -41,8 +28,6 @@ void beamw_inertia_values_at(const beamw_inertia_state *c, const beamw_spread *d
         for (int i = 0; i < 8; i++)
             out->value[k] += field[i] * c->e[i];
         gradient_of(c->J, field, out->gradient[k]);
-        if (c->in_time)
-            rates_at(c, k, out);
     }
 }
 
@@ -85,40 +70,6 @@ void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_value
             r[i] += c->mean[y->term[k].k][i] * amplitude;
             for (int node = 0; node < 2; node++)
                 fixed[node][i] += amplitude / 2 * c->vector[node][y->term[k].k][i];
-        }
-    }
-}
-
-/* A += f times row */
-static void add_outer(double factor, const double f[3], const double row[N], double A[3 * N])
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < N; j++)
-            A[N * i + j] += factor * f[i] * row[j];
-}
-
-void beamw_inertia_convective(const beamw_inertia_state *c, const beamw_inertia_values *at,
-                              const beamw_inertia_vector *y, double fixed[2][3], double y_c[3],
-                              double rates[3 * N], double displacement[3 * N])
-{
-    static const int turns[2] = {TP, TQ};
-    for (int node = 0; node < 2; node++)
-        moving_fixed(&c->node[node], fixed[node], turns[node], N, y_c, rates, displacement);
-    for (int t = 0; t < y->terms; t++) {
-        const int k = y->term[t].k, field = y->term[t].field;
-        const double sign = y->term[t].sign;
-        for (int i = 0; i < 3; i++)
-            y_c[i] += sign * (2 * c->mean_rate[k][i] * at->rate[field] +
-                              c->mean[k][i] * at->curvature[field]);
-        if (rates == NULL)
-            continue;
-        add_outer(2 * sign, c->mean_rate[k], at->gradient[field], rates);
-        add_outer(2 * sign, c->mean[k], at->slope[field], rates);
-        for (int node = 0; node < 2; node++) {
-            double turned[3];
-            for (int i = 0; i < 3; i++)
-                turned[i] = sign * at->rate[field] * c->vector[node][k][i];
-            moving_rotation_gradient(turned, turns[node], N, rates);
         }
     }
 }

@@ -19,11 +19,6 @@ typedef struct beamw_inertia_state {
     const node_state *x;
     const element_rotating_frame *frame;
     inertia_output *out;
-    /* In time. */
-    int in_time;
-    moving_turn node[2];
-    double mean_rate[3][3];     /* m_k' */
-    double slope[8 * N], ec[8]; /* modes_rates.h: of the strains, and slope . x' */
 } beamw_inertia_state;
 
 /* The functionals at a point: their values and gradients. */
@@ -31,8 +26,6 @@ typedef struct beamw_inertia_values {
     double x, mass; /* mass: weight */
     const double (*field)[8];
     double value[BEAMW_FIELDS], gradient[BEAMW_FIELDS][N];
-    /* In time: value' and value'' without accelerations; half the derivative of that by x'. */
-    double rate[BEAMW_FIELDS], curvature[BEAMW_FIELDS], slope[BEAMW_FIELDS][N];
 } beamw_inertia_values;
 
 enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
@@ -56,10 +49,4 @@ void beamw_inertia_gradient(const beamw_inertia_state *, const beamw_inertia_val
 /* Where it is in the frame; and the vectors fixed to the nodes, with their weights. */
 void beamw_inertia_place(const beamw_inertia_state *, const beamw_inertia_values *,
                          const beamw_inertia_vector *, double r[3], double fixed[2][3]);
-/* In time: y_c, and NULL: not wanted, dy_c/dx' and d(T x'' + y_c)/dx but for what the strains
- * themselves do to the latter. */
-void beamw_inertia_convective(const beamw_inertia_state *, const beamw_inertia_values *,
-                              const beamw_inertia_vector *, double fixed[2][3], double y_c[3],
-                              double rates[3 * N], double displacement[3 * N]);
-
 #endif

@@ -29,9 +29,7 @@ void beamw_inertia_prepare(const section *c, unsigned features, beamw_inertia_ki
                            const beamw_stiffness_fields *fields, element_data *d)
 {
     beamw_spread *s = &d->spread;
-    section plain = *c;
-    plain.matrices = kind == BEAMW_INERTIA_LUMPED ? c->matrices : 0; /* constants say all of them */
-    s->lumped = lumped_of(&plain, features, d->l0 / 2);
+    s->lumped = lumped_of(c, features, d->l0 / 2);
     static const double share[] = {
         [BEAMW_INERTIA_LUMPED] = 0, [BEAMW_INERTIA_CONSISTENT] = 1, [BEAMW_INERTIA_AVERAGED] = 0.5};
     s->share = share[kind];

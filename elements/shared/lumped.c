@@ -76,53 +76,22 @@ static void add_translation(double mass, const node_state *x, const element_rota
     moving_add(&v, frame, n, out, F);
 }
 
-/* In time: of a vector fixed to a node whose rotations begin at coordinate `from`; its own columns
- * of them at `at`. */
-static void add_turning(const inertia_output *out, const double f[3], int from, int at, int columns,
-                        moving_vector *v, double rates[], double displacement[])
-{
-    moving_turn turn;
-    moving_turn_of(out, from, &turn);
-    moving_fixed(&turn, f, at, columns, v->convective, rates, displacement);
-}
-
 static void add_rotation(const lumped_mass *l, double share, const node_state *x,
                          const element_rotating_frame *frame, int at, int n, inertia_output *out)
 {
     double j[3], *const stiffness = moving_stiffness(frame, out);
     lumped_directors(l->rotary, j);
     for (int k = 0; k < 3; k++) {
-        double T[9] = {0}, rates[9] = {0}, displacement[9] = {0}, F[3];
+        double T[9] = {0}, F[3];
         moving_vector v = {.mass = share * j[k],
                            .y = {x->R[k], x->R[3 + k], x->R[6 + k]},
                            .at = at + 3,
                            .columns = 3,
-                           .T = T,
-                           .rates = rates,
-                           .displacement = displacement};
+                           .T = T};
         moving_rotation_gradient(v.y, 0, 3, T);
-        if (moving_in_time(frame, out))
-            add_turning(out, v.y, at + 3, 0, 3, &v, rates, displacement);
         moving_add(&v, frame, n, out, F);
         if (stiffness != NULL)
             moving_rotation_stiffness(F, v.y, at + 3, n, stiffness);
-    }
-}
-
-/* In time, of a vector a n_X beside its turning: 2 a' w x n_X. */
-static void add_stretching(const inertia_output *out, const double normal[3], int at,
-                           moving_vector *v, double rates[])
-{
-    enum { COLUMNS = 4, A = 3 };
-    const double *w = out->rate + at + 3, grows = out->rate[at + 6];
-    double turned[3], T[9] = {0};
-    vec3_cross(w, normal, turned);
-    moving_rotation_gradient(normal, 0, 3, T);
-    for (int i = 0; i < 3; i++) {
-        v->convective[i] += 2 * grows * turned[i];
-        rates[COLUMNS * i + A] += 2 * turned[i];
-        for (int j = 0; j < 3; j++)
-            rates[COLUMNS * i + j] += 2 * grows * T[3 * i + j];
     }
 }
 
@@ -134,22 +103,12 @@ static void add_warping(double mass, const node_state *x, const element_rotating
     enum { COLUMNS = 4, A = 3 };
     const double normal[3] = {x->R[0], x->R[3], x->R[6]};
     double T[3 * COLUMNS] = {0}, F[3], mixed[3], *const stiffness = moving_stiffness(frame, out);
-    double rates[3 * COLUMNS] = {0}, displacement[3 * COLUMNS] = {0};
-    moving_vector v = {.mass = mass,
-                       .at = at + 3,
-                       .columns = COLUMNS,
-                       .T = T,
-                       .rates = rates,
-                       .displacement = displacement};
+    moving_vector v = {.mass = mass, .at = at + 3, .columns = COLUMNS, .T = T};
     for (int i = 0; i < 3; i++) {
         v.y[i] = x->a * normal[i];
         T[COLUMNS * i + A] = normal[i];
     }
     moving_rotation_gradient(v.y, 0, COLUMNS, T);
-    if (moving_in_time(frame, out)) {
-        add_turning(out, v.y, at + 3, 0, COLUMNS, &v, rates, displacement);
-        add_stretching(out, normal, at, &v, rates);
-    }
     moving_add(&v, frame, n, out, F);
     if (stiffness == NULL)
         return;
@@ -162,18 +121,11 @@ static void add_warping(double mass, const node_state *x, const element_rotating
 }
 
 /* Without rotary inertia: what turns about n_X. */
-static void add_twist(double mass, const node_state *x, const element_rotating_frame *frame, int at,
-                      int n, inertia_output *out)
+static void add_twist(double mass, const node_state *x, int at, int n, inertia_output *out)
 {
-    double row[ELEMENT_MAX_COORDINATES] = {0};
-    moving_twist t = {.mass = mass, .row = row, .nodes = 1, .at = {at + 3}, .weight = {1}};
-    for (int i = 0; i < 3; i++)
-        t.axis[0][i] = row[at + 3 + i] = x->R[3 * i];
     for (int i = 0; i < 3 && out->M != NULL; i++)
         for (int k = 0; k < 3; k++)
             out->M[(at + 3 + i) * n + at + 3 + k] += mass * x->R[3 * i] * x->R[3 * k];
-    if (moving_in_time(frame, out))
-        moving_add_twist(&t, n, out);
 }
 
 /* r + R vector[0], and the others turned by R. */
@@ -184,13 +136,7 @@ static void add_vectors(const lumped_mass *l, double share, const node_state *x,
     for (int k = 0; k < l->vectors; k++) {
         double T[3 * COLUMNS] = {0}, F[3],
                      turned[3], *const stiffness = moving_stiffness(frame, out);
-        double rates[3 * COLUMNS] = {0}, displacement[3 * COLUMNS] = {0};
-        moving_vector v = {.mass = share * l->carried[k],
-                           .at = at,
-                           .columns = COLUMNS,
-                           .T = T,
-                           .rates = rates,
-                           .displacement = displacement};
+        moving_vector v = {.mass = share * l->carried[k], .at = at, .columns = COLUMNS, .T = T};
         mat3_mul_vec(x->R, l->vector[k], turned);
         memcpy(v.y, turned, sizeof turned);
         for (int i = 0; i < 3 && k == 0; i++) {
@@ -198,8 +144,6 @@ static void add_vectors(const lumped_mass *l, double share, const node_state *x,
             v.y[i] += x->r[i] - (frame != NULL ? frame->centre[i] : 0);
         }
         moving_rotation_gradient(turned, TURN, COLUMNS, T);
-        if (moving_in_time(frame, out))
-            add_turning(out, turned, at + TURN, TURN, COLUMNS, &v, rates, displacement);
         moving_add(&v, frame, n, out, F);
         if (stiffness != NULL)
             moving_rotation_stiffness(F, turned, at + TURN, n, stiffness);
@@ -219,7 +163,7 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x,
     if (l->warping > 0)
         add_warping(share * l->warping, x, frame, at, n, out);
     if (!l->turns)
-        add_twist(share * l->rotary[0], x, frame, at, n, out);
+        add_twist(share * l->rotary[0], x, at, n, out);
 }
 
 status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],

@@ -44,7 +44,7 @@ element_order sheet_base_order(element_analysis, const double options[]);
 /* In an element_type: what every sheet element has; and those whose strains see no shear. */
 #define SHEET_BASE_TYPE                                                                            \
     .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
-    .inertia = sheet_base_inertia, .mass_of_field = sheet_base_mass_of_field,                      \
+    .inertia = sheet_base_inertia, .spreads = 1, .mass_of_field = sheet_base_mass_of_field,        \
     .lanes = LANES_TOGETHER, .strain_many = sheet_base_strain_many
 #define SHEET_BASE_WITHOUT_SHEAR                                                                   \
     .offers = SHEET_BASE_OFFERS, .shear_theories = SHEAR_OWN,                                      \

@@ -89,6 +89,7 @@ static void wrap(const element_type *given, element_type *out)
     out->rest = given->rest != NULL ? rest : NULL;
     out->geometric = given->geometric != NULL ? geometric : NULL;
     out->inertia = given->inertia != NULL ? inertia : spread;
+    out->spreads = given->inertia != NULL ? given->spreads : 1;
     out->mass_of_field = given->inertia != NULL ? given->mass_of_field : always;
     out->strain = differences_strain;
     out->strain_many = given->strain_many != NULL ? differences_strain_many : NULL;

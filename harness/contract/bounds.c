@@ -134,7 +134,7 @@ static void in_time(const specimen *s, const node_state x[], claims *c)
     const int n = s->coordinates;
     guarded taken, rates, places;
     double rate[N], acceleration[N];
-    if (s->type.inertia == NULL || !s->type.spreads)
+    if (s->type.inertia == NULL || !s->type.spreads || s->coordinates > 2 * NODE_COORDINATES)
         return;
     for (int i = 0; i < n; i++)
         rate[i] = acceleration[i] = sin(i);

@@ -27,7 +27,9 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     node_state x[ELEMENT_MAX_NODES];
     double M[N * N];
     specimen_moved(&m->at, i, si, j, sj, x);
-    const status outcome = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
+    const double rate[N] = {0};
+    const status outcome =
+        s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M, .rate = rate});
     dense_mul_vec(s->coordinates, s->coordinates, M, m->rate, values);
     return (int)outcome;
 }
@@ -127,6 +129,8 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
 static void check_one(const specimen *s, claims *c)
 {
     const int n = s->coordinates;
+    if (n > 2 * NODE_COORDINATES) /* with other options */
+        return;
     node_state x[ELEMENT_MAX_NODES];
     double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
     const moving_place place = {{s, x}, rate};
@@ -176,7 +180,7 @@ static void check(const specimen *s, claims *c)
 
 void checks_in_time(const formulation *chosen, claims *out)
 {
-    if (!chosen->type->spreads || chosen->type->inertia == NULL) {
+    if (!element_spreads(chosen->type, chosen->option)) {
         claims_not_made(out, "what is taken derives from the energy",
                         "in time its mass is lumped at its nodes");
         return;

@@ -18,15 +18,16 @@ static const double potential = 1e-12;
 
 /* What of the loads along members goes to the ends of elements: weights where mass is lumped there,
  * all where a motion has to conserve energy; in states that motions start from, too. */
-static int lumps_of(const scene *s, int analysis)
+static int lumps_of(const model *m, int analysis)
 {
+    const scene *s = m->scene;
     const scene_analysis *a = &s->analysis[analysis];
     int lumps = LUMPS_NOTHING;
-    if (a->kind == SCENE_MOTION && a->of.motion.mass == SCENE_LUMPED)
+    if (a->kind == SCENE_MOTION && !model_spreads(m, analysis))
         lumps = a->of.motion.scheme == SCENE_CONSERVING ? LUMPS_LOADS : LUMPS_WEIGHTS;
     for (int later = analysis + 1; later < s->analyses; later++) {
         const int then =
-            s->analysis[later].follows == analysis ? lumps_of(s, later) : LUMPS_NOTHING;
+            s->analysis[later].follows == analysis ? lumps_of(m, later) : LUMPS_NOTHING;
         lumps = then > lumps ? then : lumps;
     }
     return lumps;
@@ -37,7 +38,7 @@ void loads_of(model *m, int analysis)
     const scene_analysis *a = &m->scene->analysis[analysis];
     m->unloaded = 0;
     m->in_time = a->kind == SCENE_MOTION;
-    m->lumps = lumps_of(m->scene, analysis);
+    m->lumps = lumps_of(m, analysis);
     m->held_path = 1;
 }
 

@@ -6,6 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/offset.h"
 #include "elements/math/vec3.h"
+#include "harness/inertia/released.h"
 #include "harness/inertia/vertex_rates.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
@@ -138,11 +139,11 @@ static void carry(int n, int at, const moving_element *e, const double rho[3], c
 static void to_bodies(const model *m, const mesh_element *el, const model_state *s,
                       const moving_element *e, double F[], spread_parts *p)
 {
-    const int n = p->columns;
+    const int n = NODE_COORDINATES * el->nodes;
     for (int k = 0; k < el->nodes; k++) {
         const int vertex = el->vertex[k], at = NODE_COORDINATES * k;
         double rho[3];
-        if (m->vertex[vertex].body != vertex) {
+        if (m->vertex[vertex].body != vertex && vertex < m->first_release) {
             kinematics_offset(m, s, vertex, rho);
             carry(n, at, e, rho, p->acceleration, p->velocity, p->place);
             offset_matrix(n, at, rho, NULL, p->acceleration);
@@ -160,6 +161,13 @@ static void set_turns(const model *m, const mesh_element *el, const model_state 
         inertia_turns(m, s, m->vertex[el->vertex[k]].body, p->turn[k], p->rate[k]);
 }
 
+static void begin_parts(const mesh_element *el, const model_state *s, spread_parts *out)
+{
+    out->el = el;
+    out->state = s;
+    out->columns = el->columns;
+}
+
 void spread_element(const model *m, int element, const model_state *s, const double v[],
                     const double a[], spread_parts *out)
 {
@@ -167,7 +175,7 @@ void spread_element(const model *m, int element, const model_state *s, const dou
     moving_element e;
     double F[MOST];
     gather(m, el, s, v, a, &e);
-    out->columns = m->coordinates;
+    begin_parts(el, s, out);
     evaluate(m, element, e.x,
              &(inertia_output){.M = out->acceleration,
                                .rate = e.rate,
@@ -179,26 +187,88 @@ void spread_element(const model *m, int element, const model_state *s, const dou
     set_turns(m, el, s, out);
 }
 
-void spread_times(int columns, const double A[], const spread_motion motion[], double out[])
+/* One of an element that is released from a node. */
+static int is_wide(const spread_parts *p)
 {
+    return p->columns > NODE_COORDINATES * p->el->nodes;
+}
+
+static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/* T[7 nodes x columns]: motion of the nodes by the coordinates of the element; moves NULL: by
+ * spatial increments. */
+static void wide_motion(const model *m, const spread_parts *p, const spread_motion moves[],
+                        double T[MOST * MODEL_MAX_COORDINATES])
+{
+    const mesh_element *el = p->el;
+    memset(T, 0, MOST * MODEL_MAX_COORDINATES * sizeof *T);
+    for (int k = 0; k < el->nodes; k++) {
+        const int at = NODE_COORDINATES * k;
+        const double plain = moves != NULL ? moves[k].plain : 1,
+                     *turn = moves != NULL ? moves[k].turn : p->turn[k];
+        T[p->columns * (at + 6) + at + 6] = plain;
+        if (el->vertex[k] < m->first_release) {
+            for (int i = 0; i < 3; i++) {
+                T[p->columns * (at + i) + at + i] = plain;
+                for (int j = 0; j < 3; j++)
+                    T[p->columns * (at + 3 + i) + at + 3 + j] = turn[3 * i + j];
+            }
+            continue;
+        }
+        released of;
+        double motion[6 * KINEMATICS_MOST];
+        released_columns(m, p->state, el->vertex[k], &of);
+        released_motion(&of, plain, moves != NULL ? turn : one, moves != NULL ? moves[k].ball : one,
+                        motion);
+        for (int c = 0; c < of.count; c++) {
+            int to = 0;
+            while (to + 1 < p->columns && el->index[to] != of.index[c])
+                to++;
+            for (int i = 0; i < 6; i++)
+                T[p->columns * (at + i) + to] = motion[i * of.count + c];
+        }
+    }
+}
+
+/* out[columns x columns] += rows^T A motion, A [7 nodes x 7 nodes]. */
+static void wide_times(const model *m, const spread_parts *p, const double A[],
+                       const spread_motion moves[], double out[])
+{
+    const int n = NODE_COORDINATES * p->el->nodes;
+    double rows[MOST * MODEL_MAX_COORDINATES], motion[MOST * MODEL_MAX_COORDINATES],
+        half[MOST * MODEL_MAX_COORDINATES];
+    wide_motion(m, p, NULL, rows);
+    wide_motion(m, p, moves, motion);
+    dense_mul(n, n, p->columns, A, motion, half);
+    dense_add_transpose_mul(p->columns, n, p->columns, rows, half, out);
+}
+
+void spread_times(const model *m, const spread_parts *p, const double A[],
+                  const spread_motion motion[], double out[])
+{
+    const int columns = p->columns;
+    if (is_wide(p)) {
+        wide_times(m, p, A, motion, out);
+        return;
+    }
     for (int i = 0; i < columns; i++)
         for (int at = 0; at < columns; at += NODE_COORDINATES) {
-            const spread_motion *one = &motion[at / NODE_COORDINATES];
+            const spread_motion *by = &motion[at / NODE_COORDINATES];
             const double *row = &A[columns * i + at];
             double *to = &out[columns * i + at];
             for (int j = 0; j < 3; j++) {
-                to[j] += one->plain * row[j];
+                to[j] += by->plain * row[j];
                 for (int k = 0; k < 3; k++)
-                    to[3 + j] += row[3 + k] * one->turn[3 * k + j];
+                    to[3 + j] += row[3 + k] * by->turn[3 * k + j];
             }
-            to[6] += one->plain * row[6];
+            to[6] += by->plain * row[6];
         }
 }
 
 void spread_rows(const spread_parts *p, double K[])
 {
     const int n = p->columns;
-    for (int at = 3; at < n; at += NODE_COORDINATES)
+    for (int at = 3; at < n && !is_wide(p); at += NODE_COORDINATES)
         for (int j = 0; j < n; j++) {
             const double column[3] = {K[n * at + j], K[n * (at + 1) + j], K[n * (at + 2) + j]};
             double turned[3];
@@ -208,32 +278,49 @@ void spread_rows(const spread_parts *p, double K[])
         }
 }
 
+static const double at_rest[MOST];
+
 void spread_masses(const model *m, int element, const model_state *s, spread_parts *out)
 {
     const mesh_element *el = &m->element[element];
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
-    out->columns = m->coordinates;
-    evaluate(m, element, x, &(inertia_output){.M = out->acceleration});
+    begin_parts(el, s, out);
+    evaluate(m, element, x, &(inertia_output){.M = out->acceleration, .rate = at_rest});
     for (int k = 0; k < el->nodes; k++)
-        if (m->vertex[el->vertex[k]].body != el->vertex[k]) {
+        if (m->vertex[el->vertex[k]].body != el->vertex[k] && el->vertex[k] < m->first_release) {
             double rho[3];
             kinematics_offset(m, s, el->vertex[k], rho);
-            offset_matrix(out->columns, NODE_COORDINATES * k, rho, NULL, out->acceleration);
+            offset_matrix(m->coordinates, NODE_COORDINATES * k, rho, NULL, out->acceleration);
         }
     set_turns(m, el, s, out);
 }
 
-/* What the motion of the bodies is by their coordinates. */
+void spread_place(const model *m, const spread_parts *p, spread_motion place[])
+{
+    for (int k = 0; k < p->el->nodes; k++) {
+        const int plain = p->el->vertex[k] < m->first_release;
+        place[k].plain = 1;
+        memcpy(place[k].turn, plain ? p->turn[k] : one, sizeof place[k].turn);
+        memcpy(place[k].ball, one, sizeof place[k].ball);
+    }
+}
+
+/* What the rates of the bodies are by their coordinates. */
 static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
-                       const spread_parts *p, spread_motion place[], spread_motion rates[])
+                       const spread_parts *p, spread_motion rates[])
 {
     for (int k = 0; k < el->nodes; k++) {
         double N[9];
-        inertia_chart(m, m->vertex[el->vertex[k]].body, with->inc, p->rate[k], N);
+        const int body = m->vertex[el->vertex[k]].body;
+        rates[k].plain = 1;
+        if (el->vertex[k] >= m->first_release) {
+            inertia_turn(m, body, p->state, with->inc, rates[k].turn);
+            inertia_turn(m, el->vertex[k], p->state, with->inc, rates[k].ball);
+            continue;
+        }
+        inertia_chart(m, body, with->inc, p->rate[k], N);
         mat3_mul(p->rate[k], N, rates[k].turn);
-        memcpy(place[k].turn, p->turn[k], sizeof place[k].turn);
-        rates[k].plain = place[k].plain = 1;
     }
 }
 
@@ -245,14 +332,15 @@ void spread_add_tangent(const model *m, const model_state *s, const double v[], 
         const mesh_element *el = &m->element[i];
         spread_parts p;
         spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
-        double K[MOST * MOST] = {0};
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         spread_element(m, i, s, v, a, &p);
-        const int all = p.columns * p.columns;
+        const int all = m->coordinates * m->coordinates;
         for (int k = 0; k < all; k++)
             p.acceleration[k] = with->b * p.acceleration[k] + with->g * p.velocity[k];
-        motions_of(m, el, with, &p, place, rates);
-        spread_times(p.columns, p.acceleration, rates, K);
-        spread_times(p.columns, p.place, place, K);
+        spread_place(m, &p, place);
+        motions_of(m, el, with, &p, rates);
+        spread_times(m, &p, p.acceleration, rates, K);
+        spread_times(m, &p, p.place, place, K);
         spread_rows(&p, K);
         assemble_matrix(pattern, i, K, S);
     }
@@ -266,7 +354,7 @@ void spread_add_balance(const model *m, const model_state *s, const double v[], 
         moving_element e;
         double M[MOST * MOST], p[MOST];
         gather(m, el, s, v, NULL, &e);
-        evaluate(m, i, e.x, &(inertia_output){.M = M});
+        evaluate(m, i, e.x, &(inertia_output){.M = M, .rate = e.rate});
         dense_mul_vec(m->coordinates, m->coordinates, M, e.rate, p);
         *kinetic += dense_dot(m->coordinates, e.rate, p) / 2;
         for (int k = 0; k < el->nodes; k++) {

@@ -257,3 +257,18 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
         *features &= ~(unsigned)FEATURE_ECCENTRIC;
     return STATUS_OK;
 }
+
+/* A mass of its own that says nothing of sections by their matrices. */
+static int knows_constants_only(const scene *s, const element_type *type)
+{
+    int matrices = 0;
+    for (int i = 0; i < s->sections; i++)
+        matrices |= is_used(s, i) && s->section[i].kind == SECTION_MATRICES;
+    return matrices && type->mass_of_field == NULL && !(type->offers & FEATURE_COUPLED);
+}
+
+int features_spreads(const scene *s, int analysis, const element_type *type, const double options[])
+{
+    return scene_may_spread(s, analysis) && element_spreads(type, options) &&
+           !knows_constants_only(s, type);
+}

@@ -6,6 +6,9 @@
 
 /* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in
  * words; 0: it can run. */
+/* 1: in this motion elements of the type spread their mass along themselves. */
+int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
+
 unsigned features_needed(const scene *);
 /* Those without which an asked quantity means nothing. */
 unsigned features_of_quantities(const scene *);

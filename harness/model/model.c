@@ -226,6 +226,11 @@ void model_free(model *m)
     free(m);
 }
 
+int model_spreads(const model *m, int analysis)
+{
+    return features_spreads(m->scene, analysis, m->type, m->options);
+}
+
 model_size model_sizes(const model *m)
 {
     return (model_size){m->elements, m->vertices, m->free,  m->driven,

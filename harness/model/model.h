@@ -43,6 +43,8 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
+/* 1: in this motion elements spread their mass along themselves. */
+int model_spreads(const model *, int analysis);
 /* The same with one element per member. */
 status model_coarse(const model *, model **, fault *);
 /* The same with twice as many elements. */

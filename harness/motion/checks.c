@@ -22,19 +22,20 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
-    const int spreads = scene_spreads(one), follows = one->follows;
+    const int spreads = model_spreads(c->model, analysis), follows = one->follows;
     const scene_scheme scheme = scene_motion_of(one)->scheme;
-    if (spreads && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
+    if (scene_spreads(one) && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
         return fault_set(f, STATUS_REFUSED,
                          "the integrator %s has lumped mass only; alpha and radau take mass: "
                          "consistent",
                          scheme == SCENE_CONSERVING ? "conserving" : "explicit");
-    if (spreads && c->model->releases > 0)
+    if (!spreads && scene_spreads(one))
         return fault_set(f, STATUS_REFUSED,
-                         "consistent mass takes no members that are released from their nodes; "
-                         "give mass: lumped");
+                         "the mass of %s is lumped at its nodes; give mass: lumped, or another "
+                         "formulation",
+                         c->model->type->name);
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
-        scene_spreads(&c->scene->analysis[follows]) != spreads)
+        model_spreads(c->model, follows) != spreads)
         return fault_set(f, STATUS_REFUSED,
                          "a motion goes on with the mass of the motion before it; give both "
                          "lumped or both consistent");
@@ -54,11 +55,6 @@ status checks_massless(const analysis_context *c, const carried *masses, const s
 {
     int massless;
     TRY(massless_count(c->model, masses, begin, &massless, f));
-    if (massless > 0 && masses->spread)
-        return fault_set(f, STATUS_REFUSED,
-                         "%d coordinates have no inertia, which consistent mass does not go with; "
-                         "give mass: lumped, or mass to all nodes",
-                         massless);
     if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,

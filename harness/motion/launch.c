@@ -154,8 +154,15 @@ static status begin(stage *s, const scene_motion *how, instant *now, instant *ro
     drive_at(m, now->state, now->time, inc, now->v, now->a);
     TRY(check_drivers(m, inc, f));
     TRY(massless_count(m, s->masses, now->state, &massless, f));
-    return massless > 0 ? settle(s, zero, how->step, now, f)
-                        : accelerate(s, how->step, now, room, inc, zero, f);
+    if (massless == 0)
+        return accelerate(s, how->step, now, room, inc, zero, f);
+    TRY(settle(s, zero, how->step, now, f));
+    if (!s->masses->spread) /* else what has inertia accelerates together */
+        return STATUS_OK;
+    TRY(accelerate(s, how->step, now, room, inc, zero, f));
+    TRY(massless_drop(m, s->masses, now->state, now->a, f));
+    memcpy(now->algorithm, now->a, (size_t)s->all * sizeof *now->a);
+    return STATUS_OK;
 }
 
 status launch_again(analysis_context *c, const carried *masses, const scene_motion *how,

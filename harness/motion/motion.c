@@ -302,8 +302,8 @@ static status solve(motion *w, fault *f)
     scene_rotating_frame frame;
     const model *m = w->c->model;
     TRY(checks_of(w->c, w->analysis, f));
-    TRY(w->how->mass == SCENE_CONSISTENT ? carried_alloc_spread(m, &w->masses, f)
-                                         : carried_alloc(m, &w->masses, f));
+    TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
+                                      : carried_alloc(m, &w->masses, f));
     TRY(damping_begin(w->c->model, &w->damping, f));
     TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};

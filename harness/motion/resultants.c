@@ -103,7 +103,7 @@ static status reaction_of(model *m, const scene_component *what, const model_sta
 status resultants_of(model *m, const scene_quantity *q, const model_state *s, const double v[],
                      const double a[], double *out, fault *f)
 {
-    const moving_state of = {m, s, {v, a, scene_spreads(&m->scene->analysis[q->analysis])}};
+    const moving_state of = {m, s, {v, a, model_spreads(m, q->analysis)}};
     const internal_inertia inertia = {inertia_at_ends, inertia_along, &of};
     if (q->what.kind == SCENE_REACTION)
         return reaction_of(m, scene_component_of(q), s, &of.motion, out, f);

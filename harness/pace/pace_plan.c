@@ -66,6 +66,8 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
+    if (how->mass == SCENE_MASS_USUAL) /* errors are those of time: all have the same mass */
+        how->mass = SCENE_LUMPED;
     how->alpha = r->method.alpha;
     how->step = r->step;
     how->tolerance = r->tolerance;

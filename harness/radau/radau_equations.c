@@ -41,14 +41,6 @@ static void add_frame(radau *r, int index, double h, int i)
     }
 }
 
-/* R_i B of a vertex. */
-static void in_space(const radau *r, int vertex, int i, const double B[9], double out[9])
-{
-    double R[9];
-    rotation_matrix(&r->stage[i].state->q[4 * vertex], R);
-    mat3_mul(R, B, out);
-}
-
 /* The same of a released end. */
 static void add_released(radau *r, int index, double h, int i)
 {
@@ -65,12 +57,12 @@ static void add_released(radau *r, int index, double h, int i)
             K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
         radau_relate(r, body, h, i, k, &of_body);
         radau_relate(r, vertex, h, i, k, &of_end);
-        in_space(r, body, i, of_body.turn_acceleration, at_body);
-        in_space(r, vertex, i, of_end.turn_acceleration, at_end);
+        radau_in_space(r, body, i, of_body.turn_acceleration, at_body);
+        radau_in_space(r, vertex, i, of_end.turn_acceleration, at_end);
         released_motion(&of, of_body.acceleration, at_body, at_end, motion);
         released_project(&of, p.acceleration, motion, K);
-        in_space(r, body, i, of_body.turn_rate, at_body);
-        in_space(r, vertex, i, of_end.turn_rate, at_end);
+        radau_in_space(r, body, i, of_body.turn_rate, at_body);
+        radau_in_space(r, vertex, i, of_end.turn_rate, at_end);
         released_motion(&of, of_body.rate, at_body, at_end, motion);
         released_project(&of, p.velocity, motion, K);
         if (i == k) {
@@ -115,6 +107,7 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
             TRY(linearise_make_compatible(m, one->state, f));
         TRY(linearise_state(m, one->state, &lin, f));
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);
+        m->counters.inertia_evaluations += r->of.masses->spread ? m->elements * (1 + fresh) : 0;
         memcpy(r->residual + (size_t)i * (size_t)r->free, r->dx,
                (size_t)r->free * sizeof *r->residual);
         if (fresh)

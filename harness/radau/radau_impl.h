@@ -47,6 +47,9 @@ typedef struct radau_relation {
 } radau_relation;
 void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relation *);
 
+/* out = R B, R of a vertex in stage i. */
+void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
+
 /* radau_equations.c */
 /* The residual of all stages in their present states, and fresh 1: S. */
 status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);

@@ -122,3 +122,10 @@ void radau_relate(const radau *r, int vertex, double h, int i, int k, radau_rela
     mat3_mul(sum, N, out->turn_acceleration);
     mat3_mul(turn, N, out->turn_rate);
 }
+
+void radau_in_space(const radau *r, int vertex, int i, const double B[9], double out[9])
+{
+    double R[9];
+    rotation_matrix(&r->stage[i].state->q[4 * vertex], R);
+    mat3_mul(R, B, out);
+}

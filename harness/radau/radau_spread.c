@@ -6,45 +6,47 @@
 #include "harness/inertia/spread.h"
 #include "harness/radau/radau_impl.h"
 
-enum { MOST = ELEMENT_MAX_COORDINATES };
-
-/* Block (i, k) of an element -> K[columns x columns]. */
-static void block_of(const radau *r, const mesh_element *el, const spread_parts *p, double h, int i,
-                     int k, double K[])
+/* What the motion of a node in stage i gains by spatial increments of its coordinates in stage k.
+ */
+static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
+                       spread_motion *rates, spread_motion *accelerations)
 {
-    spread_motion rates[ELEMENT_MAX_NODES], accelerations[ELEMENT_MAX_NODES],
-        place[ELEMENT_MAX_NODES];
-    memset(K, 0, (size_t)(p->columns * p->columns) * sizeof *K);
-    for (int node = 0; node < el->nodes; node++) {
-        radau_relation of;
-        radau_relate(r, r->of.c->model->vertex[el->vertex[node]].body, h, i, k, &of);
-        rates[node].plain = of.rate;
-        accelerations[node].plain = of.acceleration;
-        place[node].plain = 1;
-        mat3_mul(p->rate[node], of.turn_rate, rates[node].turn);
-        mat3_mul(p->rate[node], of.turn_acceleration, accelerations[node].turn);
-        memcpy(place[node].turn, p->turn[node], sizeof place[node].turn);
+    const int vertex = p->el->vertex[node], body = r->of.c->model->vertex[vertex].body;
+    radau_relation of;
+    radau_relate(r, body, h, i, k, &of);
+    rates->plain = of.rate;
+    accelerations->plain = of.acceleration;
+    if (vertex < r->of.c->model->first_release) {
+        mat3_mul(p->rate[node], of.turn_rate, rates->turn);
+        mat3_mul(p->rate[node], of.turn_acceleration, accelerations->turn);
+        return;
     }
-    spread_times(p->columns, p->acceleration, accelerations, K);
-    spread_times(p->columns, p->velocity, rates, K);
-    if (i == k)
-        spread_times(p->columns, p->place, place, K);
-    spread_rows(p, K);
+    radau_in_space(r, body, i, of.turn_rate, rates->turn);
+    radau_in_space(r, body, i, of.turn_acceleration, accelerations->turn);
+    radau_relate(r, vertex, h, i, k, &of);
+    radau_in_space(r, vertex, i, of.turn_rate, rates->ball);
+    radau_in_space(r, vertex, i, of.turn_acceleration, accelerations->ball);
 }
 
 static void add_element(radau *r, int element, double h, int i)
 {
     const model *m = r->of.c->model;
-    const mesh_element *el = &m->element[element];
     spread_parts p;
-    double K[MOST * MOST];
+    spread_motion rates[ELEMENT_MAX_NODES], accelerations[ELEMENT_MAX_NODES],
+        place[ELEMENT_MAX_NODES];
     spread_element(m, element, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
+    spread_place(m, &p, place);
     for (int k = 0; k < STAGES; k++) {
-        block_of(r, el, &p, h, i, k, K);
-        for (int row = 0; row < p.columns; row++)
-            for (int column = 0; column < p.columns; column++)
-                stages_add(&r->S, i, k, el->index[row], el->index[column],
-                           K[p.columns * row + column]);
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+        memset(K, 0, (size_t)(p.columns * p.columns) * sizeof *K);
+        for (int node = 0; node < p.el->nodes; node++)
+            motions_of(r, &p, node, h, i, k, &rates[node], &accelerations[node]);
+        spread_times(m, &p, p.acceleration, accelerations, K);
+        spread_times(m, &p, p.velocity, rates, K);
+        if (i == k)
+            spread_times(m, &p, p.place, place, K);
+        spread_rows(&p, K);
+        stages_add_element(&r->S, i, k, assemble_of(m, &r->K), element, K);
     }
 }
 

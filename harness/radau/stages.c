@@ -115,6 +115,20 @@ void stages_put(stages_matrix *s, int stage, const sparse *K)
     }
 }
 
+void stages_add_element(stages_matrix *s, int i, int k, const mesh_pattern *p, int element,
+                        const double K[])
+{
+    const mesh_layout *layout = &p->layout[p->layout_of[element]];
+    const int *index = p->element[element].index, *begin = p->matrix.column;
+    for (int e = 0; e < layout->entries; e++) {
+        const mesh_entry *one = &layout->entry[e];
+        const int c = index[one->column];
+        s->whole
+            .value[s->whole.column[k * s->n + c] + i * (begin[c + 1] - begin[c]) + one->offset] +=
+            K[one->local];
+    }
+}
+
 void stages_add(stages_matrix *s, int i, int k, int row, int column, double value)
 {
     if (row < 0 || column < 0 || row >= s->n || column >= s->n)

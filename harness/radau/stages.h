@@ -4,6 +4,7 @@
 #define BEAMWORK_STAGES_H
 
 #include "harness/inertia/carried.h"
+#include "harness/model/model_impl.h"
 
 enum { STAGES = 3 };
 
@@ -19,6 +20,10 @@ void stages_free(stages_matrix *);
 /* The block of a stage on the diagonal becomes K; the others zero it first. */
 void stages_put(stages_matrix *, int stage, const sparse *K);
 void stages_zero(stages_matrix *);
+/* Entries K[columns x columns] of an element of block (i, k) are added, of blocks that are all
+ * whole (damping, masses that elements spread). pattern: of a single block. */
+void stages_add_element(stages_matrix *, int i, int k, const mesh_pattern *pattern, int element,
+                        const double K[]);
 /* Entry (row, column) of block (i, k) += value; nothing where either is not free. */
 void stages_add(stages_matrix *, int i, int k, int row, int column, double value);
 

@@ -98,15 +98,18 @@ static void read_steps(const fields *f, double last, scene_motion *how)
                          "without a tolerance all steps are alike; give 'step' [s]");
 }
 
+static scene_mass mass_of(const fields *f)
+{
+    const int given = fields_word(f, "mass", SCENE_MASS_CHOICES, 0);
+    return fields_have(f, "mass") ? (scene_mass)(SCENE_LUMPED + given) : SCENE_MASS_USUAL;
+}
+
 void builder_in_time(const fields *f, int index)
 {
     double *stations;
     const fields start = fields_below(f, "start");
     const int count = fields_values(f, "stations", &stations);
-    scene_motion how = {.scheme = scheme_of(f),
-                        .alpha = alpha_of(f),
-                        .mass =
-                            (scene_mass)fields_word(f, "mass", SCENE_MASS_CHOICES, SCENE_LUMPED)};
+    scene_motion how = {.scheme = scheme_of(f), .alpha = alpha_of(f), .mass = mass_of(f)};
     check_parameters(f, how.scheme);
     read_steps(f, last_of(count, stations), &how);
     fields_vector(&start, "velocity", 3, how.start.velocity);

@@ -46,7 +46,7 @@ const scene_key keys_root[] = {
      .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
     {"mass", KEY_WORD, .words = "consistent|lumped",
      .summary = "of members in vibration and steady rotation: along them, or at their nodes "
-                "(motions in time have a mass of their own)",
+                "(and in motions in time that say nothing else)",
      .usual = "consistent"},
     {"needs", KEY_WORDS, .words = PHYSICS "|engesser|haringx",
      .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "

@@ -107,9 +107,8 @@ static const scene_key in_time[] = {
     {"parameters", KEY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f",
      .left_out = "as rho says"},
     {"mass", KEY_WORD, .words = SCENE_MASS_CHOICES,
-     .summary = "of members: lumped at the nodes, or consistent, of formulations that have it so, "
-                "by alpha and radau",
-     .usual = "lumped"},
+     .summary = "of members: lumped at the nodes, or consistent, by alpha and radau",
+     .left_out = "consistent by alpha and radau, lumped by the others or as the scene says"},
     {"about", KEY_NAME,
      .summary = "static analysis, continuation or rotation from whose last state, or motion that "
                 "goes on, with its "

@@ -5,6 +5,7 @@
 
 #include "cases/scene/analysis.h"
 #include "cases/scene/names.h"
+#include "harness/model/features.h"
 
 enum { MOST_NAMES = 6 };
 
@@ -63,27 +64,28 @@ static int is_lumped(const scene *s, const scene_analysis *a)
     return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a));
 }
 
-static void put_masses(words *w, const scene *s)
+static void put_masses(words *w, const scene *s, const element_type *type, const double options[])
 {
     for (int i = 0; i < s->analyses; i++) {
         const scene_analysis *a = &s->analysis[i];
         if (is_lumped(s, a))
             put(w, "%smass of %s", w->used > 0 ? ", " : "",
                 scene_called(s, SCENE_ANALYSES, i).text);
-        if (a->kind != SCENE_MOTION || scene_motion_of(a)->mass != SCENE_LUMPED)
+        if (a->kind != SCENE_MOTION || features_spreads(s, i, type, options))
             continue;
         put(w, "%smass%s of %s", w->used > 0 ? ", " : "", goes_with(s, scene_motion_of(a)),
             scene_called(s, SCENE_ANALYSES, i).text);
     }
 }
 
-void on_nodes(const scene *s, char *text, size_t room)
+void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
+              size_t room)
 {
     words w = {text, room, 0};
     text[0] = '\0';
     put_loads(&w, s);
     if (is_heavy(s))
-        put_masses(&w, s);
+        put_masses(&w, s, type, options);
     if (w.used > 0)
         put(&w,
             ": half of an element's at both its nodes, of order 2 in its length (at three nodes "

@@ -97,8 +97,8 @@ static void write_motion(writer *w, const scene_analysis *a)
         fputs(", parameters: ", w->to);
         write_values_numbers(w, 2, alpha);
     }
-    if (m->mass == SCENE_CONSISTENT)
-        fputs(", mass: consistent", w->to);
+    if (m->mass != SCENE_MASS_USUAL)
+        fputs(m->mass == SCENE_CONSISTENT ? ", mass: consistent" : ", mass: lumped", w->to);
     if (a->follows != SCENE_NONE)
         write_values_named(w, ", about: ", SCENE_ANALYSES, a->follows);
     write_start(w, &m->start);

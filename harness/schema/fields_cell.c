@@ -47,7 +47,8 @@ static void get_lumped(const subject *s, field_value *out)
 {
     out->room[0] = '\0';
     if (s->series->imported == NULL)
-        on_nodes(&s->point->scene, out->room, sizeof out->room);
+        on_nodes(&s->point->scene, s->series->formulation.type, s->series->formulation.option,
+                 out->room, sizeof out->room);
     out->text = out->room;
 }
 

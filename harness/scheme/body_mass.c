@@ -75,32 +75,32 @@ static double add_mass(const model *m, const carried *all, int index, const mode
     return all->mass[index].mass;
 }
 
-/* Of an element that spreads its mass: at the nodes that the body moves, not between these and
- * others. What is missing here is missing in the whole matrix. */
+/* Of an element that spreads its mass: at the nodes that the body moves and the ends released from
+ * it, not between these and others. What is missing here is missing in the whole matrix. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {
     const mesh_element *el = &m->element[element];
+    spread_motion by[ELEMENT_MAX_NODES];
+    double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0}, largest = 0;
     spread_parts p;
-    double largest = 0;
     int beside = 0;
     for (int k = 0; k < el->nodes; k++)
         beside |= m->vertex[el->vertex[k]].body == body;
     if (!beside)
         return 0;
     spread_masses(m, element, s, &p);
-    spread_rows(&p, p.acceleration);
-    for (int k = 0; k < el->nodes; k++) {
-        const int at = NODE_COORDINATES * k;
-        double B[36], turned[36];
-        if (m->vertex[el->vertex[k]].body != body)
-            continue;
-        for (int i = 0; i < 36; i++)
-            B[i] = p.acceleration[p.columns * (at + i / 6) + at + i % 6];
-        inertia_times(B, 1, p.turn[k], turned);
-        for (int i = 0; i < 36; i++)
-            take(g, el->index[at + i / 6], el->index[at + i % 6], turned[i]);
-        largest = fmax(largest, B[0] + B[7] + B[14]);
+    spread_place(m, &p, by);
+    spread_times(m, &p, p.acceleration, by, K);
+    spread_rows(&p, K);
+    for (int i = 0; i < p.columns; i++)
+        for (int j = 0; j < p.columns; j++)
+            take(g, el->index[i], el->index[j], K[p.columns * i + j]);
+    for (int at = 0; at < m->coordinates; at += NODE_COORDINATES) {
+        double sum = 0;
+        for (int i = at; i < at + 3; i++)
+            sum += p.acceleration[(m->coordinates + 1) * i];
+        largest = fmax(largest, sum);
     }
     return largest;
 }
@@ -115,7 +115,7 @@ double body_mass_warps(const model *m, const carried *all, int warp, const model
             if (m->element[i].warp[k] != warp)
                 continue;
             spread_masses(m, i, s, &p);
-            mass += p.acceleration[p.columns * at + at];
+            mass += p.acceleration[m->coordinates * at + at];
         }
     return mass;
 }

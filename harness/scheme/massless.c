@@ -2,6 +2,8 @@
 
 #include <lapacke.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
@@ -153,21 +155,46 @@ status massless_stiffest(const model *m, const carried *all, const model_state *
     return STATUS_OK;
 }
 
-void massless_own_axes(const model *m, const model_state *s, double a[])
+/* Turns of bodies between spatial axes and their own. */
+static void turn_axes(const model *m, const model_state *s, int own_to_space, double a[])
 {
     for (int i = 0; i < m->vertices; i++) {
         const int *at = m->vertex[i].coordinate + SCENE_RX;
-        double R[9], turning[3], own[3];
+        double R[9], turning[3], turned[3];
         if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY ||
             at[0] >= m->free || at[1] >= m->free || at[2] >= m->free)
             continue;
         for (int k = 0; k < 3; k++)
             turning[k] = a[at[k]];
         rotation_matrix(&s->q[4 * i], R);
-        mat3_transpose_mul_vec(R, turning, own);
+        if (own_to_space)
+            mat3_mul_vec(R, turning, turned);
+        else
+            mat3_transpose_mul_vec(R, turning, turned);
         for (int k = 0; k < 3; k++)
-            a[at[k]] = own[k];
+            a[at[k]] = turned[k];
     }
+}
+
+void massless_own_axes(const model *m, const model_state *s, double a[])
+{
+    turn_axes(m, s, 0, a);
+}
+
+status massless_drop(const model *m, const carried *all, const model_state *s, double a[], fault *f)
+{
+    const size_t size = (size_t)m->free * sizeof *a;
+    double *light = malloc(size + 1);
+    if (light == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    turn_axes(m, s, 1, a);
+    memcpy(light, a, size);
+    const status outcome = massless_motion(m, all, s, light, f);
+    for (int c = 0; c < m->free; c++)
+        a[c] -= light[c];
+    massless_own_axes(m, s, a);
+    free(light);
+    return outcome;
 }
 
 status massless_accelerate(const model *m, const carried *all, const model_state *s,

@@ -13,6 +13,8 @@ status massless_count(const model *, const carried *, const model_state *, int *
 status massless_forces(const model *, const carried *, const model_state *, double force[],
                        fault *);
 status massless_motion(const model *, const carried *, const model_state *, double dx[], fault *);
+/* a[free] as rates have it (forms.h) loses the motion without inertia. */
+status massless_drop(const model *, const carried *, const model_state *, double a[], fault *);
 /* Spatial turns of bodies -> as rates have them (forms.h): a[free]. */
 void massless_own_axes(const model *, const model_state *, double a[]);
 /* The largest stiffness of what has inertia, by that [1/s^2]; diagonal[free]: of a stiffness. */

@@ -83,6 +83,8 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
         TRY(linearise_make_compatible(m, (model_state *)now, f));
     TRY(linearise_state(m, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
+    model_counters(m)->inertia_evaluations +=
+        s->masses->spread ? model_sizes(m).elements * (1 + fresh) : 0;
     if (fresh)
         inertia_add_tangent(m, s->masses, now, r->v, r->a, &with, &s->S);
     record->incompatibility = lin.incompatibility;

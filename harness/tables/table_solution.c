@@ -129,7 +129,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     warping_ends(&p->scene, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "warping: "), INDENT, ends);
-    on_nodes(&p->scene, ends, sizeof ends);
+    on_nodes(&p->scene, one->formulation.type, one->formulation.option, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "lumped: "), INDENT, ends);
     table_omitted(to, p);

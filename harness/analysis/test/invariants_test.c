@@ -82,13 +82,15 @@ static int found(const subject *s, int n, int keep_all, scene_edit edit, answer 
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
 }
 
-/* Two elements cannot follow every path (a circle): the coarsest mesh that does, and its answer.
- * 0: none of them answers. */
+/* Two elements cannot follow every path (a circle): the coarsest mesh that does, as the next one
+ * does, and its answer.  0: none of them answers. */
 static int found_coarsest(subject *s, answer *out)
 {
+    static answer next;
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
         ask_about(s, s->coarse, 0, unchanged, out);
-        if (out->outcome != ASK_FAILED)
+        ask_about(s, 2 * s->coarse, 0, unchanged, &next);
+        if (out->outcome != ASK_FAILED && next.outcome != ASK_FAILED)
             break;
     }
     return ask_count(s->tally, out, "%s, n = 2 to 32", s->type->name);

@@ -25,6 +25,7 @@ static int add_motion(scene *s)
     scene_motion m = {.scheme = how.scheme,
                       .alpha = scene_alpha_of_radius(0.9),
                       .step = how.step,
+                      .mass = SCENE_LUMPED,
                       .tolerance = how.tolerance};
     memcpy(m.start.spin, start, sizeof start);
     return scene_add_motion(s, SCENE_NONE, 1, &how.time, m);

@@ -45,9 +45,11 @@ static inline int moving_add(scene *s, scene_scheme by, double step, double end)
     double path[MOVING_STATIONS];
     for (int i = 0; i < MOVING_STATIONS; i++)
         path[i] = end * (i + 1) / MOVING_STATIONS;
-    return scene_add_motion(
-        s, SCENE_NONE, MOVING_STATIONS, path,
-        (scene_motion){.scheme = by, .alpha = scene_alpha_of_radius(0.9), .step = step});
+    return scene_add_motion(s, SCENE_NONE, MOVING_STATIONS, path,
+                            (scene_motion){.scheme = by,
+                                           .alpha = scene_alpha_of_radius(0.9),
+                                           .step = step,
+                                           .mass = SCENE_LUMPED}); /* as all integrators have it */
 }
 
 /* NAME_max and NAME_min of the stations. */

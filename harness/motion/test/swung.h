@@ -35,6 +35,7 @@ static inline scene_motion swung_motion(scene_scheme by, double step)
     return (scene_motion){.scheme = by,
                           .alpha = scene_alpha_of_radius(0.9),
                           .step = step,
+                          .mass = SCENE_LUMPED, /* as all integrators have it */
                           .start = {.velocity = {0.3, 0, -0.2}, .spin = {0.8, -1.5, 1.1}}};
 }
 

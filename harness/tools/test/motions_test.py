@@ -76,11 +76,16 @@ class Motions(unittest.TestCase):
                                    ("free_flight_plane", ("time=10", "load=step"), (20.5, 4, 0)),
                                    ("free_flight_plane", ("time=2.5", "load=step"), (5.5, 4, 0))):
             with tempfile.TemporaryDirectory() as folder:
-                path = pathlib.Path(folder) / "flight.h5"
+                path, scene = pathlib.Path(folder) / "flight.h5", pathlib.Path(folder) / "flight.yaml"
+                text = subprocess.run([
+                    program, "scene", case, *(w for word in words for w in ("--set", word))
+                ], check=True, capture_output=True, text=True).stdout
+                self.assertIn("integrator: radau", text)
+                scene.write_text(text.replace("integrator: radau", "integrator: radau, mass: lumped"),
+                                 "utf-8")
                 subprocess.run([
-                    program, "solve", case, "-f", "beamw", "-n",
-                    str(elements), "--shapes", "-o",
-                    str(path), *(w for word in words for w in ("--set", word))
+                    program, "solve", "--scene", str(scene), "-f", "beamw", "-n",
+                    str(elements), "--shapes", "-o", str(path)
                 ], check=True, capture_output=True)
                 with h5py.File(path) as stored:
                     shapes = stored[f"cases/{case}/shapes"]
