@@ -24,7 +24,7 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     const scene_analysis *one = &c->scene->analysis[analysis];
     const int spreads = model_spreads(c->model, analysis), follows = one->follows;
     const scene_scheme scheme = scene_motion_of(one)->scheme;
-    if (scene_spreads(one) && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
+    if ((spreads || scene_spreads(one)) && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
         return fault_set(f, STATUS_REFUSED,
                          "the integrator %s has lumped mass only; alpha and radau take mass: "
                          "consistent",

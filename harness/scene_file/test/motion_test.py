@@ -4,7 +4,7 @@ import re
 import unittest
 
 from harness.scene_file.test.scene_case import SceneCase, values
-from harness.test.program import ROOT
+from harness.test.program import ROOT, run
 from harness.test.scenes import LEAF
 
 # A block on a spring and a light wire, pushed by little.
@@ -137,6 +137,20 @@ class MotionTest(SceneCase):
             self.assertAlmostEqual(value / behind[2], 1, delta=1e-3, msg=name)
         self.refused(2, "lumped at its nodes", "solve", "--scene", path, "-n", 2, "-f",
                      "geometrically_exact")
+
+    def test_mass_of_what_goes_on(self):
+        """An integrator that has lumped mass only goes on from no motion with another one."""
+        go = "{a: {motion: {stations: [0.01], MASSstep: 1e-4}}, "
+        go += "b: {motion: {stations: [0.02], about: a, integrator: conserving, step: 1e-4}}}"
+        section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
+        text = re.findall(r"```yaml\n(.*?)```", section, re.S)[0]
+        head = text.partition("analyses:")[0]
+        asked = "quantities:\n  u: {displacement: {analysis: b, node: tip, component: uy}}\n"
+        for mass, code in (("mass: consistent, ", 2), ("", 0), ("mass: lumped, ", 0)):
+            path = self.scene(f"{head}analyses: {go.replace('MASS', mass)}\n{asked}", "on.yaml")
+            done = run("solve", "--scene", path, "-f", "beamw", "-n", 1)
+            self.assertEqual(done.returncode, code, done.stderr + done.stdout)
+            self.assertEqual("lumped mass only" in done.stdout + done.stderr, code == 2)
 
     def test_forms_of_newton(self):
         """Displacements alone move alike; what an integrator does not have is refused."""
