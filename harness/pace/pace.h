@@ -55,6 +55,7 @@ typedef struct pace_group {
     int first, runs;    /* in the list of all */
     int reference;      /* series, and behind it those of its checks; -1: no errors are wanted */
     double uncertainty; /* of the reference; NAN: there is none */
+    double order;       /* of the reference, by the steps and errors of its checks; NAN */
     char reason[FAULT_TEXT]; /* why not */
 } pace_group;
 

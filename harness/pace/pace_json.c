@@ -51,10 +51,11 @@ static void add_reference(json_t *list, const pace *p, const pace_group *g)
 {
     const cell_result *cell = pace_cell_of(p, g->reference);
     add_row(list,
-            json_pack("{s:s,s:f,s:i,s:s,s:s,s:o,s:f,s:o}", "integrator", "radau", "tolerance",
+            json_pack("{s:s,s:f,s:i,s:s,s:s,s:o,s:o,s:f,s:o}", "integrator", "radau", "tolerance",
                       pace_reference[0], "steps", cell->solve.steps, "status",
                       status_name(cell->solve.status), "reason", g->reason, "uncertainty",
-                      number(g->uncertainty), "end", g->end, "alone_from", number(g->from)),
+                      number(g->uncertainty), "order", number(g->order), "end", g->end,
+                      "alone_from", number(g->from)),
             p, g);
 }
 
@@ -79,13 +80,27 @@ static void add_runs(json_t *list, const pace *p, const pace_group *g)
     }
 }
 
+/* Names of quantities whose errors do not fall with the step. */
+static json_t *standing_of(const pace *p, const pace_ladder *l)
+{
+    const scene *s = &pace_point_of(p, &p->run[l->first])->scene;
+    json_t *out = json_array();
+    for (int q = 0; q < s->quantities; q++)
+        if (pace_order_stands(p, l, q))
+            json_array_append_new(out, json_string(s->quantity[q].name));
+    return out;
+}
+
 static void add_orders(json_t *list, const pace *p, const pace_group *g)
 {
     for (int i = g->first; i < g->first + g->runs;) {
         const pace_ladder ladder = pace_order_of(p, i);
         const subject one = {.record = &ladder};
-        if (ladder.count > 1)
-            add_row(list, json_record(&record_pace_ladder, &one, KEY_AROUND), p, g);
+        if (ladder.count > 1) {
+            json_t *row = json_record(&record_pace_ladder, &one, KEY_AROUND);
+            json_object_set_new(row, "not_converging", standing_of(p, &ladder));
+            add_row(list, row, p, g);
+        }
         i += ladder.count;
     }
 }

@@ -16,6 +16,14 @@ static double distance_of_check(const pace *p, const pace_group *g, int check)
                          g->analysis);
 }
 
+/* By how its error falls with the number of its steps, between its checks. */
+static double order_of_reference(const pace *p, const pace_group *g, double near, double far)
+{
+    const double steps = (double)pace_cell_of(p, g->reference + 1)->solve.steps /
+                         (double)pace_cell_of(p, g->reference + 2)->solve.steps;
+    return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
+}
+
 /* The reference, and what it may be off: errors of its checks fall by a ratio from one to the next,
  * and so does its own, three times as much for safety; where they do not fall, the distance of the
  * nearer one. */
@@ -29,6 +37,7 @@ static void judge_reference(const pace *p, pace_group *g)
     const cell_result *reference = pace_cell_of(p, g->reference);
     const double near = distance_of_check(p, g, 1), far = distance_of_check(p, g, 2);
     g->uncertainty = near * fmin(1, safety * near / far);
+    g->order = order_of_reference(p, g, near, far);
     if (reference->solve.status != STATUS_OK)
         snprintf(g->reason, sizeof g->reason, "%s", reference->solve.reason);
     else if (isnan(g->uncertainty))

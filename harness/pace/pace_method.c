@@ -8,7 +8,7 @@
 
 const char pace_method_all[] = "alpha,alpha:rho=0.5,hht,trapezoidal,conserving,radau";
 
-enum { SCHEME_WORDS = 6, ORDER_OF_EXPLICIT = 8, ORDER_OF_RADAU = 5 };
+enum { SCHEME_WORDS = 6, ORDER_OF_EXPLICIT = 8 };
 
 /* Its word, and what may be said of it. */
 static const struct {
@@ -21,7 +21,7 @@ static const struct {
     {"hht", "alpha", 0.05, 1 / 3.0, SCENE_ALPHA, 2, 1},
     {"trapezoidal", NULL, 0, 0, SCENE_ALPHA, 2, 1},
     {"conserving", NULL, 0, 0, SCENE_CONSERVING, 2, 0},
-    {"radau", NULL, 0, 0, SCENE_RADAU, ORDER_OF_RADAU, 1},
+    {"radau", NULL, 0, 0, SCENE_RADAU, PACE_REFERENCE_ORDER, 1},
     {"explicit", NULL, 0, 0, SCENE_EXPLICIT, ORDER_OF_EXPLICIT, 1},
 };
 

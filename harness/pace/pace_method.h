@@ -4,7 +4,7 @@
 
 #include "cases/scene/scene.h"
 
-enum { PACE_METHOD_NAME = 32 };
+enum { PACE_METHOD_NAME = 32, PACE_REFERENCE_ORDER = 5 }; /* the reference is radau */
 
 typedef struct pace_method {
     char name[PACE_METHOD_NAME]; /* as it was given */

@@ -64,3 +64,18 @@ pace_ladder pace_order_of(const pace *p, int first)
     out.kind = judge(&out);
     return out;
 }
+
+int pace_order_stands(const pace *p, const pace_ladder *l, int quantity)
+{
+    static const double least = 1e-3, fall = 2, steps = 3.9;
+    const pace_run *first = &p->run[l->first], *last = first + l->count - 1;
+    if (first->values == NULL || last->values == NULL || first->step < steps * last->step)
+        return 0;
+    const double from = first->values[quantity], to = last->values[quantity];
+    return to > least && to > l->floor && from < fall * to;
+}
+
+int pace_order_is_stopped(const pace_group *g)
+{
+    return g->order < PACE_REFERENCE_ORDER - 1;
+}

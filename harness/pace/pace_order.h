@@ -24,8 +24,14 @@ typedef struct pace_ladder {
 /* The order is below the nominal one by less than this: as of meshes (harness/judge). */
 extern const double pace_order_slack;
 
+/* 1: what its steps do not resolve stops the order of the reference. */
+int pace_order_is_stopped(const pace_group *);
+
 /* From run `first` on. */
 pace_ladder pace_order_of(const pace *, int first);
+/* 1: the error of a quantity [relative] does not fall with the step: a force that follows what the
+ * steps do not resolve, say. */
+int pace_order_stands(const pace *, const pace_ladder *, int quantity);
 /* Orders of all runs against the one before, of a longer step. */
 void pace_order_fill(pace *);
 const char *pace_order_name(pace_order_kind);

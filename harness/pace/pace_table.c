@@ -13,6 +13,22 @@
 
 enum { NAME = 16, NUMBER = 9 };
 
+/* What the reference is, and how far it can be trusted. */
+static void print_reference(FILE *to, const pace *p, const pace_group *g)
+{
+    char stopped[160] = "";
+    if (pace_order_is_stopped(g))
+        snprintf(stopped, sizeof stopped,
+                 "; between these two its order is %.1f of %d: motions faster than its steps take "
+                 "part",
+                 g->order, PACE_REFERENCE_ORDER);
+    paragraph_say(to, 0, 2,
+                  "errors of time: against radau at %g on the same mesh (%d steps), which is off "
+                  "by %.1e at most, as far as radau at %g and %g tell%s",
+                  pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
+                  pace_reference[1], pace_reference[2], stopped);
+}
+
 static void print_head(FILE *to, const pace *p, const pace_group *g)
 {
     char text[PARAMETERS_TEXT];
@@ -22,12 +38,7 @@ static void print_head(FILE *to, const pace *p, const pace_group *g)
                   text[0] != '\0' ? " (" : "", text, text[0] != '\0' ? ")" : "", g->formulation.key,
                   g->elements, g->end);
     if (g->reference >= 0 && isfinite(g->uncertainty))
-        paragraph_say(
-            to, 0, 2,
-            "errors of time: against radau at %g on the same mesh (%d steps), which is off "
-            "by %.1e at most, as far as radau at %g and %g tell",
-            pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
-            pace_reference[1], pace_reference[2]);
+        print_reference(to, p, g);
     else if (g->reference >= 0)
         paragraph_say(to, 0, 2, "no errors: the reference has none to be measured by: %s",
                       g->reason);
@@ -85,6 +96,38 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
     }
 }
 
+/* Integrators by which the error of a quantity does not fall with the step; returns how many. */
+static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
+{
+    int count = 0;
+    for (int i = g->first; i < g->first + g->runs;) {
+        const pace_ladder l = pace_order_of(p, i);
+        const pace_run *last = &p->run[i + l.count - 1];
+        i += l.count;
+        if (!pace_order_stands(p, &l, quantity))
+            continue;
+        if (text != NULL)
+            fprintf(text, "%s %s (off by %.1e at a step of %g s)", count > 0 ? "," : "",
+                    l.method->name, last->values[quantity], last->step);
+        count++;
+    }
+    return count;
+}
+
+static void print_standing(FILE *to, const pace *p, const pace_group *g)
+{
+    const scene *s = &pace_point_of(p, &p->run[g->first])->scene;
+    for (int q = 0; q < s->quantities; q++) {
+        paragraph words;
+        if (write_standing(NULL, p, g, q) == 0)
+            continue;
+        FILE *text = paragraph_begin(&words, to);
+        fprintf(text, "%s does not converge with the step by", s->quantity[q].name);
+        write_standing(text, p, g, q);
+        paragraph_end(&words, 0, 2);
+    }
+}
+
 /* Who reaches an error soonest: the first three. */
 static void print_level(FILE *to, const pace *p, int group, double level)
 {
@@ -122,6 +165,7 @@ static void print_group(FILE *to, const pace *p, int index)
     if (g->reference < 0)
         return;
     print_orders(to, p, g);
+    print_standing(to, p, g);
     for (int l = 0; l < PACE_LEVELS; l++)
         print_level(to, p, index, pace_levels[l]);
 }

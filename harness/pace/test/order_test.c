@@ -84,10 +84,41 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
+/* Errors of a quantity, beside those of places. */
+static int stands(const double error[RUNS], double floor)
+{
+    pace p;
+    pace_group g;
+    pace_run run[RUNS];
+    double value[RUNS];
+    fill(&p, &g, run, "one", 2, (double[]){1, 0.25, 0.0625, 0.015625, 0.00390625});
+    g.uncertainty = floor / 10;
+    for (int i = 0; i < RUNS; i++) {
+        value[i] = error[i];
+        run[i].values = &value[i];
+    }
+    const pace_ladder l = pace_order_of(&p, 0);
+    return pace_order_stands(&p, &l, 0);
+}
+
+static void what_does_not_converge(void)
+{
+    gsl_test_int(stands((double[]){0.5, 0.7, 0.4, 0.6, 0.45}, 1e-9), 1, "errors that stay");
+    gsl_test_int(stands((double[]){0.5, 0.12, 0.03, 7e-3, 2e-3}, 1e-9), 0, "errors that fall");
+    gsl_test_int(stands((double[]){9e-4, 9e-4, 9e-4, 9e-4, 9e-4}, 1e-9), 0,
+                 "errors that are small");
+    gsl_test_int(stands((double[]){0.5, 0.5, 0.5, 0.5, 0.5}, 0.6), 0, "errors of the reference");
+    gsl_test_int(stands((double[]){0.5, 0.5, 0.5, 0.5, NAN}, 1e-9), 0, "a run without an error");
+    gsl_test_int(pace_order_is_stopped(&(pace_group){.order = 1.8}), 1, "order 1.8 of five");
+    gsl_test_int(pace_order_is_stopped(&(pace_group){.order = 4.7}), 0, "order 4.7 of five");
+    gsl_test_int(pace_order_is_stopped(&(pace_group){.order = NAN}), 0, "no order is known");
+}
+
 int main(void)
 {
     verdicts();
     order_of_each();
     cost_of_a_level();
+    what_does_not_converge();
     return gsl_test_summary();
 }
