@@ -38,6 +38,7 @@ void field_mass_prepare(const element_request *request, int nodes, field_mass *o
 status field_mass_inertia(const field_mass *m, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out)
 {
-    return m->nodes == 2 ? beamw_spread_inertia(&m->spread, x, frame, out)
-                         : lumped_element(&m->lumped, m->nodes, x, frame, out);
+    return m->nodes == 2
+               ? beamw_spread_inertia(&m->spread, x, frame, out)
+               : lumped_element(&m->lumped, m->nodes, lumped_shares(m->nodes), x, frame, out);
 }

@@ -166,16 +166,21 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x,
         add_twist(share * l->rotary[0], x, at, n, out);
 }
 
-status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
-                      const element_rotating_frame *frame, inertia_output *out)
+const double *lumped_shares(int nodes)
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
-    const int n = NODE_COORDINATES * nodes;
     assert(nodes == 2 || nodes == 3);
+    return nodes == 2 ? two : three;
+}
+
+status lumped_element(const lumped_mass *whole, int nodes, const double share[],
+                      const node_state x[], const element_rotating_frame *frame,
+                      inertia_output *out)
+{
+    const int n = NODE_COORDINATES * nodes;
     moving_clear(n, out);
     for (int k = 0; k < nodes; k++)
-        lumped_add(whole, (nodes == 2 ? two : three)[k], &x[k], frame, NODE_COORDINATES * k, n,
-                   out);
+        lumped_add(whole, share[k], &x[k], frame, NODE_COORDINATES * k, n, out);
     moving_complete(n, out);
     return STATUS_OK;
 }

@@ -28,9 +28,13 @@ lumped_mass lumped_of(const section *c, unsigned features, double length);
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out);
 
-/* An element of two or three nodes that carry its mass: a half each, or Simpson's shares. */
-status lumped_element(const lumped_mass *whole, int nodes, const node_state x[],
-                      const element_rotating_frame *frame, inertia_output *out);
+/* Shares of an element's nodes by itself: a half at both, of three nodes Simpson's. */
+const double *lumped_shares(int nodes);
+
+/* An element whose nodes carry these shares of its mass. */
+status lumped_element(const lumped_mass *whole, int nodes, const double share[],
+                      const node_state x[], const element_rotating_frame *frame,
+                      inertia_output *out);
 
 /* Masses j of the three unit vectors of a section that have the rotary inertia diag(Ip, Iy, Iz) =
  * sum_k j_k (1 - e_k e_k^T). */

@@ -8,6 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
+#include "elements/shared/lumped.h"
 #include "harness/equations/equations_impl.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/release.h"
@@ -159,17 +160,23 @@ static int points_of(const scene_load *load, const double part[2], double x[2], 
     return 2;
 }
 
+/* Along the whole of a member, on its nodes with a motion's mass: not by the load's own wish. */
+static int with_mass(const scene_load *load)
+{
+    return !load->lumped && load->range[0] == 0 && load->range[1] == 1;
+}
+
 /* What node k of an element takes: the load's vector times its shares. */
 static void share_at(const model *m, const scene_load *load, int element, const double part[2],
                      int k, double vector[3])
 {
-    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const double length = scene_load_within(load) ? 1 : m->kind[m->element[element].kind].length;
     double x[2], weight[2];
     memset(vector, 0, 3 * sizeof *vector);
     if (!load->varies && !scene_load_within(load) && part[0] == 0 && part[1] == 1) {
+        const double *share = with_mass(load) ? m->element[element].share : lumped_shares(m->nodes);
         for (int i = 0; i < 3; i++)
-            vector[i] = (m->nodes == 2 ? two : three)[k] * length * load->vector[i];
+            vector[i] = share[k] * length * load->vector[i];
         return;
     }
     const int count = points_of(load, part, x, weight);

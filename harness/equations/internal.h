@@ -46,9 +46,9 @@ typedef struct internal_place {
 
 /* The same at a place of a member, and what else span.h has: out[SPAN_VALUES]. NOT_CONVERGED: as
  * span_recover. Of a motion the mass lies evenly along an element again, with accelerations that
- * are interpolated between its nodes: the sum of its forces is that of the lumped masses, which the
- * ends have in them, so that values go through from element to element, and converge as they do
- * (order 2). Warping inertia acts at nodes. */
+ * are interpolated between its nodes: of a linear acceleration the forces are those of what lies
+ * beyond, so that values go through from element to element (order 2). Warping inertia acts at
+ * nodes. */
 status internal_at(model *, const internal_state *, const internal_place *, double out[], fault *);
 
 /* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted

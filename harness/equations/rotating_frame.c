@@ -27,7 +27,7 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
     status outcome;
     if (m->scene->lumped || m->lumps != LUMPS_NOTHING) { /* as a motion that starts there does */
         const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
-        outcome = lumped_element(&whole, m->nodes, x, turning, out);
+        outcome = lumped_element(&whole, m->nodes, m->element[i].share, x, turning, out);
     } else {
         outcome = m->type->inertia(kind->data, x, turning, out);
     }

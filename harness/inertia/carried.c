@@ -72,10 +72,9 @@ static void turn(const double triad[9], const double moment[3], const double ten
 void carried_share(const model *m, const mesh_element *el, int node, carried_mass *out,
                    double *warping)
 {
-    static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
     const mesh_kind *kind = &m->kind[el->kind];
     const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
-    const double share = (el->nodes == 2 ? two : three)[node];
+    const double share = el->share[node];
     double moment[3], tensor[9];
     lump(&whole, share, moment, tensor);
     turn(el->triad[node], moment, tensor, out->moment, out->inertia);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
+#include "elements/shared/lumped.h"
 #include "harness/inertia/forms.h"
 #include "harness/inertia/inertia.h"
 #include "harness/inertia/spread.h"
@@ -80,32 +81,57 @@ static void force_of(const model *m, const model_state *s, const shares_motion *
     F[6] = el->warp[k] != NONE ? warping * motion->a[m->warp[el->warp[k]].coordinate] : 0;
 }
 
-/* The share of node k lies evenly along its share of the length, which is that of the mass. */
+/* Forces per length at the nodes, interpolated between them. */
 void shares_along(const model *m, const model_state *s, const shares_motion *motion, int element,
                   double density[ELEMENT_MAX_NODES][6])
 {
     const mesh_element *el = &m->element[element];
-    carried_mass share[ELEMENT_MAX_NODES];
-    double whole = 0, F[ELEMENT_MAX_NODES][7];
+    const double *part = motion->spread ? lumped_shares(el->nodes) : el->share;
     for (int k = 0; k < el->nodes; k++) {
-        force_of(m, s, motion, element, k, F[k], &share[k]);
-        whole += share[k].mass;
-    }
-    for (int k = 0; k < el->nodes; k++)
+        carried_mass share;
+        double F[7];
+        force_of(m, s, motion, element, k, F, &share);
         for (int i = 0; i < 6; i++)
-            density[k][i] = share[k].mass > 0
-                                ? F[k][i] * (whole / share[k].mass / m->kind[el->kind].length)
-                                : 0;
+            density[k][i] = share.mass > 0 ? F[i] / (part[k] * m->kind[el->kind].length) : 0;
+    }
+}
+
+/* Nodes that carry what lies along a member have its shifts right, and its resultants but for what
+ * is within an element: F of the whole element's mass at both its nodes. */
+static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
+                       double ends[2][7])
+{
+    const mesh_element *el = &m->element[element];
+    double place[2][3], moment[3];
+    for (int e = 0; e < 2; e++)
+        kinematics_position(m, s, el->vertex[e], place[e]);
+    for (int e = 0; e < 2; e++) {
+        const double c = el->couple[e],
+                     other[3] = {place[!e][0] - place[e][0], place[!e][1] - place[e][1],
+                                 place[!e][2] - place[e][2]};
+        vec3_cross(other, F[e], moment);
+        for (int i = 0; i < 3; i++) {
+            ends[e][i] += c * (F[!e][i] - F[e][i]);
+            ends[e][3 + i] += c * moment[i];
+        }
+    }
 }
 
 void shares_ends(const model *m, const model_state *s, const shares_motion *motion, int element,
                  double ends[2][7])
 {
+    const mesh_element *el = &m->element[element];
+    double whole[2][7];
     for (int e = 0; e < 2; e++) {
+        const int k = e ? el->nodes - 1 : 0;
         carried_mass share;
         double F[7];
-        force_of(m, s, motion, element, e ? m->element[element].nodes - 1 : 0, F, &share);
-        for (int i = 0; i < 7; i++)
+        force_of(m, s, motion, element, k, F, &share);
+        for (int i = 0; i < 7; i++) {
             ends[e][i] += F[i];
+            whole[e][i] = F[i] / el->share[k];
+        }
     }
+    if (el->nodes == 2 && !motion->spread)
+        add_couple(m, s, element, whole, ends);
 }

@@ -9,6 +9,7 @@
 #include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/shared/lumped.h"
 #include "harness/algebra/memory.h"
 #include "harness/model/member_arc.h"
 #include "harness/model/model_impl.h"
@@ -250,6 +251,58 @@ static void add_warps(model *m, int *named)
     }
 }
 
+/* Weights of the ends of n equal lengths from the first on, whose sums integrate cubics: masses at
+ * nodes then have the order of those along elements in slender bending (Gregory's, from n = 6 on;
+ * closed Newton-Cotes below). */
+static double weight_of(int n, int node)
+{
+    static const double closed[][3] = {{0.5, 0, 0},
+                                       {1 / 3.0, 4 / 3.0, 0},
+                                       {3 / 8.0, 9 / 8.0, 0},
+                                       {14 / 45.0, 64 / 45.0, 24 / 45.0},
+                                       {95 / 288.0, 375 / 288.0, 250 / 288.0},
+                                       {3 / 8.0, 7 / 6.0, 23 / 24.0}};
+    const int most = sizeof closed / sizeof *closed, from_end = node < n - node ? node : n - node;
+    return from_end < 3 ? closed[(n < most ? n : most) - 1][from_end] : 1;
+}
+
+/* Of the element behind node i, there: with what the nodes beyond carry it has the force of all
+ * that lies beyond the node, of a linear acceleration, and the moment of a uniform one. */
+static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
+{
+    const double length = n - i;
+    el->share[end] = length - beyond;
+    el->couple[end] = length * length / 2 - first;
+}
+
+/* Of `count` elements of one kind behind each other. */
+static void set_shares(mesh_element *el, int count)
+{
+    double beyond = 0, first = 0; /* weights of the nodes beyond, and their moment about node i */
+    for (int i = count - 1; i >= 0; i--) {
+        beyond += weight_of(count, i + 1);
+        first += beyond;
+        set_end(&el[i], 0, count, i, beyond, first);
+        set_end(&el[count - 1 - i], 1, count, i, beyond, first);
+    }
+}
+
+static void share_mass(model *m)
+{
+    for (int i = 0, next; i < m->elements; i = next) {
+        mesh_element *el = &m->element[i];
+        for (next = i + 1; next < m->elements && m->element[next].member == el->member &&
+                           m->element[next].kind == el->kind;)
+            next++;
+        if (m->nodes == 2)
+            set_shares(el, next - i);
+        else
+            for (int k = i; k < next; k++)
+                memcpy(m->element[k].share, lumped_shares(m->nodes),
+                       (size_t)m->nodes * sizeof(double));
+    }
+}
+
 static int largest_name(const scene *s)
 {
     int largest = -1;
@@ -323,6 +376,7 @@ status mesh_build(model *m, fault *f)
         m->size = a.length > m->size ? a.length : m->size;
     }
     m->first_element[s->members] = m->elements;
+    share_mass(m);
     TRY(release_build(m, f));
     const int names = largest_name(s) + 1;
     int *named = malloc((size_t)(names > 0 ? names : 1) * sizeof *named);

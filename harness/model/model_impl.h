@@ -50,8 +50,10 @@ typedef struct mesh_element {
     int kind, member;
     int nodes;
     int vertex[ELEMENT_MAX_NODES];
-    int warp[ELEMENT_MAX_NODES]; /* index, or NONE: held at zero or absent */
-    mesh_triad *triad;           /* [nodes] initial; not its own: equal ones share them */
+    int warp[ELEMENT_MAX_NODES];     /* index, or NONE: held at zero or absent */
+    double share[ELEMENT_MAX_NODES]; /* of its mass where that is at nodes: mesh.c */
+    double couple[2];  /* of two nodes: what resultants at an end have beside: inertia/shares.c */
+    mesh_triad *triad; /* [nodes] initial; not its own: equal ones share them */
     int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
     int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
     int plain; /* 1: no offset, sequence or released end: elimination is selection */
@@ -137,7 +139,7 @@ typedef struct mesh_damping {
     const double *known, *from; /* [elements x strains] */
 } mesh_damping;
 
-/* What of the loads along members goes to the ends of elements, halves to both. */
+/* What of the loads along members goes to the ends of elements. */
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
 struct model {

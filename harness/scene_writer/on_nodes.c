@@ -64,18 +64,22 @@ static int is_lumped(const scene *s, const scene_analysis *a)
     return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a));
 }
 
-static void put_masses(words *w, const scene *s, const element_type *type, const double options[])
+static int put_masses(words *w, const scene *s, const element_type *type, const double options[])
 {
+    int count = 0;
     for (int i = 0; i < s->analyses; i++) {
         const scene_analysis *a = &s->analysis[i];
-        if (is_lumped(s, a))
-            put(w, "%smass of %s", w->used > 0 ? ", " : "",
-                scene_called(s, SCENE_ANALYSES, i).text);
-        if (a->kind != SCENE_MOTION || features_spreads(s, i, type, options))
+        const int motion = a->kind == SCENE_MOTION && !features_spreads(s, i, type, options);
+        if (!motion && !is_lumped(s, a))
             continue;
-        put(w, "%smass%s of %s", w->used > 0 ? ", " : "", goes_with(s, scene_motion_of(a)),
+        put(w, "%smass%s of %s",
+            count++ > 0   ? ", "
+            : w->used > 0 ? "; "
+                          : "",
+            motion ? goes_with(s, scene_motion_of(a)) : "",
             scene_called(s, SCENE_ANALYSES, i).text);
     }
+    return count;
 }
 
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
@@ -84,10 +88,11 @@ void on_nodes(const scene *s, const element_type *type, const double options[], 
     words w = {text, room, 0};
     text[0] = '\0';
     put_loads(&w, s);
-    if (is_heavy(s))
-        put_masses(&w, s, type, options);
     if (w.used > 0)
-        put(&w,
-            ": half of an element's at both its nodes, of order 2 in its length (at three nodes "
-            "1/6, 4/6, 1/6, of order 4)");
+        put(&w, ": half of an element's at both its nodes, of order 2 in its length (at three "
+                "nodes 1/6, 4/6, 1/6, of order 4)");
+    if (is_heavy(s) && put_masses(&w, s, type, options) > 0)
+        put(&w, ": at nodes, weighted along each member, of order 4 in slender bending from 6 "
+                "elements on, of 2 with shear, stretch and twist (at three nodes 1/6, 4/6, 1/6, "
+                "of order 4)");
 }

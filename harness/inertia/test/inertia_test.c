@@ -132,14 +132,13 @@ static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
 /* The sum over bodies and the shares of elements, each by itself. */
 static void kinetic_energy(const moving_one *o)
 {
-    static const double share[2][3] = {{0.5, 0.5, 0}, {1 / 6.0, 4 / 6.0, 1 / 6.0}};
     inertia_balance all;
     double sum = 0, v[3], W[3];
     for (int i = 0; i < o->m->elements; i++)
         for (int k = 0; k < o->m->element[i].nodes; k++) {
             const mesh_element *el = &o->m->element[i];
             const section *c = &o->m->section[o->m->kind[el->kind].section];
-            const double l = o->m->kind[el->kind].length * share[el->nodes - 2][k],
+            const double l = o->m->kind[el->kind].length * el->share[k],
                          m = c->matrices ? l : l * c->density, none[3] = {0, 0, 0},
                          J[9] = {m * (c->matrices ? about[0] : c->Ip), 0, 0, 0,
                                  m * (c->matrices ? about[1] : c->Iy), 0, 0, 0,

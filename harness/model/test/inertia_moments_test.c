@@ -14,7 +14,7 @@ enum { MOST = SPECIMEN_COORDINATES };
 static void at_nodes(const specimen *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
-    lumped_element(&whole, s->nodes, x, NULL, &(inertia_output){.M = M});
+    lumped_element(&whole, s->nodes, lumped_shares(s->nodes), x, NULL, &(inertia_output){.M = M});
 }
 
 static void make(const char *name, const specimen_request *what, specimen *out)

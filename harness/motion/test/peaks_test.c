@@ -27,7 +27,7 @@ static status build(const double value[], scene *s, fault *f)
         scene_add_quantity(s, name[i], "", motion, what[i])->reduction = SCENE_MAX;
     scene_set_passing(scene_add_quantity(s, "when", "s", motion, what[1]), SCENE_MAX_TIME,
                       (scene_passing){.until = 0});
-    scene_set_passing(scene_add_quantity(s, "window", "", motion, what[1]), SCENE_MIN,
+    scene_set_passing(scene_add_quantity(s, "window", "", motion, what[0]), SCENE_MIN,
                       (scene_passing){.from = 0.777, .until = 1.111});
     return STATUS_OK;
 }

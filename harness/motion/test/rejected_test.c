@@ -50,6 +50,17 @@ static int same(const flying *f, const double a[], const double b[])
     return memcmp(a, b, flying_numbers(f, &f->now, NULL) * sizeof *a) == 0;
 }
 
+/* Pivots of an unsymmetric tangent are kept from step to step, and those of a step that was
+ * rejected may be others. */
+static int close(const flying *f, const double a[], const double b[])
+{
+    const double rounding = 1e-11;
+    for (size_t i = 0; i < flying_numbers(f, &f->now, NULL); i++)
+        if (fabs(a[i] - b[i]) > rounding * (1 + fabs(a[i])))
+            return 0;
+    return 1;
+}
+
 /* Too long for Newton, at last, and some that succeed and are not taken. */
 static int try_in_vain(flying *f, double h)
 {
@@ -61,13 +72,13 @@ static int try_in_vain(flying *f, double h)
 }
 
 static void reject(const char *name, void (*build)(scene *, scene_scheme), const element_type *type,
-                   scene_scheme by, double h)
+                   int elements, scene_scheme by, double h)
 {
     scene s;
     flying tried, plain;
     build(&s, by);
-    gsl_test(flying_begin(&s, type, 3, &tried) != STATUS_OK, "%s: %s", name, tried.why.text);
-    gsl_test(flying_begin(&s, type, 3, &plain) != STATUS_OK, "%s: %s", name, plain.why.text);
+    gsl_test(flying_begin(&s, type, elements, &tried) != STATUS_OK, "%s: %s", name, tried.why.text);
+    gsl_test(flying_begin(&s, type, elements, &plain) != STATUS_OK, "%s: %s", name, plain.why.text);
     for (int i = 0; i < 3; i++) {
         flying_step(&tried, h);
         flying_step(&plain, h);
@@ -80,10 +91,13 @@ static void reject(const char *name, void (*build)(scene *, scene_scheme), const
     const status again = flying_step(&plain, h);
     flying_step(&tried, h);
     double *then = flying_all(&tried), *without = flying_all(&plain);
-    gsl_test(again != STATUS_OK || !same(&tried, then, without),
+    int (*const agrees)(const flying *, const double[], const double[]) =
+        by == SCENE_RADAU ? close : same;
+    gsl_test(again != STATUS_OK || !agrees(&tried, then, without),
              "%s, scheme %d: what follows a rejected step knows nothing of it (%s)", name, by,
              plain.why.text);
-    gsl_test(memcmp(&tried.error, &plain.error, sizeof tried.error) != 0,
+    gsl_test(by == SCENE_RADAU ? !(fabs(tried.error / plain.error - 1) < 1e-8)
+                               : memcmp(&tried.error, &plain.error, sizeof tried.error) != 0,
              "%s, scheme %d: nor does its error (%g, %g)", name, by, tried.error, plain.error);
     free(before);
     free(behind);
@@ -181,8 +195,8 @@ int main(void)
     for (int by = 0; by < SCENE_SCHEMES; by++) {
         const scene_scheme of = (scene_scheme)by;
         const double h = by == SCENE_EXPLICIT ? 0.002 : 0.05;
-        reject("rod", throw_rod, &element_geometrically_exact, of, h);
-        reject("shaken", shake_rods, &element_collocation, of, h / 4);
+        reject("rod", throw_rod, &element_geometrically_exact, 3, of, h);
+        reject("shaken", shake_rods, &element_collocation, 1, of, h / 4);
     }
     cell_result exact;
     swung_solve(&watched, (const double[]){SCENE_RADAU, 0.1, 1e-8}, PARAMETERS, &exact);

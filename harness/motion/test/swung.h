@@ -43,7 +43,7 @@ static inline scene_motion swung_motion(scene_scheme by, double step)
 static inline status swung_try(const case_type *type, const double parameter[], int parameters,
                                cell_result *out, fault *f)
 {
-    cell_request request = {.type = type, .elements = 2};
+    cell_request request = {.type = type, .elements = 1};
     formulation chosen;
     formulation_default(formulation_find("collocation"), &chosen);
     cell_formulation(&request, &chosen);

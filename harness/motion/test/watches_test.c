@@ -140,7 +140,7 @@ int main(void)
     exactly(SCENE_ALPHA, 0.013);
     exactly(SCENE_CONSERVING, 0.02);
     exactly(SCENE_RADAU, 0.02);
-    freely("alpha", SCENE_ALPHA, 0.02, 2);
+    freely("alpha", SCENE_ALPHA, 0.005, 2);
     freely("conserving", SCENE_CONSERVING, 0.02, 2);
     freely("radau", SCENE_RADAU, 0.04, 5);
     return gsl_test_summary();
