@@ -110,7 +110,10 @@ static status keep_linear(const analysis_context *c, int analysis, const double 
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];
     }
-    return keep(c, kinematics_rest(c->model), 0, w, out, f);
+    TRY(keep(c, kinematics_rest(c->model), 0, w, out, f));
+    return displaced == NULL && rotating_frame_inner_matrix(c->model, &w->G)
+               ? triplets_of(&w->G, 0, &out->inside, f)
+               : STATUS_OK;
 }
 
 /* The tangent of a state of a path, in the axes of the analysis. */

@@ -112,6 +112,40 @@ double rotating_frame_inner(const model *m, const double x[])
     return sum;
 }
 
+/* B in fixed axes. */
+static void turn_inner(const mesh_element *el, const double B[], double out[])
+{
+    double T[FIELD_INNER * FIELD_INNER] = {0}, half[FIELD_INNER * FIELD_INNER];
+    for (int at = 0; at < FIELD_INNER; at += NODE_COORDINATES) {
+        for (int block = 0; block < 6; block += 3)
+            for (int i = 0; i < 3; i++)
+                for (int k = 0; k < 3; k++)
+                    T[FIELD_INNER * (at + block + k) + at + block + i] =
+                        (el->triad[0][3 * i + k] + el->triad[1][3 * i + k]) / 2;
+        T[(FIELD_INNER + 1) * (at + 6)] = 1;
+    }
+    dense_mul(FIELD_INNER, FIELD_INNER, FIELD_INNER, B, T, half);
+    dense_add_transpose_mul(FIELD_INNER, FIELD_INNER, FIELD_INNER, T, half, out);
+}
+
+int rotating_frame_inner_matrix(model *m, sparse *out)
+{
+    const mesh_pattern *p = assemble_of(m, out);
+    int any = 0;
+    sparse_zero(out);
+    for (int e = 0; e < m->elements; e++) {
+        const double *B = m->kind[m->element[e].kind].inner;
+        double E[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        if (B == NULL)
+            continue;
+        turn_inner(&m->element[e], B, E);
+        eliminate_matrix(m, m->rest, &m->element[e], NULL, E);
+        assemble_matrix(p, e, E, out);
+        any = 1;
+    }
+    return any;
+}
+
 void rotating_frame_load_stiffness(const model *m, const model_state *s, double path, sparse *out)
 {
     sparse_zero(out);

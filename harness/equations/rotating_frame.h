@@ -12,6 +12,8 @@ status rotating_frame_inertia(model *, const model_state *, double path, sparse 
 /* x^T B x of the undeformed structure, x[free + driven]: what the mass inside of elements adds to a
  * mode, k = lambda m + lambda^2 b (field/field_mass.h). */
 double rotating_frame_inner(const model *, const double x[]);
+/* B itself, with the pattern of a symmetric K. 0: no element has it, and it is zero. */
+int rotating_frame_inner_matrix(model *, sparse *out);
 
 /* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times
  * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the

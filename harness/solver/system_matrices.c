@@ -6,8 +6,9 @@
 void system_matrices_free(system_matrices *s)
 {
     for (int i = 0; i < s->states; i++) {
-        triplets *const each[] = {&s->state[i].K, &s->state[i].M, &s->state[i].G, &s->state[i].B};
-        for (int k = 0; k < 4; k++)
+        triplets *const each[] = {&s->state[i].K, &s->state[i].M, &s->state[i].G,
+                                  &s->state[i].inside, &s->state[i].B};
+        for (size_t k = 0; k < sizeof each / sizeof *each; k++)
             triplets_free(each[k]);
         free(s->state[i].frequency);
         free(s->state[i].mode);

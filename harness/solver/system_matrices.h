@@ -13,8 +13,10 @@ typedef struct state_matrices {
     double path;  /* parameter of the loads and drivers */
     int turns;    /* 1: the axes turn, and there is G */
     triplets K, M, G;
-    triplets B;               /* [rows x loads] generalised force of each load at factor 1 */
-    int modes;                /* of a modal analysis: what it found, ascending; else 0 */
+    triplets inside; /* of the undeformed structure: what its mass does inside of elements, for
+                        frequencies: q.K q = lambda q.M q + lambda^2 q.inside q */
+    triplets B;      /* [rows x loads] generalised force of each load at factor 1 */
+    int modes;       /* of a modal analysis: what it found, ascending; else 0 */
     double *frequency, *mode; /* [modes] [rad/s]; [modes x rows] */
 } state_matrices;
 
