@@ -68,6 +68,6 @@ const case_type case_c_cantilever_spin_up = {
     .name = "c_cantilever_spin_up",
     .summary = "C-shaped cantilever under its weight, spun up about the vertical axis at its root",
     .source = "after J section 5.2; time and speed are ours",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

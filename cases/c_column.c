@@ -34,6 +34,7 @@ const case_type case_c_column = {
     .name = "c_column",
     .summary = "simply supported C-shaped column: buckling load and natural frequencies",
     .source = "J section 5.1, Tables 1-3",
-    .parameters = {column_parameters, column_flexible, column_stability, parameters, case_omit},
+    .parameters = {column_parameters, column_flexible, column_stability, parameters,
+                   case_mass_omit},
     .build = build,
 };

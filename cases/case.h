@@ -22,8 +22,11 @@ typedef struct case_type {
 } case_type;
 
 /* Last part of the parameters of every built-in case: does it leave out what its source does, or
- * nothing? */
-extern const parameter_type case_omit[];
+ * nothing? The second one where mass of members is part of what is asked: where does that lie?
+ * Points have the names that they had without these, but where they say something else. */
+extern const parameter_type case_omit[], case_mass_omit[];
+int case_is_omit(const parameter_type *);
+int case_is_mass(const parameter_type *);
 /* Nothing, although the source may leave something out: what is known of the case is of another
  * model. */
 int case_omits_nothing(const case_type *, const double value[]);

@@ -138,6 +138,6 @@ const case_type case_coupled_beam = {
                "buckling",
     .source = "linear Cosserat rod in closed form and by its transfer matrix "
               "(reference/derive/coupled_beam.py)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

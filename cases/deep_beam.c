@@ -53,6 +53,6 @@ const case_type case_deep_beam = {
     .summary = "deep simply supported beam: frequencies in bending, torsion and extension",
     .source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), test FV5; closed "
               "form of the Timoshenko beam",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -36,6 +36,6 @@ const case_type case_elbow = {
     .name = "elbow",
     .summary = "a right-angled cantilever whose elbow is pushed out of its plane",
     .source = "after J.C. Simo, L. Vu-Quoc (1988)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -43,6 +43,6 @@ const case_type case_free_flight_plane = {
     .name = "free_flight_plane",
     .summary = "a flexible rod thrown by a force and a moment flies freely in its plane",
     .source = "after J.C. Simo, L. Vu-Quoc (1986)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -44,6 +44,6 @@ const case_type case_free_flight_space = {
     .name = "free_flight_space",
     .summary = "a flexible rod thrown by a force and a moment flies freely in space",
     .source = "after J.C. Simo, L. Vu-Quoc (1988)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

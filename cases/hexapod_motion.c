@@ -54,6 +54,6 @@ const case_type case_hexapod_motion = {
     .name = "hexapod_motion",
     .summary = "flexure hexapod of twelve spherical joints driven through its stroke",
     .source = "after N section 4.3; sizes, masses and time are ours",
-    .parameters = {joint_parameters, hexapod_parameters, timed, case_omit},
+    .parameters = {joint_parameters, hexapod_parameters, timed, case_mass_omit},
     .build = build,
 };

@@ -74,6 +74,6 @@ const case_type case_leaf_guide = {
     .name = "leaf_guide",
     .summary = "a block on two leaf springs is pulled aside and let go",
     .source = "equations of Simo and Reissner, solved twice",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -41,6 +41,6 @@ const case_type case_pendulum = {
     .name = "pendulum",
     .summary = "a rubber rod swings about a pin under its weight",
     .source = "equations of Simo and Reissner, solved twice (reference/truths)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -67,6 +67,6 @@ const case_type case_release = {
     .name = "release",
     .summary = "a cantilever is held aside by a small force and let go",
     .source = "exact modes of Bernoulli's and Timoshenko's beam (reference/derive/release.py)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

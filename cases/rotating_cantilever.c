@@ -101,6 +101,6 @@ const case_type case_rotating_cantilever = {
     .source =
         "exact flap and lag of the stretched beam (reference/derive/rotating.py); its stretch "
         "is tan k/k - 1",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -109,6 +109,6 @@ const case_type case_sheet_cantilever = {
     .name = "sheet_cantilever",
     .summary = "clamped sheet flexure, tip deflected without rotation: compliance matrix",
     .source = "N section 4.1, Fig. 5",
-    .parameters = {sheet_parameters, sheet_no_wagner, sheet_moments, parameters, case_omit},
+    .parameters = {sheet_parameters, sheet_no_wagner, sheet_moments, parameters, case_mass_omit},
     .build = build,
 };

@@ -55,6 +55,6 @@ const case_type case_spin_up = {
     .name = "spin_up",
     .summary = "a beam spun up about an axis through its root",
     .source = "after T.R. Kane et al. (1987); J.C. Simo, L. Vu-Quoc (1986)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

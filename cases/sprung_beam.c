@@ -78,6 +78,6 @@ const case_type case_sprung_beam = {
     .name = "sprung_beam",
     .summary = "beam on rotational springs: deflection, frequency, buckling load, rolled up",
     .source = "closed forms of the beam on such supports (reference/derive/sprung_beam.py)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -133,6 +133,6 @@ const case_type case_tapered_cantilever = {
         "cantilever whose section changes along it: displacements, buckling load, frequencies",
     .source = "integrals over the flexibility; G. Kirchhoff, Monatsber. Berlin (1879): the wedge "
               "(reference/derive/tapered_cantilever.py)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

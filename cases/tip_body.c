@@ -9,11 +9,11 @@
 #include "cases/shared/cantilever.h"
 #include "cases/shared/frequencies.h"
 
-enum { MASS, OVERHANG, GYRATION, OMEGA };
+enum { BODY, OVERHANG, GYRATION, OMEGA };
 enum { MODES = 3, SLENDERNESS = 1000 };
 
 static const parameter_type parameters[] = {
-    [MASS] = {"mass", "1", 1, 0, 1e4, NULL, "of the body, over the mass of the beam"},
+    [BODY] = {"body", "1", 1, 0, 1e4, NULL, "mass of the body, over that of the beam"},
     [OVERHANG] = {"overhang", "1", 0.2, -1, 10, NULL,
                   "of the body's centre of mass beyond the end of the beam, in L"},
     [GYRATION] = {"gyration", "1", 0.3, 0, 10, NULL,
@@ -25,7 +25,7 @@ static const parameter_type parameters[] = {
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
-    const double area = (double)SLENDERNESS * SLENDERNESS, path = 1, mass = value[MASS],
+    const double area = (double)SLENDERNESS * SLENDERNESS, path = 1, mass = value[BODY],
                  inertia = mass * value[GYRATION] * value[GYRATION];
     const cantilever_stiffness k = {.EA = area, .GJ = 1, .EI = 1, .density = 1 / area};
     int root, tip;
@@ -47,6 +47,6 @@ const case_type case_tip_body = {
     .name = "tip_body",
     .summary = "cantilever with a rigid body at its end, at rest and turning steadily: frequencies",
     .source = "exact frequencies of the beam with such an end (reference/derive/tip_body.py)",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -65,6 +65,6 @@ const case_type case_unsymmetric_column = {
     .summary =
         "fork-ended column of an unsymmetric section: buckling load, frequencies under axial load",
     .source = "closed form of the thin-walled column, one half-wave at a time",
-    .parameters = {parameters, case_omit},
+    .parameters = {parameters, case_mass_omit},
     .build = build,
 };

@@ -4,6 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Of the program, not of the source of a case. */
+static int is_shared(const parameter_type *p)
+{
+    return case_is_omit(p) || case_is_mass(p);
+}
+
 assignment_list parameters_list(const case_type *c)
 {
     assignment_list list = {.what = "parameter",
@@ -38,7 +44,7 @@ status parameters_parse(const case_type *c, const char *text, double value[], in
     parameters_default(c, value);
     if (any != NULL)
         for (int i = 0; i < n; i++)
-            any[i] = all && parameter_at(c->parameters, i) != case_omit;
+            any[i] = all && !is_shared(parameter_at(c->parameters, i));
     return all ? STATUS_OK : assignment_parse(&list, text, value, any, f);
 }
 
@@ -46,6 +52,24 @@ void parameters_text(const case_type *c, const double value[], char *text, int s
 {
     const assignment_list list = parameters_list(c);
     assignment_text(&list, value, text, size);
+}
+
+void parameters_source_text(const case_type *c, const double value[], char *text, int size)
+{
+    double of[CASE_MAX_PARAMETERS];
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(c->parameters, i)) != NULL; i++)
+        of[i] = is_shared(p) ? p->value : value[i];
+    parameters_text(c, of, text, size);
+}
+
+int parameters_of_source(const case_type *c)
+{
+    int count = 0;
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(c->parameters, i)) != NULL; i++)
+        count += !is_shared(p);
+    return count;
 }
 
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[])
@@ -78,9 +102,9 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     const parameter_type *p;
     int i = 0;
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
-        if (p == case_omit && !case_omits_nothing(c, value))
-            break; /* the last one: points have the names that they had before there was it */
         write_word(p, i, value[i], any != NULL && any[i], before);
+        if (is_shared(p) && value[i] == 0)
+            continue; /* points have the names that they had before there was it */
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;
     }

@@ -15,10 +15,13 @@ void parameters_default(const case_type *c, double value[]);
 /* "NAME=VALUE" (harness/catalogue/assignment.h). */
 status parameters_set(const case_type *c, const char *assignment, double value[], fault *f);
 /* "NAME=VALUE;NAME=VALUE": values other than the default; a value "*" is skipped and marked in
- * any[] (may be NULL); "*" alone: any of all, of the physics of the source. */
+ * any[] (may be NULL); "*" alone: any of those of the source. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
 /* The same, written: empty for the defaults. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
+/* The same of those that the source of a case knows, as programs that derive values are asked. */
+void parameters_source_text(const case_type *c, const double value[], char *text, int size);
+int parameters_of_source(const case_type *c); /* how many there are: the first ones */
 /* FNV-1a of "name=%.17g;" over all parameters in table order, choices by index, "name=*;" where
  * any. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);

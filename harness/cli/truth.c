@@ -63,7 +63,7 @@ static status print_derived(const case_type *type, const double parameter[], fau
                          "--set omit=none', and derive that with --scene",
                          type->name, type->name);
     TRY(derive_script("at.py", script, f));
-    parameters_text(type, parameter, text, sizeof text);
+    parameters_source_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
     for (int i = 0; i < count; i++)
         print_value(value[i].quantity, value[i].value, value[i].uncertainty, value[i].unit, "exact",

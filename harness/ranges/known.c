@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/catalogue/parameters.h"
 #include "harness/model/features.h"
 #include "harness/scene_writer/write.h"
 #include "harness/truth/derive.h"
@@ -93,13 +94,15 @@ static status derive(const ranges *r, const point *p, known *out, fault *f)
 {
     derived_value *value = NULL;
     int count = 0;
+    char text[PARAMETERS_TEXT];
     fault why;
+    parameters_source_text(p->type, p->parameter, text, sizeof text);
     if (case_omits_nothing(p->type, p->parameter))
         return STATUS_OK; /* derived is what the source has */
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)
-            : derive_values(r->request.derive, p->type->name, p->text, &value, &count, &why);
+            : derive_values(r->request.derive, p->type->name, text, &value, &count, &why);
     if (outcome != STATUS_OK)
         return STATUS_OK;
     out->derived.row = calloc((size_t)count + 1, sizeof *out->derived.row);

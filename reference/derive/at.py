@@ -67,7 +67,7 @@ def warping_torsion(given):
 def tip_body(given):
     from reference.derive import tip_body as program
     at = {n: float(v) for n, v in defaults.decimals("tip_body", given).items()}
-    for quantity, value, relative in program.values(at["omega_star"], at["mass"], at["overhang"],
+    for quantity, value, relative in program.values(at["omega_star"], at["body"], at["overhang"],
                                                     at["gyration"]):
         yield quantity, value, "1", relative or 5e-13
 
@@ -162,7 +162,7 @@ SOLVERS = {
     "shear_column": (("length", "side", "young", "shear_modulus", "shear_stability"), shear_column,
                      "linear_buckling"),
     "warping_torsion": (("kL", "ends"), warping_torsion, "torsion"),
-    "tip_body": (("omega_star", "mass", "overhang", "gyration"), tip_body, "tip_body"),
+    "tip_body": (("omega_star", "body", "overhang", "gyration"), tip_body, "tip_body"),
     "sprung_beam": (("load", "spring", "moment"), sprung_beam, "sprung_beam"),
     "tapered_cantilever": (("section", "ratio", "asked", "shear"), tapered_cantilever,
                            "tapered_cantilever"),

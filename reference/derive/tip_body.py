@@ -126,7 +126,7 @@ def values(omega, m, c, g):
 
 POINTS = (("", 4, 1.0, 0.2, 0.3), ("omega_star=0", 0, 1.0, 0.2,
                                    0.3), ("gyration=0;omega_star=10;overhang=0", 10, 1.0, 0.0, 0.0),
-          ("mass=10;omega_star=2", 2, 10.0, 0.2, 0.3), ("mass=0.1;omega_star=8;overhang=-0.5", 8,
+          ("body=10;omega_star=2", 2, 10.0, 0.2, 0.3), ("body=0.1;omega_star=8;overhang=-0.5", 8,
                                                         0.1, -0.5, 0.3))
 
 

@@ -73,7 +73,7 @@ class Solve(ProgramTest):
     def test_a_scene_and_modes(self):
         text = self.answered("solve", "--scene", LEAF).stdout
         self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: .*\nleaf_spring_guide, ")
-        text = self.answered("solve", "tip_body", "--follow", "mass=0.1..0.2/2").stdout
+        text = self.answered("solve", "tip_body", "--follow", "body=0.1..0.2/2").stdout
         self.assertRegex(text, r"\A-f \S+: .*\n-n \d+: ")
 
     def test_without_truths(self):

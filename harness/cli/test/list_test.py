@@ -80,7 +80,7 @@ class Lists(ProgramTest):
                          every)
         case = self.record("list", "c_column")
         self.assertEqual({one["name"] for one in case["parameters"] if one["choices"]},
-                         {"section_data", "shear_stability", "omit"})
+                         {"section_data", "shear_stability", "mass", "omit"})
         self.assertEqual([one["formulation"] for one in case["formulations"]], self.formulations)
         one = self.record("list", "beamw:mass=lumped")
         option = {entry["name"]: entry for entry in one["options"]}["mass"]

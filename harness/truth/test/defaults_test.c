@@ -1,6 +1,6 @@
 /* reference/defaults.csv, which the deriving programs read, beside the tables of the cases: the
- * same parameters in the same order, the same numbers and words. The last one, which physics is
- * left out, is none of theirs: they derive what the source has. */
+ * same parameters in the same order, the same numbers and words. The last ones, which physics is
+ * left out and where mass lies, are none of theirs: they derive what the source has. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ static int total(void)
 {
     int count = 0;
     for (int i = 0; registry_cases[i] != NULL; i++)
-        count += parameters_count(registry_cases[i]) - 1;
+        count += parameters_of_source(registry_cases[i]);
     return count;
 }
 
@@ -32,7 +32,7 @@ static const case_type *case_of(const char *name)
 static void check_row(const char *line, const case_type *type, int at, const char *name,
                       const char *number, const char *choices)
 {
-    if (type == NULL || at >= parameters_count(type) - 1) {
+    if (type == NULL || at >= parameters_of_source(type)) {
         gsl_test(1, "defaults.csv: %s: no such case or parameter", line);
         return;
     }
