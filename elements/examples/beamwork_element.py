@@ -10,8 +10,12 @@ last two axes. Functions (first argument: the kind of element that all N are):
   stress(kind, e)         -> energy[N], sigma[N, m], C[N, m, m]; where prepare gives None
   force(kind, r, u, R, a) -> energy[N], F[N, 7 n], K[N, 7 n, 7 n]: for gives="tangent", in place of
                           strain and stress; K or F and K may be None for "force" and "energy"
-Derivatives of strains are complex steps: strain must take complex arrays and be analytic (no abs,
-norm, conj, comparison of values; rotation_vector and sinc below are). With gives="e" it is called
+  mass(kind, r, u, R, a)  -> M[N, 7 n, 7 n], optional: x' M x'/2 is the kinetic energy; x': velocity,
+                          angular velocity (both in fixed axes) and rate of warping of each node.
+                          The rest is made from it: frames that turn, motions in time
+                          (inertia="vibration": not these). Left out: the mass of all others
+Derivatives of strain and mass are complex steps: they must take complex arrays and be analytic (no
+abs, norm, conj, comparison of values; rotation_vector and sinc below are). With gives="e" it is called
 with real arrays only and beamwork takes differences. Raise Refused(why) for what cannot be done.
 """
 import difflib
@@ -29,9 +33,9 @@ FEATURES = ("warping", "shear", "eccentric shear centre", "trapeze", "wagner mom
             "rotary inertia", "initial curvature", "coupled section")
 SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z wagner_torque D:9 "
            "F:9 axes_angle centroid:2 matrices stiffness:36 mass:36 rectangle width height")
-FUNCTIONS = ("prepare", "strain", "stress", "force")
+FUNCTIONS = ("prepare", "strain", "stress", "force", "mass")
 KEYS = ("name summary source family offers gives strains nodes order limits shear_theories "
-        "options").split()
+        "inertia options").split()
 TINY, STEP = 1e-20, 2e-3  # of complex steps and of differences of their results
 
 
@@ -126,7 +130,7 @@ def derivatives(kind, strain, x, s):
 
 
 def is_analytic(kind, strain, x):
-    """Complex steps of strain agree with differences, a bit beside an element x[1, n, 16]."""
+    """Complex steps of strain or mass agree with differences, a bit beside an element x[1, n, 16]."""
     n = x.shape[1]
     away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
     state = [v.real for v in moved(kind, x, away, 0 * away)]
@@ -163,6 +167,86 @@ def three(name, found, mask, parts, N, c, why):
     return [v for i, v in enumerate(all_three) if mask >> i & 1]
 
 
+def turning(kind, M, x, frame):
+    """potential, force, N, G of elements x[N, n, 16] in a frame (omega, centre) that turns."""
+    N, n, c = len(x), x.shape[1], 7 * x.shape[1]
+
+    def momentum(kind, r, *state):  # M v and v M v of the velocity of the frame
+        v = np.zeros((len(r), n, 7), r.dtype)
+        v[..., :3], v[..., 3:6] = np.cross(frame[0], r - frame[1]), frame[0]
+        p = np.einsum("nij,nj->ni", M(kind, r, *state), v.reshape(-1, c))
+        return np.hstack([p, (p * v.reshape(-1, c)).sum(1)[:, None]])
+
+    J, s = derivatives(kind, momentum, x, None), np.zeros((N, c + 1))
+    s[:, c] = -1 / 2
+    p = momentum(kind, *states(x))
+    G = J[:, :c] - J[:, :c].swapaxes(1, 2)
+    for k in range(3, c, 7):
+        G[:, k:k + 3, k:k + 3] += cross_matrix(p[:, k:k + 3])
+    return [-p[:, c] / 2, J[:, c] / 2, derivatives(kind, momentum, x, s), G]
+
+
+def in_time(kind, M, x, rate, acceleration, tangents):
+    """taken, C, K of elements x[N, n, 16]: Lagrange's equations of the energy x' M x'/2."""
+    N, c = rate.shape
+
+    def momentum(*at):
+        return np.einsum("npij,nj->npi", M(*at).reshape(N, -1, c, c), rate).reshape(-1, c)
+
+    if tangents:
+        D = derivatives(kind, lambda *at: M(*at).reshape(-1, c * c), x, None).reshape(N, c, c, c)
+        by_place = np.einsum("nikj,nk->nij", D, rate)
+    else:
+        by_place = derivatives(kind, momentum, x, None)
+    now = M(kind, *states(x))
+    p = np.einsum("nij,nj->ni", now, rate)
+    taken = np.einsum("nij,nj->ni", now, acceleration) + np.einsum(
+        "nij,nj->ni", by_place - by_place.swapaxes(1, 2) / 2, rate)
+    turns = range(3, c, 7)
+    for k in turns:
+        taken[:, k:k + 3] += np.cross(p[:, k:k + 3], rate[:, k:k + 3])
+    if not tangents:
+        return [taken]
+    C = np.einsum("nijk,nk->nij", D, rate) + by_place - by_place.swapaxes(1, 2)
+    for k in turns:
+        C[:, k:k + 3] -= cross_matrix(rate[:, k:k + 3]) @ now[:, k:k + 3]
+        C[:, k:k + 3, k:k + 3] += cross_matrix(p[:, k:k + 3])
+    return [taken, C, np.einsum("nijk,nj->nik", D, acceleration)]
+
+
+def states(x):
+    """r, u, R, a of elements x[N, n, 16]."""
+    return x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15]
+
+
+def inertia(mask, kind, x, body, functions):
+    """What a mask asks for of elements x[N, n, 16] with a frame and rates, body[N, ...]."""
+    N, c = len(x), 7 * x.shape[1]
+
+    def mass(kind, *state):
+        numbers = "biufc" if np.iscomplexobj(state[0]) else "biuf"
+        return checked(functions["mass"](kind, *state), "mass", len(state[0]), (c, c),
+                       f"nodes={c // 7} wants", numbers)
+
+    if mask & (256 | 224) and not functions.get("analytic mass") and np.isfinite(x[0]).all():
+        functions["analytic mass"] = is_analytic(
+            kind, lambda *at: mass(*at).reshape(-1, c * c), x[:1])
+        if not functions["analytic mass"]:
+            raise Refused("derivatives are complex steps, and mass is not analytic (abs, norm, a "
+                          "comparison, .real?): mend it")
+    zero = np.zeros((N, c))
+    found = [mass(kind, *states(x))] if mask & 1 else [None]
+    if mask & 256:
+        found += turning(kind, mass, x, body[0, :6].reshape(2, 3))
+    else:
+        found += [zero[:, 0], zero, np.zeros((N, c, c)), np.zeros((N, c, c))]
+    if mask & 224:
+        rates = body[:, 6 if mask & 256 else 0:].reshape(N, -1, c)
+        found += in_time(kind, mass, x, rates[:, 0] if mask & 512 else zero,
+                         rates[:, 1] if mask & 1024 else zero, mask & 192)
+    return [v for i, v in enumerate(found) if mask >> i & 1]
+
+
 def answers(what, mask, kind, body, said, functions):
     """The arrays that a mask asks for, of elements of one kind, body[N, ...] as in the request."""
     N, n, m = len(body), said.get("nodes", 2), said.get("strains", 0)
@@ -170,7 +254,9 @@ def answers(what, mask, kind, body, said, functions):
         found = functions["stress"](kind, body)
         return three("stress", found, mask, ("sigma", "C"), N, m, f"strains={m}")
     x = body[:, :16 * n].reshape(N, n, 16)
-    state = x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(N, n, 3, 3), x[..., 15]
+    if what == 5:
+        return inertia(mask, kind, x, body[:, 16 * n:], functions)
+    state = states(x)
     if what == 4:
         found = functions["force"](kind, *state)
         return three("force", found, mask, "FK", N, 7 * n, f"nodes={n}")
@@ -205,7 +291,12 @@ def answer(what, mask, count, body, kinds, said, functions):
     if what == 1:
         return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
-    parts = np.split(rest, [16 * said.get("nodes", 2) * count]) if what != 3 else [rest]
+    n = said.get("nodes", 2) * count
+    ends = {2: [16 * n], 4: [16 * n], 5: np.cumsum(
+        [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)])}
+    parts = np.split(rest, ends.get(what, []))
+    if what == 5:  # one frame for all
+        parts[1] = np.tile(parts[1], count)
     each = np.hstack([part.reshape(count, -1) for part in parts if part.size])
     out = None
     for number in np.unique(numbers):
@@ -240,6 +331,8 @@ def taken(functions, words):
             sys.exit(f"serve(): {word}={value!r} is no {'function' if word in FUNCTIONS else 'key'}"
                      + (f", did you mean {near[0]}?" if near else f"; keys: {', '.join(KEYS)}"))
     functions = {name: f for name, f in functions.items() if f is not None}
+    if "mass" in functions:
+        said = {"inertia": "motion" if said.get("nodes", 2) == 2 else "vibration", **said}
     return functions, {"beamwork": 1, "gives": "tangent" if "force" in functions else "e,J,H",
                        **said}
 

@@ -30,8 +30,9 @@ def strain(kind, r, _u, R, _a):
     return np.hstack([e - [kind.length, 0, 0], kind.length * psi])
 
 
-serve(prepare, strain, name="timoshenko_py", family="example", strains=6,
-      summary="two nodes, one point, shear-deformable, without warping, in Python",
-      source="Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
-      offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"],
-      shear_theories=["haringx"], limits=["doubly symmetric"])
+if __name__ == "__main__":
+    serve(prepare, strain, name="timoshenko_py", family="example", strains=6,
+          summary="two nodes, one point, shear-deformable, without warping, in Python",
+          source="Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
+          offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"],
+          shear_theories=["haringx"], limits=["doubly symmetric"])

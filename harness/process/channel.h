@@ -8,7 +8,13 @@
 #include "harness/process/child.h"
 #include "harness/process/handshake.h"
 
-enum channel_request { CHANNEL_PREPARE = 1, CHANNEL_STRAIN, CHANNEL_STRESS, CHANNEL_FORCE };
+enum channel_request {
+    CHANNEL_PREPARE = 1,
+    CHANNEL_STRAIN,
+    CHANNEL_STRESS,
+    CHANNEL_FORCE,
+    CHANNEL_INERTIA
+};
 
 enum { CHANNEL_HEADER = 40, CHANNEL_ANSWER = 24 };
 

@@ -36,7 +36,7 @@ static const struct gives {
 
 static const char *const keys[] = {"beamwork", "name",           "summary", "source", "family",
                                    "offers",   "gives",          "strains", "nodes",  "order",
-                                   "limits",   "shear_theories", "options"};
+                                   "limits",   "shear_theories", "options", "inertia"};
 
 typedef struct reading {
     const char *who;
@@ -162,6 +162,24 @@ static status gives_of(const reading *r, handshake *out)
     return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
 }
 
+/* Of its own: in vibration and in frames that turn, or in motions in time too. */
+static status inertia_of(const reading *r, handshake *out)
+{
+    const json_t *given = json_object_get(r->said, "inertia");
+    const char *word = json_string_value(given);
+    if (given == NULL)
+        return STATUS_OK;
+    if (word == NULL || (strcmp(word, "vibration") != 0 && strcmp(word, "motion") != 0))
+        return refuse(r, "inertia", "give vibration or motion, or leave it out");
+    if (!(out->type.offers & FEATURE_MASS))
+        return refuse(r, "inertia", "who brings it offers mass; add that to 'offers'");
+    out->inertia = 1;
+    out->type.spreads = strcmp(word, "motion") == 0;
+    if (out->type.spreads && out->constants.nodes != 2)
+        return refuse(r, "inertia", "motion is for two nodes; give vibration");
+    return STATUS_OK;
+}
+
 static status only_known_keys(const reading *r)
 {
     const char *key;
@@ -211,6 +229,7 @@ static status read_all(const reading *r, handshake *out)
     else if (json_object_get(r->said, "strains") != NULL)
         return refuse(r, "strains", "a formulation of whole elements has none; leave it out");
     TRY(orders_of(r, out->constants.order));
+    TRY(inertia_of(r, out));
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);
 }
 

@@ -11,6 +11,7 @@ enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 typedef struct handshake {
     element_type type; /* what is data; no function */
     int whole;         /* 1: energy, force or tangent of whole elements; 0: strains and stresses */
+    int inertia;       /* 1: it brings its own; type.spreads: also in time */
     element_constants constants; /* of the type */
 } handshake;
 

@@ -49,10 +49,11 @@ static status start_again(process *p, fault *f)
     free(line);
     p->kinds = 0;
     TRY(outcome);
-    const int same = strcmp(again.type.name, p->type.name) == 0 && again.whole == p->whole &&
-                     again.type.leaves == p->type.leaves &&
-                     again.constants.strains == p->constants.strains &&
-                     again.constants.nodes == p->constants.nodes;
+    const int same =
+        strcmp(again.type.name, p->type.name) == 0 && again.whole == p->whole &&
+        again.type.leaves == p->type.leaves && again.inertia == (p->type.inertia != NULL) &&
+        again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
+        again.constants.nodes == p->constants.nodes;
     return same ? STATUS_OK
                 : channel_break(&p->to, "says something else of itself when it starts again", f);
 }
@@ -176,6 +177,8 @@ static status begin(process *p, const char *command, fault *f)
     p->type.prepare = prepare;
     p->type.trouble = trouble;
     frames_serve(p);
+    if (said.inertia)
+        frames_serve_inertia(p);
     return channel_call(&p->to, p->type.name, f);
 }
 

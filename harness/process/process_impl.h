@@ -24,5 +24,7 @@ struct element_data {
 
 /* frames.c: the functions of the type that evaluate elements. */
 void frames_serve(process *p);
+/* frames_inertia.c: that of its own inertia. */
+void frames_serve_inertia(process *p);
 
 #endif

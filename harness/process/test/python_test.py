@@ -70,9 +70,9 @@ class InPython(ProgramTest):
         """What is told of the example with this stress in place of a constant stiffness."""
         text = (ROOT / "elements/examples/timoshenko.py").read_text(encoding="utf-8")
         text = text.replace("    return np.diag(", "    kind.C = np.diag(").replace(
-            "serve(prepare, strain,", f"def stress(kind, e):\n"
+            "if __name__", f"def stress(kind, e):\n"
             f"    s = e @ kind.C\n    w = (s * e).sum(1) / 2\n    {back}\n\n\n"
-            "serve(prepare, strain, stress,")
+            "if __name__").replace("serve(prepare, strain,", "serve(prepare, strain, stress,")
         (self.folder / "mine.py").write_text(text, encoding="utf-8")
         return self.solve(f"exec:'{sys.executable}' '{self.folder / 'mine.py'}'")
 
