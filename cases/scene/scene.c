@@ -305,19 +305,26 @@ int scene_has_body(const scene_node *n)
     return has;
 }
 
+/* What is wrong with it is told where it is computed. */
+static int is_massive(const scene *s, int index)
+{
+    section c;
+    if (scene_constants(s, index, &c, NULL) != STATUS_OK || c.density > 0)
+        return 1;
+    for (int k = 0; k < 36; k++)
+        if (c.mass[k] != 0)
+            return 1;
+    return 0;
+}
+
 int scene_has_mass(const scene *s)
 {
     for (int i = 0; i < s->nodes; i++)
         if (scene_has_body(&s->node[i]))
             return 1;
-    for (int i = 0; i < s->members; i++) {
-        section c;
-        if (scene_constants(s, s->member[i].section, &c, NULL) != STATUS_OK || c.density > 0)
-            return 1; /* what is wrong with it is told where it is computed */
-        for (int k = 0; k < 36; k++)
-            if (c.mass[k] != 0)
-                return 1;
-    }
+    for (int i = 0; i < s->members; i++)
+        if (is_massive(s, s->member[i].section) || is_massive(s, s->member[i].section_q))
+            return 1;
     return 0;
 }
 

@@ -75,6 +75,16 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     return STATUS_OK;
 }
 
+status scene_validate_mass(const scene *s, int i, fault *f)
+{
+    if (scene_has_mass(s))
+        return STATUS_OK;
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: nothing in it has a mass; give a section a density or a mass, or a node a body",
+        scene_called(s, SCENE_ANALYSES, i).text);
+}
+
 static status check_follows(const scene *s, int i, fault *f)
 {
     const int follows = s->analysis[i].follows;
@@ -89,12 +99,7 @@ static status check_follows(const scene *s, int i, fault *f)
             scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
         TRY(check_resumed(s, &s->analysis[i], i, f));
-    if (!scene_has_mass(s))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: nothing in it has a mass; give a section a density or a mass, or a node a body",
-            scene_called(s, SCENE_ANALYSES, i).text);
-    return STATUS_OK;
+    return scene_validate_mass(s, i, f);
 }
 
 /* What a table says at a value of the path parameter. */

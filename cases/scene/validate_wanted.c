@@ -104,6 +104,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         return check_continuation(s, i, f);
     if (a->kind == SCENE_MOTION)
         return scene_validate_motion(s, i, f);
+    if (a->kind == SCENE_MODAL)
+        return scene_validate_mass(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }
 

@@ -119,6 +119,17 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     outcome_take(side, &o->left.spectrum.positive);
 }
 
+/* What nothing resists, neither stiffness nor mass, has any frequency. */
+static status explain_massless(analysis_context *c, fault *f)
+{
+    c->singular = 0;
+    fault_set(f, STATUS_SINGULAR,
+              "a motion that no stiffness resists has no mass either (a point mass, or a bar "
+              "without density between two, turns about itself): give bodies an inertia, sections "
+              "a density, or hold it");
+    return singular_mechanism(c, STATUS_SINGULAR, f);
+}
+
 /* A structure that is not held has K singular: K + shift M is not. */
 static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift,
                              fault *f)
@@ -132,7 +143,9 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     for (int i = 0; i < M->column[M->n]; i++)
         s->K.value[i] += *shift * M->value[i];
     model_counters(c->model)->factorisations++;
-    return context_factor(c, s->factor, &s->K, f);
+    const status outcome = context_factor(c, s->factor, &s->K, f);
+    return outcome == STATUS_SINGULAR && isfinite(k) && isfinite(mass) ? explain_massless(c, f)
+                                                                       : outcome;
 }
 
 /* K += G of the stresses of the displacements load_x, under the loads at `path`. */

@@ -1,0 +1,224 @@
+"""Frequencies of structures at the edge of what vibrates: modes of one frequency, motions without a stiffness or
+without a mass, ends that pass nothing on; closed forms, or the same structure written otherwise. All formulations."""
+import math
+import unittest
+
+from harness.test.program import ProgramTest
+
+YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
+LINE = DENSITY * AREA
+WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # Hz of factor 1, length 1
+SCENE = """beamwork: 1
+sections:
+  s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1.4e-9, Iw: 0}, young: 2e11, shear_modulus: 8e10, density: 8000}
+  light: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1.4e-9, Iw: 0}, young: 2e11, shear_modulus: 8e10}
+  flat: {constants: {A: 1e-4, Iy: 4e-9, Iz: 1e-9, It: 1.4e-9, Iw: 0}, young: 2e11, shear_modulus: 8e10, density: 8000}
+nodes: {%s}
+members: {%s}
+%s
+analyses: {v: {modal: {wanted: %d}}}
+quantities: {f_$n: {for: {n: 1..%d}, frequency: {analysis: v, which: n - 1}, unit: Hz}}
+omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
+"""
+SECOND = "c: {at: [2, 0, 0]}"
+BEYOND = "n: {from: b, to: c, section: %s, y: [0, 1, 0]%s}"
+HELD, FREE = "a: {at: [0, 0, 0], hold: all}", "a: {at: [0, 0, 0]}"
+BODY = ", mass: 2, inertia: [3, 3, 3, 0, 0, 0]"
+
+
+def bar(section="s", more=""):
+    return f"m: {{from: a, to: b, section: {section}, y: [0, 1, 0]{more}}}"
+
+
+def tip(more=""):
+    return f"b: {{at: [1, 0, 0]{more}}}"
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def turned(v):
+    """By a quaternion of no special direction."""
+    size = math.sqrt(0.7**2 + 0.4**2 + 0.3**2 + 0.5**2)
+    w, *r = (q / size for q in (0.7, 0.4, -0.3, 0.5))
+    half = [c + w * x for c, x in zip(cross(r, v), v)]
+    return [x + 2 * c for x, c in zip(v, cross(r, half))]
+
+
+class Degenerate(ProgramTest):
+
+    def each(self):
+        """All formulations, and the variants that have another mass or other nodes."""
+        return [f["formulation"] for f in self.record("list", "formulations")["formulations"]] + [
+            "geometrically_exact:nodes=2", "beamw:mass=lumped"]
+
+    def scene(self, nodes, members, more="", wanted=8):
+        path = self.folder / "scene.yaml"
+        path.write_text(SCENE % (nodes, members, more, wanted, wanted), encoding="utf-8")
+        return path
+
+    def found(self, formulation, nodes, members, more="", wanted=8, n=4):
+        """[Hz] Ascending; None: the mesh has no further mode."""
+        path = self.scene(nodes, members, more, wanted)
+        return [q["value"] for q in self.record("solve", "--scene", path, "-f", formulation, "-n", n)["quantities"]]
+
+    def same(self, found, right, within, *what):
+        self.assertEqual([v is None for v in found], [v is None for v in right], (found, right, *what))
+        largest = max(v for v in right if v is not None)
+        for here, there in zip(found, right):
+            if here is not None:
+                self.assertLessEqual(abs(here - there), within * (there if there > 1e-6 * largest else largest),
+                                     (found, right, *what))
+
+    def test_two_of_each(self):
+        """A section that is alike in all directions: frequencies in pairs, clamped and free, and free ones after six
+        that are zero."""
+        for formulation in self.each():
+            within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
+            found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
+            self.same(found, [WAVE * f for f in (3.516015, 3.516015, 22.03449, 22.03449)], within, formulation)
+            self.same(found[::2], found[1::2], 1e-9, formulation)
+            found = self.found(formulation, f"{FREE}, {tip()}", bar(), n=8)
+            self.assertEqual(found[:6], [0] * 6, formulation)
+            self.same(found[6:], [22.373285 * WAVE] * 2, 3 * within, formulation)
+            self.same(found[6:7], found[7:], 1e-9, formulation)
+
+    def test_nothing_has_mass(self):
+        for nodes in (HELD, FREE):
+            self.refused(2, "v: nothing in it has a mass; give a section a density or a mass, or a node a body",
+                         "solve", "--scene", self.scene(f"{nodes}, {tip()}", bar("light")))
+
+    def test_nothing_resists(self):
+        """What has neither stiffness nor mass has no frequency, and the refusal names that."""
+        alone = "a motion that no stiffness resists has no mass either"
+        spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 0, 0, 0]}}"
+        other = "m: {from: a, to: z, section: light, y: [1, 0, 0]}"
+        arm = f"{bar()}, {BEYOND % ('light', ', release: {from: [ry, rz]}')}"
+        for words, scene in (
+                (alone, (f"a: {{at: [0, 0, 0], mass: 1}}, {tip(', mass: 2')}", bar("light"))),
+                (alone, (f"{HELD}, z: {{at: [0, 1, 0], hold: all}}, {tip(', mass: 2')}", other, spring)),
+                ("the released ends make a mechanism", (f"{HELD}, {tip()}, {SECOND}", arm))):
+            self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
+
+    def test_zeros(self):
+        """As many as the supports leave: in space, in a plane, of two bars apart, of a hinge."""
+        apart = f"{FREE}, {tip()}, c: {{at: [0, 3, 0]}}, d: {{at: [1, 3, 0]}}"
+        two = f"{bar()}, n: {{from: c, to: d, section: s, y: [0, 1, 0]}}"
+        hinge = f"{bar()}, {BEYOND % ('s', ', release: {from: [rz]}')}"
+        scenes = [(zeros, f"a: {{at: [0, 0, 0], hold: [{held}]}}, {tip()}", bar(), "") for held, zeros in (
+            ("ux", 5), ("rx", 5), ("ux, uy", 4), ("ux, rx", 4), ("ux, uy, uz", 3), ("rx, ry, rz", 3),
+            ("ux, uy, uz, rx, ry", 1), ("all", 0))]
+        scenes += [(3, f"{FREE}, {tip()}", bar(), "plane: xy"), (12, apart, two, ""),
+                   (1, f"{HELD}, {tip()}, {SECOND}", hinge, "")]
+        for formulation in self.each():
+            for zeros, *scene in scenes:
+                found = self.found(formulation, *scene, wanted=14, n=3)
+                self.assertEqual([f == 0 for f in found if f is not None][:zeros + 1], [True] * zeros + [False],
+                                 (formulation, scene, found))
+
+    def test_one_member_has_mass(self):
+        """A light arm beyond the end of a cantilever changes nothing; a light bar is exact with one element, whatever
+        the heavy one behind it has."""
+        end = "c: {at: [1, 0, 0.5]}"
+        arm = "arm: {from: b, to: c, section: light, y: [0, 1, 0]}"
+        pair = f"{bar('light', ', divisions: %d')}, {BEYOND % ('s', ', divisions: 4')}"
+        for formulation in self.each():
+            bare = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
+            both = self.found(formulation, f"{HELD}, {tip()}, {end}", f"{bar()}, {arm}", wanted=6)
+            self.same(both, bare, 1e-8, formulation)
+            one, many = (self.found(formulation, f"{HELD}, {tip()}, {SECOND}", pair % k, wanted=6) for k in (1, 4))
+            self.same(one, many, 1e-8, formulation)
+
+    def test_light_member_between_masses(self):
+        """Held: sqrt(3 EI/m L^3), and no mode beyond those of the mass. Free: two bodies that a spring of the bar's
+        stiffness joins."""
+        stretch, twist, bend = YOUNG * AREA, SHEAR * TWIST, YOUNG * INERTIA
+        for formulation in self.each():
+            found = self.found(formulation, f"{HELD}, {tip(', mass: 2')}", bar("light"), wanted=5, n=2)
+            self.same(found, [math.sqrt(3 * bend / 2) / 2 / math.pi] * 2 + [math.sqrt(stretch / 2) / 2 / math.pi] +
+                      [None] * 2, 1e-8, formulation)
+            two = f"a: {{at: [0, 0, 0], mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}, {tip(BODY)}"
+            found = self.found(formulation, two, bar("light"), wanted=12, n=2)
+            self.assertEqual(found[:6], [0] * 6, formulation)
+            axial, turning = (math.sqrt(k) / 2 / math.pi for k in (stretch * 1.5, twist * 4 / 3))
+            self.same([found[6], found[11]], [turning, axial], 1e-8, formulation)
+            self.same(found[7:11:2], found[8:11:2], 1e-8, formulation)
+
+    def test_bodies(self):
+        """One that springs alone hold; one of no mass is none."""
+        spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 40, 50, 60]}}"
+        mass, about = (100, 200, 300), (40, 50, 60)
+        right = sorted(math.sqrt(k / m) / 2 / math.pi for m, all_of in ((2, mass), (3, about)) for k in all_of)
+        for formulation in self.each():
+            apart = f"{HELD}, z: {{at: [0, 1, 0], hold: all}}, {tip(BODY)}"
+            fixed = "m: {from: a, to: z, section: light, y: [1, 0, 0], divisions: 1}"
+            self.same(self.found(formulation, apart, fixed, spring, wanted=6, n=1), right, 1e-9, formulation)
+            bare, none = (self.found(formulation, f"{HELD}, {tip(m)}", bar(), wanted=6)
+                          for m in ("", ", mass: 0, inertia: [0, 0, 0, 0, 0, 0]"))
+            self.assertEqual(bare, none, formulation)
+
+    def test_released_at_both_ends(self):
+        """Hinges in both directions at both ends: pi^2 and 4 pi^2, twice, as with nodes that turn."""
+        ends = f"{HELD}, {tip(', hold: all')}"
+        hinged = bar(more=", release: {from: [ry, rz], to: [ry, rz]}")
+        turning = "a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [ux, uy, uz, rx]}"
+        for formulation in self.each():
+            within = 2e-2 if formulation.endswith("lumped") else 1e-3
+            found = self.found(formulation, ends, hinged, wanted=4, n=8)
+            self.same(found, [WAVE * f * math.pi**2 for f in (1, 1, 4, 4)], within, formulation)
+            self.same(found, self.found(formulation, turning, bar(), wanted=4, n=8), 1e-8, formulation)
+
+    def test_equal_legs(self):
+        """A frame that its mirror image takes into itself has the frequencies of it, and two legs alone each twice."""
+        nodes = ("{0}: {{at: [0, 0, 0], hold: all}}, p: {{at: [0, 0, 1]}}, q: {{at: [0.7, 0, 1]}}, "
+                 "{1}: {{at: [0.7, 0, 0], hold: all}}")
+        leg = "{0}l: {{from: {0}, to: {1}, section: flat, y: [0, 1, 0]}}"
+        beam = "beam: {from: p, to: q, section: flat, y: [0, 1, 0]}"
+        for formulation in self.each():
+            one, other = (self.found(formulation, nodes.format(*ends),
+                                     ", ".join((leg.format(ends[0], "p"), beam, leg.format(ends[1], "q"))))
+                          for ends in (("a", "b"), ("b", "a")))
+            self.same(one, other, 1e-9, formulation)
+            turned = self.found(formulation, nodes.format("a", "b"), ", ".join(
+                (leg.format("a", "p"), beam.replace("from: p, to: q", "from: q, to: p"), leg.format("b", "q"))))
+            self.same(turned, one, 1e-8, formulation)
+            alone = self.found(formulation, nodes.format("a", "b"), leg.format("a", "p") + ", " + leg.format("b", "q"))
+            self.same(alone[::2], alone[1::2], 1e-9, formulation)
+
+    def test_springs_to_the_ground(self):
+        """A stiff bar on two soft springs: sqrt(2 k/m) and sqrt(6 k/m) across, each twice."""
+        k = 0.02
+        springs = (f"springs: {{p: {{to: a, stiffness: [0, {k}, {k}, 1, 0, 0]}}, "
+                   f"q: {{to: b, stiffness: [{k}, {k}, {k}, 0, 0, 0]}}}}")
+        right = [math.sqrt(c * k / LINE) / 2 / math.pi for c in (1, 2, 2, 6, 6)]
+        for formulation in self.each():
+            if formulation.endswith("lumped"):
+                continue  # the moment of inertia of a bar of lumps is another
+            found = self.found(formulation, f"{FREE}, {tip()}", bar(), springs, wanted=5, n=8)
+            self.same(found, right, 1e-3, formulation)
+
+    def test_offsets(self):
+        """A node beyond a rigid arm: as a support it is the clamped end, as a body its mass at that place."""
+        for formulation in self.each():
+            plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
+            beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
+            self.same(self.found(formulation, f"{beside}, {tip()}", bar(), wanted=6), plain, 1e-9, formulation)
+            heavy, carried = (self.found(formulation, f"{HELD}, {end}", bar(), wanted=6) for end in (
+                tip(", mass: 0.3, centre: [0.1, 0.3, 0.2]"),
+                tip() + ", z: {at: [1.1, 0.3, 0.2], part_of: b, mass: 0.3}"))
+            self.same(heavy, carried, 1e-9, formulation)
+
+    def test_turned(self):
+        """Any direction in space, and the nodes exchanged."""
+        for formulation in self.each():
+            right = self.found(formulation, f"{HELD}, {tip()}", bar("flat"), wanted=6)
+            x, y = turned((1, 0, 0)), turned((0, 1, 0))
+            nodes = "a: {at: [3, -2, 1], hold: all}, b: {at: [%r, %r, %r]}" % (3 + x[0], x[1] - 2, x[2] + 1)
+            member = "m: {from: %s, section: flat, y: [%r, %r, %r]}"
+            for ends in ("a, to: b", "b, to: a"):
+                self.same(self.found(formulation, nodes, member % (ends, *y), wanted=6), right, 1e-8, formulation)
+
+
+if __name__ == "__main__":
+    unittest.main()
