@@ -66,6 +66,21 @@ static void stress_many(int count, const element_data *const data[], const doubl
     }
 }
 
+static double tension(const element_data *d, const double sigma[])
+{
+    return d->given->tension(adapted_own(d), sigma);
+}
+
+static void along(int count, const element_data *const data[], const node_state x[],
+                  along_output out[], status outcome[])
+{
+    const element_data *own[ADAPTED_TOGETHER];
+    for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
+        const int part = adapted_owns(count - i, data + i, own);
+        data[0]->given->along(part, own, x + (ptrdiff_t)i * data[0]->nodes, out + i, outcome + i);
+    }
+}
+
 static status spread(const element_data *d, const node_state x[],
                      const element_rotating_frame *frame, inertia_output *out)
 {
@@ -95,7 +110,9 @@ static void wrap(const element_type *given, element_type *out)
     out->strain_many = given->strain_many != NULL ? differences_strain_many : NULL;
     out->stress_many = given->stress_many != NULL ? stress_many : NULL;
     out->force_many = NULL;
-    out->along = NULL;
+    out->equations_many = NULL;
+    out->along = given->along != NULL ? along : NULL;
+    out->tension = given->tension != NULL ? tension : NULL;
     out->trouble = given->trouble != NULL ? trouble : NULL;
 }
 
@@ -126,6 +143,8 @@ static status check(const element_type *given, const double options[], fault *f)
         return refuse(given, "give either 'strain' and 'stress', or 'force'", f);
     if (given->force == NULL && (given->strain == NULL || given->stress == NULL))
         return refuse(given, "'strain' and 'stress' belong together", f);
+    if (given->force != NULL && (given->along != NULL || given->tension != NULL))
+        return refuse(given, "'along' and 'tension' belong to 'strain' and 'stress'", f);
     if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
         return refuse(given, "an element has two or three nodes", f);
     if (given->force == NULL && (element_strains(given, options) < 1 ||

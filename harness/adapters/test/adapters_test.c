@@ -192,6 +192,47 @@ static void without(const element_type *given, const section *c, unsigned leaves
     free(part.data);
 }
 
+/* Of a uniform load along the undeformed element: stresses, and forces on its nodes. */
+static void loaded(const subject *s, double out[M + ELEMENT_ALONG_COORDINATES])
+{
+    const double none[N] = {0};
+    const element_data *data = s->data;
+    double force[3 * ELEMENT_ALONG_POINTS];
+    node_state x[ELEMENT_MAX_NODES];
+    along_output load = {.force = force, .sigma = out};
+    status outcome = STATUS_FAULT;
+    for (int i = 0; i < 3 * ELEMENT_ALONG_POINTS; i++)
+        force[i] = 2.385 + i % 3;
+    nodes_place(s->nodes, length, none, x);
+    s->type.along(1, &data, x, &load, &outcome);
+    gsl_test(outcome != STATUS_OK, "%s: takes a load", s->type.name);
+    memcpy(out + M, load.ends, sizeof load.ends);
+}
+
+/* What is given beside strains and stresses finds the data of its own type. */
+static void passes_on(const element_type *given, const section *c)
+{
+    const double sigma[M] = {2.385};
+    double by[2][M + ELEMENT_ALONG_COORDINATES] = {{0}};
+    element_type bare = *given;
+    subject whole, part;
+    bare.inertia = NULL;
+    start(given, c, &whole);
+    start(&bare, c, &part);
+    gsl_test(part.type.equations_many != NULL, "%s: equations by strains and stresses",
+             given->name);
+    if (given->tension != NULL)
+        gsl_test(part.type.tension(part.data, sigma) != whole.type.tension(whole.data, sigma),
+                 "%s: tension", given->name);
+    if (given->along != NULL) {
+        loaded(&whole, by[0]);
+        loaded(&part, by[1]);
+        gsl_test(memcmp(by[0], by[1], sizeof by[0]) != 0, "%s: loads along", given->name);
+    }
+    free(whole.data);
+    free(part.data);
+}
+
 static element_type by_force(const element_type *given, unsigned leaves)
 {
     element_type out = *given;
@@ -199,6 +240,8 @@ static element_type by_force(const element_type *given, unsigned leaves)
     out.stress = NULL;
     out.strains = NULL;
     out.geometric = NULL;
+    out.along = NULL;
+    out.tension = NULL;
     out.force = force_of_source;
     out.leaves = leaves;
     return out;
@@ -225,6 +268,12 @@ static void forces_only(const element_type *given, const section *c)
     }
 }
 
+static double no_tension(const element_data *d, const double sigma[])
+{
+    (void)d;
+    return 0 * sigma[0];
+}
+
 static void refusals(const element_type *given)
 {
     element_type completed, bad = *given;
@@ -236,6 +285,10 @@ static void refusals(const element_type *given)
     bad.stress = NULL;
     gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
              "strains without stresses: refused");
+    bad = by_force(given, 0);
+    bad.tension = no_tension;
+    gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
+             "a tension of stresses that a force has not: refused");
     bad = *given;
     bad.prepare = NULL;
     gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
@@ -256,6 +309,7 @@ int main(void)
         gsl_test(adapters_complete(given, options, &completed, &f) != STATUS_OK ||
                      completed.strain != given->strain || adapters_words(given)[0] != '\0',
                  "%s: nothing is left out, nothing is made", given->name);
+        passes_on(given, &c);
         if (element_inner(given, options) > 0)
             continue; /* needs a solution of its own equations */
         without(given, &c, LEAVES_H, "without second derivatives");
