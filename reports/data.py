@@ -89,6 +89,8 @@ def read_meshes(group):
         units.setdefault(row["point"], {})[name] = row["unit"]
         if math.isfinite(row["prediction"]):
             mesh.predictions[name] = row["prediction"]
+    for row in rows(group, "verdicts"):  # also of what has no cell
+        units.setdefault(row["point"], {}).setdefault(row["quantity"], row["unit"])
     x, value = group["curve_x"][()], group["curve_value"][()]
     for row in rows(group, "curves"):
         part = slice(row["first"], row["first"] + row["points"])

@@ -133,7 +133,8 @@ static void get_process(const subject *s, field_value *out)
 
 static void get_is_new(const subject *s, field_value *out)
 {
-    out->whole = formulations_is_new(type_of(s));
+    out->whole = s->sweep != NULL ? s->series->imported == NULL && !sweep_gates(s->sweep, s->series)
+                                  : formulations_is_new(type_of(s));
 }
 
 static const schema_field fields[] = {
