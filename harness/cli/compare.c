@@ -29,6 +29,10 @@ static void print_sums(const comparison *c)
     printf("%d %s in both:", c->pairs, c->whole ? "cells" : "series");
     for (int k = 0; k < COMPARISON_KINDS; k++)
         printf("%s %d %s", k > 0 ? "," : "", c->count[k], comparison_kind_names[k]);
+    if (c->swept) {
+        printf("\ncost: %.4g s -> %.4g s\n", c->cost[0], c->cost[1]);
+        return;
+    }
     printf("\nwork:");
     for (int k = 0; k < RESULTS_WORKS; k++)
         printf("%s %s %.0f -> %.0f", k > 0 ? "," : "", results_work_names[k], c->work[0][k],
@@ -88,6 +92,23 @@ static int compare(const command_request *r, const results *before, const result
     return trouble(f);
 }
 
+/* A sweep is compared with a sweep. */
+static status check_sweeps(const command_request *r, const results *before, const results *after,
+                           fault *f)
+{
+    if (r->second == NULL && before->swept)
+        return fault_set(f, STATUS_REFUSED,
+                         "%.80s is a sweep, which has no short table; 'beamwork sweep --format "
+                         "csv' writes its values",
+                         r->case_name);
+    if (r->second == NULL || before->swept == after->swept)
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "%.80s is a sweep and %.80s is none: give two sweeps, or two runs of verify",
+                     before->swept ? r->case_name : r->second,
+                     before->swept ? r->second : r->case_name);
+}
+
 /* What is compared, or written; cli_compare frees it. */
 static status read_runs(const command_request *r, comparison_limits *limits, results *before,
                         results *after, fault *f)
@@ -97,9 +118,10 @@ static status read_runs(const command_request *r, comparison_limits *limits, res
         TRY(comparison_limits_parse(r->threshold, limits, f));
     TRY(select_begin(r->select, &words, f));
     TRY(files_check(r, 0, NULL, f));
-    TRY(results_read(r->case_name, before, f));
+    TRY(results_read_any(r->case_name, before, f));
     if (r->second != NULL)
-        TRY(results_read(r->second, after, f));
+        TRY(results_read_any(r->second, after, f));
+    TRY(check_sweeps(r, before, after, f));
     meet(r->select, before, &words);
     meet(r->select, after, &words);
     TRY(select_all_met(r->select, &words, f));
@@ -134,7 +156,11 @@ int cli_compare(int count, char **arguments)
         "compare", "OLD [NEW]",
         "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, "
         "or, where one is the short table that is kept of a run, series by series, with the limits "
-        "of the default points; a former run is never a truth. What one of them was not asked for "
+        "of the default points; a former run is never a truth. Two files of 'sweep -o' are "
+        "compared "
+        "point by point, by the values of their parameters: errors, values, references (a line "
+        "'.../reference'), statuses and costs (threshold work=); points, formulations and meshes "
+        "that one of them has not are named. What one of them was not asked for "
         "(verify -k, -f, --scene) and new formulations in one of them are counted, and no change. "
         "-o with OLD alone writes its short "
         "table. --hash: SHA-256 of all that a run says but times, machines and versions, and of "
@@ -143,6 +169,7 @@ int cli_compare(int count, char **arguments)
         "within the thresholds, 1 something is worse, better, "
         "changed, gone or new, 2 trouble (file, usage, nothing in common)."
         "\vbeamwork compare old.h5 new.h5\n"
+        "beamwork compare old_sweep.h5 new_sweep.h5\n"
         "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",
         "ok2cQ", count, arguments, &r);
     if (r.hash && r.case_count > 0)

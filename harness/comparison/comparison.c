@@ -109,7 +109,10 @@ void comparison_run(FILE *to, const results *before, const results *after,
     memset(out, 0, sizeof *out);
     out->whole = before->whole && after->whole;
     out->judged = before->limits && after->limits;
-    if (out->whole)
+    out->swept = before->swept && after->swept;
+    if (out->swept)
+        comparison_sweeps(&l, select);
+    else if (out->whole)
         run_cells(l, before, after, select);
     else
         run_series(l, before, after, select);

@@ -1,6 +1,6 @@
 /* Two stored runs side by side: what became worse, better, or is there in one of them only. Whole
- * runs cell by cell and quantity by quantity, else series by series. No truth is involved: a former
- * run says nothing of what is right, only that something has changed. */
+ * runs, and sweeps, cell by cell and quantity by quantity, else series by series. No truth is
+ * involved: a former run says nothing of what is right, only that something has changed. */
 #ifndef BEAMWORK_COMPARISON_H
 #define BEAMWORK_COMPARISON_H
 
@@ -28,9 +28,11 @@ extern const char *const comparison_kind_names[COMPARISON_KINDS];
 typedef struct comparison {
     int whole;                     /* 1: cell by cell; 0: series by series */
     int judged;                    /* 1: both have limits */
+    int swept;                     /* 1: sweeps */
     int pairs;                     /* cells or series in both */
     int count[COMPARISON_KINDS];   /* lines of each kind */
     double work[2][RESULTS_WORKS]; /* sums over the pairs: old | new */
+    double cost[2];                /* of counted work [s], of sweeps */
     /* series that are in one only, old | new, and are no change: outside what the other run was
      * asked for; of formulations that do not gate yet */
     int outside[2], fresh[2];

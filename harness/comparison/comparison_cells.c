@@ -63,7 +63,10 @@ static void compare_values(const listing *l, const result_cell *a, const result_
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b)
 {
     comparison_lines_status(l, a->status, b->status);
-    if (!results_part_differ(l->before, l->after, l->name)) /* work is that of what is asked for */
+    if (l->before->swept)
+        comparison_lines_cost(l, a->cost, b->cost);
+    else if (!results_part_differ(l->before, l->after,
+                                  l->name)) /* work is that of what is asked for */
         comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }

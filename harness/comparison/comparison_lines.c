@@ -47,3 +47,17 @@ void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
         fprintf(l->to, old > 0 ? " (%+.1f %%)\n" : "\n", 100 * (new - old) / old);
     }
 }
+
+void comparison_lines_cost(const listing *l, double before, double after)
+{
+    const double milli = 1e3;
+    if (!(before > 0 && after > 0))
+        return;
+    l->out->cost[0] += before;
+    l->out->cost[1] += after;
+    if (fabs(after - before) <= l->limits->work * before)
+        return;
+    comparison_lines_heading(l, after > before ? CHANGE_WORSE : CHANGE_BETTER);
+    fprintf(l->to, ": cost %.4g ms -> %.4g ms (%+.1f %%)\n", milli * before, milli * after,
+            100 * (after - before) / before);
+}

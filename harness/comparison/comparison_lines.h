@@ -23,7 +23,12 @@ void comparison_lines_status(const listing *l, const char *before, const char *a
 void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                            const long after[RESULTS_WORKS], int meshes);
 
+/* Of counted work, where both are known. */
+void comparison_lines_cost(const listing *l, double before, double after);
+
 void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
 void comparison_series(const listing *l, const result_series *a, const result_series *b);
+/* All of two sweeps: a line too for each point, formulation and mesh that one of them has not. */
+void comparison_sweeps(const listing *l, const char *select);
 
 #endif

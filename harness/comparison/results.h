@@ -35,6 +35,7 @@ typedef struct result_cell {
     int elements;
     char status[RESULTS_STATUS];
     long work[RESULTS_WORKS];
+    double cost; /* of counted work [s], of a sweep; not positive or NAN: not known */
     int values;
     result_value *value;
 } result_cell;
@@ -80,12 +81,16 @@ typedef struct results {
     int cells, seriess;
     int whole;             /* 1: with cells, 0: with series only */
     int limits;            /* 1: limits were judged */
+    int swept;             /* 1: a sweep; its cells of no mesh have the references of a point */
     result_cell *cell;     /* ascending by name and elements */
     result_series *series; /* ascending by name */
 } results;
 
-/* HDF5 or table, told apart by the first bytes. FAULT: missing, truncated, foreign or damaged. */
+/* HDF5 or table, told apart by the first bytes. FAULT: missing, truncated, foreign or damaged, or
+ * a sweep. */
 status results_read(const char *path, results *out, fault *f);
+/* The same, of a sweep too, which has no series. */
+status results_read_any(const char *path, results *out, fault *f);
 void results_free(results *r);
 
 /* A zeroed one at the end, or NULL. */

@@ -5,6 +5,7 @@
 #include "harness/catalogue/select.h"
 
 #include "harness/comparison/results_case.h"
+#include "harness/comparison/results_sweep.h"
 #include "harness/comparison/table_reader.h"
 #include "harness/truth/checksum.h"
 
@@ -101,11 +102,14 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
 {
     char schema[64];
     long version = 0;
+    if (H5Aexists(file, "beamwork_sweep") > 0)
+        return results_sweep_read(path, file, out, f);
     if (!table_reader_attribute_text(file, "schema", schema, sizeof schema) ||
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version))
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: not a file of results; write one with 'beamwork verify -o'",
+                         "%.120s: not a file of results; write one with 'beamwork verify -o' or "
+                         "'beamwork sweep -o'",
                          path);
     if (version != SCHEMA_VERSION)
         return fault_set(

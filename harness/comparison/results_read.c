@@ -54,12 +54,12 @@ static status read_sorted(const char *path, FILE *from, results *out, fault *f)
         line_skip_mark(from);
     TRY(whole ? results_hdf5_read(path, out, f) : results_table_read(path, from, out, f));
     TRY(sort_cells(path, out, f));
-    if (out->whole)
+    if (out->whole && !out->swept)
         TRY(results_series_summarise(out, f));
     return sort_series(path, out, f);
 }
 
-status results_read(const char *path, results *out, fault *f)
+status results_read_any(const char *path, results *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     FILE *from = fopen(path, "rb");
@@ -70,4 +70,16 @@ status results_read(const char *path, results *out, fault *f)
     if (outcome != STATUS_OK)
         results_free(out);
     return outcome;
+}
+
+status results_read(const char *path, results *out, fault *f)
+{
+    TRY(results_read_any(path, out, f));
+    if (!out->swept)
+        return STATUS_OK;
+    results_free(out);
+    return fault_set(f, STATUS_FAULT,
+                     "%.120s: a sweep, which only 'beamwork compare' reads; give "
+                     "a file of 'beamwork verify -o'",
+                     path);
 }
