@@ -1,5 +1,6 @@
 #include "harness/record/output.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
@@ -11,8 +12,8 @@
 
 enum { MOST_TRIES = 100, LEAF = 100 }; /* [bytes] of the name that a temporary name begins with */
 
-/* Files that are written beside their places now, as far as there is room for their names: of the
- * process `owner`; 0: free, -1: a name is being written. */
+/* Files and folders that are written beside their places now, as far as there is room for their
+ * names: of the process `owner`; 0: free, -1: a name is being written. */
 enum { MOST_OPEN = 16 };
 static struct {
     atomic_int owner;
@@ -31,18 +32,60 @@ static void remember(const char *path)
     }
 }
 
-static void forget(const char *path)
+void output_forget(const char *path)
 {
     for (int i = 0; i < MOST_OPEN; i++)
         if (atomic_load(&unfinished[i].owner) == getpid() && strcmp(unfinished[i].path, path) == 0)
             atomic_store(&unfinished[i].owner, 0);
 }
 
+/* What follows calls the system only, as a signal handler must. */
+static void remove_all(int at, const char *name);
+
+/* Entries that there were. */
+static int empty_once(int folder)
+{
+    _Alignas(struct dirent64) char room[4096];
+    int entries = 0;
+    ssize_t length = 0;
+    lseek(folder, 0, SEEK_SET);
+    while ((length = getdents64(folder, room, sizeof room)) > 0)
+        for (ssize_t k = 0; k < length;) {
+            const struct dirent64 *one = (const void *)&room[k];
+            const char *name = one->d_name;
+            k += one->d_reclen;
+            if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
+                continue;
+            entries++;
+            remove_all(folder, name);
+        }
+    return entries;
+}
+
+/* A file, or a folder with all that is in it: again, as entries that are taken away may hide
+ * others. */
+static void remove_all(int at, const char *name)
+{
+    if (unlinkat(at, name, 0) == 0 || errno == ENOENT)
+        return;
+    const int folder = openat(at, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    for (int i = 0; folder >= 0 && i < MOST_TRIES && empty_once(folder) > 0; i++)
+        continue;
+    if (folder >= 0)
+        close(folder);
+    unlinkat(at, name, AT_REMOVEDIR);
+}
+
+void output_remove(const char *temporary)
+{
+    remove_all(AT_FDCWD, temporary);
+}
+
 void output_abandon(void)
 {
     for (int i = 0; i < MOST_OPEN; i++)
         if (atomic_load(&unfinished[i].owner) == getpid())
-            unlink(unfinished[i].path);
+            output_remove(unfinished[i].path);
 }
 
 static status fail(const char *path, int why, fault *f)
@@ -51,8 +94,7 @@ static status fail(const char *path, int why, fault *f)
                      strerror(why));
 }
 
-/* A new file in the folder of `path` under a name that nobody can guess; -1 and errno. */
-static int create_beside(const char *path, char temporary[PATH_MAX])
+int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
 {
     const char *leaf = place_leaf(path);
     for (int i = 0; i < MOST_TRIES; i++) {
@@ -66,15 +108,19 @@ static int create_beside(const char *path, char temporary[PATH_MAX])
             return -1;
         }
         remember(temporary); /* before it is there: a signal may come at any time */
-        const int file =
-            open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (file >= 0)
-            return file;
-        forget(temporary);
+        const int made = make(temporary);
+        if (made >= 0)
+            return made;
+        output_forget(temporary);
         if (errno != EEXIST)
             return -1;
     }
     return -1;
+}
+
+static int make_file(const char *name)
+{
+    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
 /* Owner (where we may) and permissions of the file that will be replaced. */
@@ -126,7 +172,8 @@ static status open_as(const char *path, output_form form, output *out, fault *f)
     TRY(place_find(path, &out->to, f));
     TRY(check_form(path, &out->to, form, f));
     const int direct = out->to.kind == PLACE_STREAM;
-    const int file = direct ? open_stream(&out->to) : create_beside(out->to.path, out->temporary);
+    const int file =
+        direct ? open_stream(&out->to) : output_beside(out->to.path, make_file, out->temporary);
     out->stream = file >= 0 ? fdopen(file, "w") : NULL;
     if (out->stream == NULL)
         return fail(path, errno, f);
@@ -155,7 +202,7 @@ static void discard(output *out)
     out->stream = NULL;
     if (out->temporary[0] != '\0') {
         unlink(out->temporary);
-        forget(out->temporary);
+        output_forget(out->temporary);
     }
 }
 
@@ -190,7 +237,7 @@ status output_close(output *out, fault *f)
         why = errno;
     }
     if (good) {
-        forget(out->temporary);
+        output_forget(out->temporary);
         return STATUS_OK;
     }
     discard(out);
@@ -214,12 +261,12 @@ status output_try(const char *path, output_form form, place *where, fault *f)
     TRY(check_form(path, where, form, f));
     if (where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
         return STATUS_OK;
-    const int file = create_beside(where->path, temporary);
+    const int file = output_beside(where->path, make_file, temporary);
     if (file < 0)
         return fail(path, errno, f);
     close(file);
     unlink(temporary);
-    forget(temporary);
+    output_forget(temporary);
     return STATUS_OK;
 }
 

@@ -29,9 +29,15 @@ status output_flush(fault *f);
  * or takes no such form, FAULT what cannot be written. *where: the place, for comparison with
  * others. */
 status output_try(const char *path, output_form form, place *where, fault *f);
-/* Deletes the files of this process that were written beside their places and are not complete; a
- * signal handler may call it. */
+/* Deletes the files and folders of this process that were written beside their places and are not
+ * complete; a signal handler may call it. */
 void output_abandon(void);
+/* What `make` makes of a name beside `path` that nobody can guess (-1 and errno: nothing). It is
+ * not complete until it is forgotten. */
+int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX]);
+void output_forget(const char *temporary);
+/* A file, or a folder with all that is in it. */
+void output_remove(const char *temporary);
 /* "results.partial.h5" of "results.h5": of a run that was interrupted. A stream keeps its name. */
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 

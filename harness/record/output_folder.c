@@ -2,13 +2,12 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <ftw.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LEAF = 100, DESCRIPTORS = 8 };
+#include "harness/record/output.h"
 
 static status fail(const output_folder *out, int why, fault *f)
 {
@@ -33,14 +32,15 @@ static status find(const char *path, output_folder *out, fault *f)
     return place_find(plain, &out->to, f);
 }
 
-/* A folder of a name that nobody has; there may be an empty one in its place. */
+static int make_folder(const char *name)
+{
+    return mkdir(name, S_IRWXU);
+}
+
+/* There may be an empty one in its place. */
 static status create(output_folder *out, fault *f)
 {
-    const char *path = out->to.path, *leaf = place_leaf(path);
-    if (snprintf(out->temporary, sizeof out->temporary, "%.*s%.*s.part-XXXXXX", (int)(leaf - path),
-                 path, LEAF, leaf) >= (int)sizeof out->temporary)
-        return fail(out, ENAMETOOLONG, f);
-    if (mkdtemp(out->temporary) == NULL) {
+    if (output_beside(out->to.path, make_folder, out->temporary) < 0) {
         out->temporary[0] = '\0';
         return fail(out, errno, f);
     }
@@ -79,7 +79,8 @@ status output_folder_try(const char *path, place *where, fault *f)
 {
     output_folder out;
     TRY(output_folder_open(path, &out, f));
-    rmdir(out.temporary);
+    output_remove(out.temporary);
+    output_forget(out.temporary);
     *where = out.to;
     return STATUS_OK;
 }
@@ -116,14 +117,6 @@ status output_folder_file(const output_folder *out, const char *name,
     return stored && closed ? STATUS_OK : fail(out, why, f);
 }
 
-static int take_away(const char *path, const struct stat *what, int kind, struct FTW *at)
-{
-    (void)what;
-    (void)kind;
-    (void)at;
-    return remove(path);
-}
-
 status output_folder_finish(output_folder *out, status written, fault *f)
 {
     status outcome = written;
@@ -132,7 +125,8 @@ status output_folder_finish(output_folder *out, status written, fault *f)
     if (outcome == STATUS_OK && rename(out->temporary, out->to.path) != 0)
         outcome = fail(out, errno, f);
     if (outcome != STATUS_OK)
-        nftw(out->temporary, take_away, DESCRIPTORS, FTW_DEPTH | FTW_PHYS);
+        output_remove(out->temporary);
+    output_forget(out->temporary);
     out->temporary[0] = '\0';
     return outcome;
 }

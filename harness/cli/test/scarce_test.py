@@ -23,6 +23,7 @@ WORK = {
     "verify": ("verify", "-k", "elastica/default", "-f", "beamw", "-j", "2", "-o", "out.h5", "--json", "out.json"),
     "converge": ("converge", *OWN, "-o", "out.txt"),
     "solve": ("solve", *OWN, "--format", "json", "-o", "out.json"),
+    "matrices": ("solve", *OWN, "-n", "2", "--matrices", "out"),
     "sweep": ("sweep", *OWN, "--vary", "thickness=1e-3,1e-2", "-j", "1", "-o", "out.h5"),
     "stress": ("stress", "-f", "beamw", "-k", "thin_sheet", "-j", "1", "-o", "out.txt"),
 }
@@ -58,7 +59,8 @@ class Scarce(ProgramTest):
             except subprocess.TimeoutExpired:
                 process.kill()
                 self.fail(f"{words} with {scarce}: no end after {LIMIT} s")
-        return process.returncode, TIMES.sub("#", out), errors, sorted(p.name for p in self.folder.iterdir())
+        return (process.returncode, TIMES.sub("#", out), errors,
+                sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*")))
 
     def test_every_verb(self):
         for verb, words in WORK.items():

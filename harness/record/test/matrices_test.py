@@ -2,13 +2,17 @@
 import csv
 import os
 import resource
+import shutil
+import signal
+import subprocess
+import time
 import unittest
 
 import numpy
 import scipy.io
 import scipy.linalg
 
-from harness.test.program import ProgramTest, run
+from harness.test.program import PROGRAM, ProgramTest, run
 
 FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "sheet_second",
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",
@@ -297,6 +301,24 @@ class Places(Matrices):
         self.assertTrue(link.is_symlink())
         self.assertTrue((there / "undeformed/M.mtx").exists())
         self.assertEqual(sorted(os.listdir(self.folder)), ["link", "there"])
+
+    def test_signals(self):
+        """Who is asked to end while files are written leaves nothing."""
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
+            ended = 0
+            for _ in range(20):
+                words = [*self.WORK[:4], "-n", "1500", "--matrices", "new"]
+                with subprocess.Popen([PROGRAM, *words], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL) as process:
+                    while process.poll() is None and not list(self.folder.glob("new.part-*/dofs.csv")):
+                        time.sleep(0.0005)
+                    process.send_signal(number)
+                if process.returncode == -number:
+                    ended += 1
+                    self.assertEqual(os.listdir(self.folder), [])
+                    break
+                shutil.rmtree(self.folder / "new")
+            self.assertEqual(ended, 1)
 
     def test_full_disk(self):
         """Complete or not at all."""

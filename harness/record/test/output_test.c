@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "harness/record/output.h"
+#include "harness/record/output_folder.h"
 #include "harness/record/record.h"
 #include "harness/record/test/folder.h"
 
@@ -81,6 +82,11 @@ static void write_failures(void)
     rmdir(folder);
 }
 
+static void write_word(FILE *to, const void *word)
+{
+    fputs(word, to);
+}
+
 /* Of this process all that is not complete goes; what is complete stays. */
 static void abandoned(void)
 {
@@ -92,8 +98,21 @@ static void abandoned(void)
     gsl_test(folder_write_text(done.text, "whole", &f) != STATUS_OK, "a file %s", f.text);
     gsl_test(output_open(half.text, &o, &f) != STATUS_OK, "opened %s", f.text);
     gsl_test_int(folder_entries(of.path), 2, "one complete, one not");
+    output_folder folder;
+    const folder_entry matrices = folder_path(&of, "matrices");
+    gsl_test(output_folder_open(matrices.text, &folder, &f) != STATUS_OK ||
+                 output_folder_below(&folder, "state", &f) != STATUS_OK,
+             "a folder %s", f.text);
+    for (int i = 0; i < 500; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s%d", i % 2 ? "state/" : "", i);
+        gsl_test(output_folder_file(&folder, name, write_word, "half", &f) != STATUS_OK, "%s %s",
+                 name, f.text);
+    }
+    gsl_test_int(folder_entries(of.path), 3, "one complete, two not");
     output_abandon();
     gsl_test_int(folder_entries(of.path), 1, "the complete one");
+    gsl_test(output_folder_finish(&folder, STATUS_OK, &f) != STATUS_FAULT, "it is gone, too");
     gsl_test(output_close(&o, &f) != STATUS_FAULT, "it is gone");
     gsl_test(output_open(hdf5.text, &o, &f) != STATUS_REFUSED, "no text into %s", hdf5.text);
     folder_remove(&of);
