@@ -4,7 +4,7 @@ import functools
 import math
 
 from reports import answers, beside, case_truth, plots, question_figures, scene_drawing
-from reports.site import LEVELS
+from reports.site import LEVELS, ROOT
 from reports.verdicts import UNJUDGED
 
 NAVIGATION = []
@@ -173,6 +173,8 @@ def write(site, case):
         "timed": site.bench is not None, "before": site.cases[at - 1] if at else None,
         "after": site.cases[at + 1] if at + 1 < len(site.cases) else None, "all_of": answers.ALL
     }
+    shared["stored"] = any((ROOT / "cases" / name).is_file()
+                           for name in (f"{case.name}.c", f"examples/{case.name}.yaml"))
     apart = own_pages(case)
     site.write("case.html", f"{case.name}.html", **shared, part=parts[0],
                further=[] if apart else parts[1:],

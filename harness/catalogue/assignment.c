@@ -6,6 +6,7 @@
 
 #include "harness/catalogue/choice.h"
 #include "harness/catalogue/number.h"
+#include "harness/process/words.h"
 
 enum { LONGEST = 128, MOST = 64 };
 
@@ -53,13 +54,21 @@ static const char *name_at(const void *context, int i)
     return p != NULL ? p->name : NULL;
 }
 
+void assignment_shown(const assignment_list *l, char out[ASSIGNMENT_SHOWN])
+{
+    const size_t used = (size_t)snprintf(out, ASSIGNMENT_SHOWN, "%.20s", l->option);
+    words_quoted(l->shown_by, out + used, ASSIGNMENT_SHOWN - used);
+}
+
 static status unknown(const assignment_list *l, const char *name, fault *f)
 {
+    char shown[ASSIGNMENT_SHOWN];
+    assignment_shown(l, shown);
     const char *near = choice_nearest(name, name_at, l);
     return fault_set(f, STATUS_REFUSED,
-                     "%s has no %s '%.60s'%s%s%s; 'beamwork list %s%.150s' shows them", l->owner,
+                     "%s has no %s '%.60s'%s%s%s; 'beamwork list %.170s' shows them", l->owner,
                      l->what, name, near != NULL ? ", did you mean '" : "",
-                     near != NULL ? near : "", near != NULL ? "'?" : "", l->option, l->shown_by);
+                     near != NULL ? near : "", near != NULL ? "'?" : "", shown);
 }
 
 status assignment_set(const assignment_list *l, const char *text, double value[], int any[],

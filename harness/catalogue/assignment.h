@@ -16,6 +16,10 @@ typedef struct assignment_list {
     char separator;       /* between assignments */
 } assignment_list;
 
+enum { ASSIGNMENT_SHOWN = 256 };
+/* What stands behind `beamwork list` to show them, as a shell reads it. */
+void assignment_shown(const assignment_list *, char out[ASSIGNMENT_SHOWN]);
+
 enum { ASSIGNMENT_VALUE = 64 };
 
 /* "NAME=VALUE" (value: a number in its range, or the name of a choice), returning the index in

@@ -64,3 +64,14 @@ void words_quote(FILE *to, const char *word)
             fputc(*word, to);
     fputc('\'', to);
 }
+
+void words_quoted(const char *word, char *out, size_t size)
+{
+    FILE *to = fmemopen(out, size, "w");
+    out[0] = '\0';
+    if (to == NULL)
+        return;
+    words_quote(to, word);
+    fclose(to);
+    out[size - 1] = '\0';
+}

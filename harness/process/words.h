@@ -14,5 +14,7 @@ status words_split(const char *command, char ***words, fault *f);
 
 /* A word as a shell reads it: as it is, or in quotes where it needs them. */
 void words_quote(FILE *to, const char *word);
+/* The same as a text, as far as there is room. */
+void words_quoted(const char *word, char *out, size_t size);
 
 #endif

@@ -171,14 +171,15 @@ status axis_read(const case_type *type, const char *text, axis *out, fault *f)
     const assignment_list list = parameters_list(type);
     double values[CASE_MAX_PARAMETERS] = {0};
     int any[CASE_MAX_PARAMETERS] = {0};
-    char name[TEXT];
+    char name[TEXT], shown[ASSIGNMENT_SHOWN];
     const size_t length = strcspn(text, "=");
+    assignment_shown(&list, shown);
     *out = (axis){.index = -1};
     if (length == 0 || length > 60 || text[length] == '\0' || text[length + 1] == '\0')
         return fault_set(f, STATUS_REFUSED,
                          "--vary '%.60s': write it as NAME=A..B/N or NAME=A,B,C; 'beamwork list "
-                         "%s%.150s' shows names",
-                         text, list.option, list.shown_by);
+                         "%.170s' shows names",
+                         text, shown);
     snprintf(name, sizeof name, "%.*s=*", (int)length, text);
     TRY(assignment_set(&list, name, values, any, &out->index, f));
     out->of = parameter_at(type->parameters, out->index);

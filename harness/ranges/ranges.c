@@ -28,10 +28,13 @@ static status add_axis(ranges *r, const char *text, fault *f)
 
 static status read_axes(ranges *r, fault *f)
 {
+    const assignment_list list = parameters_list(r->request.type);
+    char shown[ASSIGNMENT_SHOWN];
+    assignment_shown(&list, shown);
     if (r->request.varies == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "what varies? give --vary NAME=A..B/N; 'beamwork list %s' shows names",
-                         parameters_list(r->request.type).shown_by);
+                         "what varies? give --vary NAME=A..B/N; 'beamwork list %.170s' shows names",
+                         shown);
     for (int i = 0; i < r->request.varies; i++)
         TRY(add_axis(r, r->request.vary[i], f));
     const int axes = r->design.axes;

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/process/words.h"
 #include "harness/record/output.h"
 #include "harness/shards/forecast.h"
 #include "harness/shards/merge.h"
@@ -17,6 +18,7 @@ static int writes(const command_request *r)
 
 status spread_asked(const command_request *r, int *asked, fault *f)
 {
+    char folder[2 * FAULT_TEXT];
     int index, count;
     *asked = r->into != NULL || r->shard != NULL || r->from_count > 0 || r->plan > 0;
     if (r->plan > 0 && (r->shard != NULL || r->from_count > 0 || writes(r)))
@@ -31,12 +33,13 @@ status spread_asked(const command_request *r, int *asked, fault *f)
                          r->shard);
     if (r->partial && r->from_count == 0)
         return fault_set(f, STATUS_REFUSED, "--partial is of --from, and of 'beamwork merge'");
-    if (r->into != NULL && writes(r))
-        return fault_set(f, STATUS_REFUSED,
-                         "--into writes batches; results are written by 'beamwork merge %.100s -o "
-                         "FILE': leave other outputs away",
-                         r->into);
-    return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
+    if (r->into == NULL || !writes(r))
+        return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
+    words_quoted(r->into, folder, sizeof folder);
+    return fault_set(f, STATUS_REFUSED,
+                     "--into writes batches; results are written by 'beamwork merge %.100s -o "
+                     "FILE': leave other outputs away",
+                     folder);
 }
 
 /* What became of the shard, in one line. */

@@ -26,6 +26,7 @@ class SceneReport(ProgramTest):
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         page = (site / "mine.html").read_text(encoding="utf-8")
         self.assertNotIn("Source:", page)
+        self.assertNotIn("beamwork scene", page, "a command for scenes that the program knows by name")
         self.assertTrue((site / "picture_mine.svg").is_file())
         # P L^3/3EI + P L/(k G A)
         tip = 0.1 ** 3 / (3 * 210e9 * 50e-3 * 0.5e-3 ** 3 / 12)

@@ -50,6 +50,21 @@ class Printed(ProgramTest):
             done = self.answered("sweep", *of, "--element", self.element, "-f", "timoshenko", "-n", "2")
             self.run_all(done.stdout, 1, self.element)
 
+    def test_what_is_shown_by(self):
+        """Hints with the name of a file, to be copied from between their quotes."""
+        for words in (("solve", "--scene", self.scene, "--set", "foo=1"), ("sweep", "--scene", self.scene),
+                      ("sweep", "--scene", self.scene, "--vary", "foo")):
+            hint = re.search(r"'(beamwork list .*)' shows", self.refused_line(*words))
+            self.run_all(hint[1], 1, self.scene)
+        hint = re.search(r"'(beamwork merge .*) -o FILE'", self.refused_line(
+            "verify", "-k", "=elastica and =default and =beamw", "--into", "a folder", "-o", "r.h5"))
+        self.assertEqual(shlex.split(hint[1]), ["beamwork", "merge", "a folder"])
+
+    def refused_line(self, *words):
+        done = run(*words)
+        self.assertEqual(done.returncode, 2, done)
+        return done.stderr
+
     def test_explain(self):
         for word in ("elastica", "beamw"):
             out = self.answered("explain", word).stdout
