@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -144,7 +145,7 @@ static int open_stream(const place *to)
 static int is_hdf5(const char *path)
 {
     const char *dot = strrchr(place_leaf(path), '.');
-    return dot != NULL && (strcmp(dot, ".h5") == 0 || strcmp(dot, ".hdf5") == 0);
+    return dot != NULL && (strcasecmp(dot, ".h5") == 0 || strcasecmp(dot, ".hdf5") == 0);
 }
 
 static status check_form(const char *path, const place *to, output_form form, fault *f)

@@ -13,7 +13,7 @@ import unittest
 import h5py
 
 from harness.cli.test.work import TEXT, WHOLE, WORK
-from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, run
+from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, read_json, run
 
 
 def shape(text):
@@ -54,7 +54,8 @@ class Places(Folder):
         """A file called .h5 is HDF5, or nothing is written."""
         for verb, options in TEXT.items():
             for option in options:
-                self.refused(2, "writes text there, not HDF5", verb, *WORK[verb], option, self.folder / "a.h5")
+                for name in ("a.h5", "a.HDF5"):
+                    self.refused(2, "writes text there, not HDF5", verb, *WORK[verb], option, self.folder / name)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_closed_standard_output(self):
@@ -67,6 +68,11 @@ class Places(Folder):
             self.assertEqual((done.returncode, done.stderr), (4, "beamwork: standard output cannot be written\n"))
             with h5py.File(path) as file:
                 self.assertTrue(list(file))
+        path = self.folder / "s.json"
+        done = subprocess.run(f"{shlex.join([PROGRAM, 'stress', *WORK['stress'], '--json', str(path)])} >&-", shell=True,
+                              check=False, stderr=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, 4)
+        self.assertTrue(read_json(path)["outcomes"])
 
     def test_signals(self):
         """Who is asked to end leaves no unfinished file."""
