@@ -50,17 +50,23 @@ static double difference(const answer *a, const answer *b, const char **whose)
     return worst;
 }
 
-/* Few stations, where a case lets one choose; steps of a motion that do not follow an error, which
- * is relative to the size of its members. */
-static const char *short_path(const case_type *type)
+/* NULL: the case has none of that name. */
+static const parameter_type *parameter_of(const case_type *type, const char *name)
 {
-    for (int i = 0; i < parameter_count(type->parameters); i++)
-        if (strcmp(parameter_at(type->parameters, i)->name, "tolerance") == 0)
-            return "tolerance=0";
-    for (int i = 0; i < parameter_count(type->parameters); i++)
-        if (strcmp(parameter_at(type->parameters, i)->name, "steps") == 0)
-            return parameter_at(type->parameters, i)->max >= 3 ? "steps=3" : "";
-    return "";
+    const int i = parameter_index(type->parameters, name);
+    return i < 0 ? NULL : parameter_at(type->parameters, i);
+}
+
+/* Few stations, where a case lets one choose; few steps of a motion, which do not follow an error,
+ * as that is relative to the size of its members. */
+static void short_path(const case_type *type, int size, char words[])
+{
+    const parameter_type *step = parameter_of(type, "step"), *steps = parameter_of(type, "steps");
+    words[0] = '\0';
+    if (step != NULL && parameter_of(type, "tolerance") != NULL)
+        snprintf(words, (size_t)size, "tolerance=0;step=%.17g", 4 * step->value);
+    else if (steps != NULL && steps->max >= 3)
+        snprintf(words, (size_t)size, "steps=3");
 }
 
 /* One formulation on one case. */
@@ -73,7 +79,9 @@ typedef struct subject {
 
 static void ask_about(const subject *s, int n, int keep_all, scene_edit edit, answer *out)
 {
-    ask(&(question){s->type, short_path(s->type), s->formulation, n, keep_all, edit}, out);
+    char path[SCENE_NAME];
+    short_path(s->type, sizeof path, path);
+    ask(&(question){s->type, path, s->formulation, n, keep_all, edit}, out);
 }
 
 static int found(const subject *s, int n, int keep_all, scene_edit edit, answer *out)
@@ -83,14 +91,13 @@ static int found(const subject *s, int n, int keep_all, scene_edit edit, answer 
 }
 
 /* Two elements cannot follow every path (a circle): the coarsest mesh that does, as the next one
- * does, and its answer.  0: none of them answers. */
-static int found_coarsest(subject *s, answer *out)
+ * does, and their answers.  0: none of them answers. */
+static int found_coarsest(subject *s, answer *out, answer *next)
 {
-    static answer next;
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
         ask_about(s, s->coarse, 0, unchanged, out);
-        ask_about(s, 2 * s->coarse, 0, unchanged, &next);
-        if (out->outcome != ASK_FAILED && next.outcome != ASK_FAILED)
+        ask_about(s, 2 * s->coarse, 0, unchanged, next);
+        if (out->outcome != ASK_FAILED && next->outcome != ASK_FAILED)
             break;
     }
     return ask_count(s->tally, out, "%s, n = 2 to 32", s->type->name);
@@ -109,17 +116,18 @@ static void same(const subject *s, const char *what, const answer *before, int n
 }
 
 /* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a
- * cubic: a better mesh, and the same continuum. */
-static void keep_all(const subject *s)
+ * cubic: a better mesh, and the same continuum.  Of twice the coarsest one there is an answer. */
+static void keep_all(const subject *s, const answer *fine)
 {
-    static answer lean, full;
+    static answer finer, full;
+    const answer *const lean[2] = {fine, &finer};
     double apart[2] = {0, 0};
     const char *whose = "";
     for (int k = 0; k < 2; k++) {
         const int n = s->coarse * (k == 0 ? 2 : 8);
-        if (!found(s, n, 0, unchanged, &lean) || !found(s, n, 1, unchanged, &full))
+        if ((k == 1 && !found(s, n, 0, unchanged, &finer)) || !found(s, n, 1, unchanged, &full))
             return;
-        apart[k] = difference(&lean, &full, &whose);
+        apart[k] = difference(lean[k], &full, &whose);
         if (apart[k] <= 1e-8)
             break;
     }
@@ -133,16 +141,18 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
 {
     static answer coarse, fine;
     subject s = {type, e, tally, 0};
-    if (!found_coarsest(&s, &coarse))
+    if (!found_coarsest(&s, &coarse, &fine))
         return;
-    keep_all(&s);
+    const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
+    if (both)
+        keep_all(&s, &fine);
     /* Others depend on it by a discretisation error, which the sweep of extremes shows. */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});
     same(&s, "another unit of length changes nothing", &coarse, s.coarse,
          (scene_edit){SCENE_EDIT_UNIT, 1000});
-    if (coarse.members == 1 && found(&s, 2 * s.coarse, 0, unchanged, &fine))
+    if (coarse.members == 1 && both)
         same(&s, "two members of two elements are one of four", &fine, s.coarse,
              (scene_edit){SCENE_EDIT_SPLIT, 0.5});
 }
