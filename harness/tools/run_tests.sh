@@ -5,6 +5,8 @@
 set -u
 # One that hangs ends here [s]: far beyond what the longest takes on a slow machine with sanitizers.
 limit=1200
+# Programs share the processors: threads of OpenBLAS would wait for each other.
+export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 
 # Of unittest's output: a test's line is its name, or its name and then its docstring.
 verdicts() {
