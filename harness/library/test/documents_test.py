@@ -9,7 +9,7 @@ from harness.test.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# Of twelve joints in motion a part: all of it takes as long as all other cases.
+# A part of the motion of twelve joints: all of it takes as long as many other cases together.
 PART = {"hexapod_motion": "time=0.05"}
 CLOCKS = re.compile(r'"(seconds_\w+|clock)": ("[^"]*"|[^,\n]+)')
 

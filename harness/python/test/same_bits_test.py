@@ -8,7 +8,7 @@ from harness.python.test.module import ROOT, ModuleTest, bw
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 
 
-# Of twelve joints in motion a part: all of it takes as long as all other cases.
+# A part of the motion of twelve joints: all of it takes as long as many other cases together.
 PART = {"hexapod_motion": {"time": 0.05}}
 
 
