@@ -4,7 +4,7 @@
 #define BEAMWORK_RESULTS_HASH_H
 
 #include "elements/shared/status.h"
-#include "harness/shards/digest.h"
+#include "harness/record/digest.h"
 
 typedef struct results_hash {
     char text[DIGEST_TEXT]; /* SHA-256 */

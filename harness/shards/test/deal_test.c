@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/record/digest.h"
 #include "harness/shards/deal.h"
-#include "harness/shards/digest.h"
 
 /* The examples of FIPS 180-4. */
 static void known_digests(void)

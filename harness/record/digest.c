@@ -1,4 +1,4 @@
-#include "harness/shards/digest.h"
+#include "harness/record/digest.h"
 
 #include <math.h>
 #include <stdio.h>
