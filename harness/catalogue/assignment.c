@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
-#include "harness/catalogue/number.h"
+#include "elements/shared/choice.h"
+#include "elements/shared/number.h"
 #include "harness/process/words.h"
 
 enum { LONGEST = 128, MOST = 64 };

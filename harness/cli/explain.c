@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/scene/inputs.h"
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 #include "harness/scene_writer/meaning.h"

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/command/errors.h"
 #include "harness/ranges/ranges_collect.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/catalogue/environment.h"
 #include "harness/cli/cli.h"
 #include "harness/command/help.h"

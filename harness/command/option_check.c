@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/command/option_table.h"
 
 static const char *chosen_name(const void *context, int i)

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/catalogue/number.h"
+#include "elements/shared/number.h"
 #include "harness/comparison/comparison_lines.h"
 #include "harness/study/sweep.h"
 

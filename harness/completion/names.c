@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/catalogue/formulation.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/catalogue/registry.h"

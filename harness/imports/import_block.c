@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/shared/choice.h"
 #include "harness/catalogue/case_find.h"
-#include "harness/catalogue/choice.h"
 #include "harness/imports/conversion.h"
 #include "harness/imports/import_cells.h"
 #include "harness/study/plan.h"

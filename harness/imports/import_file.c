@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/line.h"
 
 typedef enum column {

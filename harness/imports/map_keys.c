@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/line.h"
 
 static const char *name_at(const void *context, int i)

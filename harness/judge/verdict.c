@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/model/features.h"
 #include "harness/truth/truth.h"
 #include "harness/truth/truth_index.h"

@@ -6,7 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/expression.h"
 
 const char *const placement_list[PLACEMENT_LISTS] = {"nodes", "members", "springs", "loads"};

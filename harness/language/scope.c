@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/functions.h"
 
 static const scope *add(const scope *names, const char *name, double number, const char *word,

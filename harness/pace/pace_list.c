@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/number.h"
+#include "elements/shared/number.h"
 
 pace_list pace_list_divided(double first, double ratio, int count)
 {

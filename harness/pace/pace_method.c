@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/number.h"
+#include "elements/shared/number.h"
 
 const char pace_method_all[] = "alpha,alpha:rho=0.5,hht,trapezoidal,conserving,radau";
 

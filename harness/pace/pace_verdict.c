@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/number.h"
+#include "elements/shared/number.h"
 #include "harness/pace/pace_order.h"
 
 /* Of a decimal logarithm: the same, but for a factor of two. */

@@ -1,8 +1,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/shared/number.h"
 #include "harness/catalogue/case_find.h"
-#include "harness/catalogue/number.h"
 #include "harness/pace/pace_plan.h"
 #include "harness/pace/pace_verdict.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/catalogue/formulation.h"
 #include "harness/language/line.h"
 #include "harness/project/own_names.h"

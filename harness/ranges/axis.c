@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/number.h"
+#include "elements/shared/number.h"
 #include "harness/catalogue/parameters.h"
 
 enum { TEXT = 128 };

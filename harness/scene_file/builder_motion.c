@@ -1,7 +1,7 @@
 /* Motions in time, and what other analyses are about. */
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/scene_file/builder.h"
 
 int builder_about(const fields *f, int index)

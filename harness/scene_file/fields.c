@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/expression.h"
 #include "harness/language/range.h"
 #include "harness/language/substitute.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/range.h"
 
 static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/language/expression.h"
 #include "harness/language/units.h"
 #include "harness/scene_file/scene_file_impl.h"

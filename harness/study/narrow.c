@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/study/plan.h"
 

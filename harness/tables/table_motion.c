@@ -4,7 +4,7 @@
 
 #include "cases/scene/along_path.h"
 #include "cases/scene/names.h"
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/motion/account.h"
 #include "harness/tables/paragraph.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/feature.h"
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/catalogue/parameters.h"
 #include "harness/catalogue/registry.h"
 #include "harness/model/model.h"

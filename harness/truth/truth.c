@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/truth/truth.h"
 #include "harness/truth/truth_index.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/truth/truth.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */

@@ -3,7 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 #include "harness/comparison/comparison.h"
 #include "harness/extremes/outcome.h"
 #include "harness/judge/verdict.h"

@@ -1,4 +1,4 @@
-#include "harness/catalogue/choice.h"
+#include "elements/shared/choice.h"
 
 #include <stdio.h>
 #include <string.h>

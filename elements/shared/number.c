@@ -1,4 +1,4 @@
-#include "harness/catalogue/number.h"
+#include "elements/shared/number.h"
 
 #include <errno.h>
 #include <math.h>
