@@ -129,7 +129,7 @@ static status keep_state(const analysis_context *c, int analysis, int station,
     out->turns = scene_rotates(&c->scene->analysis[analysis]);
     context_set_frame(c, analysis);
     kinematics_state_copy(c->model, state, w->state);
-    if (c->options->newton == SOLVE_DISPLACEMENT)
+    if (c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(c->model, w->state, f));
     TRY(linearise_state(c->model, w->state, &lin, f));
     return keep(c, w->state, path, w, out, f);

@@ -45,7 +45,7 @@ status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *
     *out = NULL;
     for (int i = 0; i < s->analyses; i++)
         count += follows(n->c, i, path);
-    if (count == 0 || n->c->options->newton == SOLVE_DENSE || scene_rotates(&s->analysis[path]))
+    if (count == 0 || n->c->options->newton == NEWTON_DENSE || scene_rotates(&s->analysis[path]))
         return STATUS_OK;
     compliance_walk *w = calloc(1, sizeof *w + (size_t)count * sizeof w->of[0]);
     if (w == NULL)

@@ -26,7 +26,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
     p->keeps_states = continuation_extract_keeps_states(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++)
         p->asks_critical |= scene_asks(&c->scene->quantity[i], analysis, SCENE_CRITICAL_POINT);
-    if (c->options->newton == SOLVE_DENSE)
+    if (c->options->newton == NEWTON_DENSE)
         return fault_set(
             f, STATUS_REFUSED,
             "continuation needs a factored tangent; give newton=mixed or newton=displacement");

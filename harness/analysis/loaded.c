@@ -58,7 +58,7 @@ static status start(analysis_context *c, int analysis, const char *what, newton 
     const model_state *state = NULL;
     step_record unused = {0};
     TRY(newton_alloc(c, 0, n, f));
-    if (c->options->newton == SOLVE_DENSE)
+    if (c->options->newton == NEWTON_DENSE)
         return fault_set(f, STATUS_REFUSED,
                          "%s about a loaded state need the condensed tangent, which newton=dense "
                          "does not make: give newton=mixed",

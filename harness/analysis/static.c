@@ -125,7 +125,7 @@ static status walk(newton *n, int analysis, flutter_judge *judge, compliance_wal
         const double from = i > 0 ? a->path.value[i - 1] : 0;
         increment = fmax(increment, (a->path.value[i] - from) / steps);
         TRY(walk_to(n, a->path.value[i], judge, &increment, f));
-        if (c->options->newton != SOLVE_DENSE && n->condensed == NULL)
+        if (c->options->newton != NEWTON_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);
         TRY(compliance_walk_take(on_the_way, n, i, f));
         TRY(outcome_keep(o, c->model, n->state, extract_path_whole(c, analysis, i),

@@ -7,7 +7,7 @@
 #include "harness/catalogue/formulations.h"
 
 const parameter_type formulation_common[] = {
-    {"newton", "", SOLVE_MIXED, 0, 0, "mixed|displacement|dense",
+    {"newton", "", NEWTON_MIXED, 0, 0, "mixed|displacement|dense",
      "Newton's iteration: coordinates, strains and stresses at once, condensed element by element; "
      "displacements only; or uncondensed with Gaussian elimination"},
     {0},
@@ -27,9 +27,9 @@ assignment_list formulation_options(const element_type *type)
     return list;
 }
 
-solve_newton formulation_newton(const formulation *chosen)
+newton_form formulation_newton(const formulation *chosen)
 {
-    return (solve_newton)chosen->option[parameter_count(chosen->type->options)];
+    return (newton_form)chosen->option[parameter_count(chosen->type->options)];
 }
 
 static const char *formulation_name(const void *context, int i)

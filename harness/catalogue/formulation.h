@@ -3,10 +3,19 @@
 #define BEAMWORK_FORMULATION_H
 
 #include "cases/case.h"
-#include "harness/analysis/solve.h"
+#include "elements/element.h"
 #include "harness/catalogue/assignment.h"
 
 enum { FORMULATION_KEY = 128, FORMULATION_OPTIONS = ELEMENT_MAX_OPTIONS + 1 };
+
+/* The mixed Newton condensed element by element; for comparison, in displacements only, and
+ * uncondensed with dense elimination. */
+typedef enum newton_form {
+    NEWTON_MIXED,
+    NEWTON_DISPLACEMENT,
+    NEWTON_DENSE,
+    NEWTON_FORMS
+} newton_form;
 
 typedef struct formulation {
     const element_type *type;
@@ -19,7 +28,7 @@ typedef struct formulation {
 extern const parameter_type formulation_common[];
 /* The options of a type and those that every formulation takes. */
 assignment_list formulation_options(const element_type *);
-solve_newton formulation_newton(const formulation *);
+newton_form formulation_newton(const formulation *);
 status formulation_parse(const char *text, formulation *out, fault *f);
 /* The type that "name" or "name:key=value,..." means, or NULL. */
 const element_type *formulation_find(const char *key);

@@ -15,6 +15,7 @@
 #include "harness/command/option_table.h"
 #include "harness/request/meshes.h"
 #include "harness/shards/shard.h"
+#include "harness/solver/shapes.h"
 
 static int whole_number(const char *text, const char *what, long least, long most)
 {

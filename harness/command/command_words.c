@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/solver/shapes.h"
+
 static void add(json_t *to, const char *option, const char *value)
 {
     if (value == NULL)

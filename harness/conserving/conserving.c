@@ -193,7 +193,7 @@ static status allocate(conserving *s, fault *f)
                       (size_t)(3 * SPRING_STRAINS * m->springs) +
                       (size_t)(9 * s->of.masses->masses) + elastic,
                   sizeof *s->W);
-    if (s->of.c->options->newton != SOLVE_DISPLACEMENT)
+    if (s->of.c->options->newton != NEWTON_DISPLACEMENT)
         TRY(complement_alloc(m, &s->complement, f));
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
     if (s->step == NULL || s->W == NULL || s->evaluation == NULL)

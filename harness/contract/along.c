@@ -9,6 +9,7 @@
 #include "elements/math/quadrature.h"
 #include "harness/adapters/chart.h"
 #include "harness/adapters/stencil.h"
+#include "harness/analysis/solve.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
 #include "harness/model/model.h"

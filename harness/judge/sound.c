@@ -40,12 +40,12 @@ static int unfinished_step(const solve_result *r, double promised)
 
 /* Nothing but Newton's iterations, none of them in vain: then each is one evaluation of every
  * element and one factorisation. */
-static int is_plain(const cell_result *cell, const scene *s, solve_newton newton)
+static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
     for (int i = 0; i < s->analyses; i++)
         if (scene_reads(s, i) && s->analysis[i].kind != SCENE_STATIC)
             return 0;
-    return newton == SOLVE_MIXED && cell->counters.rejected_steps == 0;
+    return newton == NEWTON_MIXED && cell->counters.rejected_steps == 0;
 }
 
 /* A continuation begins each step with the tangent that the one before it ended with. */
@@ -84,7 +84,7 @@ static const char *wrong_count(const cell_result *cell, long reused, long stale,
     return c->solutions < c->iterations ? "solutions" : NULL;
 }
 
-int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, char why[FAULT_TEXT])
+int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char why[FAULT_TEXT])
 {
     const solve_result *r = &cell->solve;
     const counters *c = &cell->counters;

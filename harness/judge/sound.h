@@ -8,6 +8,6 @@
 /* 1: the counters, the steps and the corrections of a cell agree with each other and with what
  * every solution promises. 0: `why` says what does not. newton: how it was solved. A cell
  * without a solution is not asked. */
-int sound_cell(const cell_result *cell, const scene *s, solve_newton newton, char why[FAULT_TEXT]);
+int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char why[FAULT_TEXT]);
 
 #endif

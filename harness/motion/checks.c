@@ -7,12 +7,12 @@
 
 static status check_newton(const analysis_context *c, const scene_motion *how, fault *f)
 {
-    const solve_newton newton = c->options->newton;
-    if (newton == SOLVE_DENSE)
+    const newton_form newton = c->options->newton;
+    if (newton == NEWTON_DENSE)
         return fault_set(f, STATUS_REFUSED,
                          "motions in time need a factored tangent, which newton=dense does not "
                          "make; give newton=mixed");
-    if (newton == SOLVE_DISPLACEMENT && how->scheme == SCENE_CONSERVING)
+    if (newton == NEWTON_DISPLACEMENT && how->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
                          "the integrator conserving needs strains as unknowns; give newton=mixed");
     return STATUS_OK;

@@ -35,7 +35,7 @@ static status forces(stage *s, instant *now, sparse *K, fault *f)
 {
     model *m = s->c->model;
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
-    if (s->c->options->newton == SOLVE_DISPLACEMENT)
+    if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(m, now->state, f));
     TRY(linearise_state(m, now->state, &lin, f));
     inertia_subtract(m, s->masses, now->state, now->v, now->a, s->residual);

@@ -156,7 +156,7 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     one->rate = one->inc + all;
     one->v = one->rate + all;
     one->a = one->v + all;
-    if (r->of.c->options->newton != SOLVE_DISPLACEMENT)
+    if (r->of.c->options->newton != NEWTON_DISPLACEMENT)
         TRY(complement_alloc(m, &one->complement, f));
     return kinematics_state_alloc(m, &one->state, f);
 }

@@ -103,7 +103,7 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
                                    .K = fresh ? &r->K : NULL,
                                    .residual = r->dx};
         m->work = one->work;
-        if (r->of.c->options->newton == SOLVE_DISPLACEMENT)
+        if (r->of.c->options->newton == NEWTON_DISPLACEMENT)
             TRY(linearise_make_compatible(m, one->state, f));
         TRY(linearise_state(m, one->state, &lin, f));
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);

@@ -28,7 +28,7 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     s->dx = calloc(all, sizeof *s->dx);
     if (s->residual == NULL || s->dx == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
-    if (c->options->newton != SOLVE_DISPLACEMENT)
+    if (c->options->newton != NEWTON_DISPLACEMENT)
         TRY(complement_alloc(c->model, &s->complement, f));
     TRY(assemble_pattern_in_time(c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
@@ -79,7 +79,7 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
                                .K = fresh ? &s->S : NULL,
                                .residual = s->residual};
     const inertia_relation with = {r->b, r->g, r->inc};
-    if (s->c->options->newton == SOLVE_DISPLACEMENT)
+    if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(m, (model_state *)now, f));
     TRY(linearise_state(m, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);

@@ -27,7 +27,7 @@ enum { MAX_ITERATIONS = 30 };
 static status allocate_tangent(newton *n, int condense, fault *f)
 {
     const sparse *pattern;
-    if (condense && n->c->options->newton != SOLVE_DENSE)
+    if (condense && n->c->options->newton != NEWTON_DENSE)
         TRY(context_condensation(n->c, 0, NULL, &n->condensed, f));
     if (n->condensed != NULL)
         return condensation_as_factor(n->condensed, &n->factor, f);
@@ -214,7 +214,7 @@ static status direction(newton *n, double path, step_record *record, fault *f)
     n->energy = NAN;
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     loads_drive(m, n->state, path, n->dx);
-    if (n->c->options->newton == SOLVE_DISPLACEMENT) {
+    if (n->c->options->newton == NEWTON_DISPLACEMENT) {
         TRY(linearise_make_compatible(m, n->state, f));
     }
     model_condition condition[MODEL_MAX_CONDITIONS];
@@ -226,11 +226,11 @@ static status direction(newton *n, double path, step_record *record, fault *f)
                                .conditions = conditions,
                                .condition = condition,
                                .column = n->column};
-    TRY(n->c->options->newton == SOLVE_DENSE ? solve_dense(n, &lin, f)
-                                             : solve_condensed(n, &lin, f));
+    TRY(n->c->options->newton == NEWTON_DENSE ? solve_dense(n, &lin, f)
+                                              : solve_condensed(n, &lin, f));
     const factor_counts counts = factor_count(n->factor);
     count->factorisations +=
-        n->c->options->newton == SOLVE_DENSE ? 1 : counts.factorisations - n->counted;
+        n->c->options->newton == NEWTON_DENSE ? 1 : counts.factorisations - n->counted;
     n->counted = counts.factorisations;
     count->solutions++;
     count->factor_entries = counts.entries;

@@ -3,22 +3,14 @@
 #ifndef BEAMWORK_RESULT_H
 #define BEAMWORK_RESULT_H
 
+#include "harness/catalogue/formulation.h"
 #include "harness/model/model.h"
 #include "harness/solver/outcome.h"
 #include "harness/solver/shapes.h"
 #include "harness/solver/system_matrices.h"
 
-/* The mixed Newton condensed element by element; for comparison, in displacements only, and
- * uncondensed with dense elimination. */
-typedef enum solve_newton {
-    SOLVE_MIXED,
-    SOLVE_DISPLACEMENT,
-    SOLVE_DENSE,
-    SOLVE_NEWTONS
-} solve_newton;
-
 typedef struct solve_options {
-    solve_newton newton;
+    newton_form newton;
     double criterion;   /* relative size of the corrections; 0: default */
     int max_iterations; /* per step; 0: default */
     int steps_between;  /* overrides the scene's; 0: the scene's */

@@ -34,7 +34,7 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
 {
     const long iterations = cell->counters.iterations;
     cell_request dense = *own;
-    dense.solve.newton = SOLVE_DENSE;
+    dense.solve.newton = NEWTON_DENSE;
     if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
         return; /* a linear problem, or one too large */
     if (out->unknowns == 0 || out->iteration < longest)

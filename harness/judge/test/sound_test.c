@@ -58,7 +58,7 @@ static void make(scene_analysis_kind kind, bench *b)
 static void expect(const bench *b, int sound, const char *what)
 {
     char why[FAULT_TEXT] = "";
-    gsl_test_int(sound_cell(&b->cell, &b->s, SOLVE_MIXED, why), sound, "%s: %s", what, why);
+    gsl_test_int(sound_cell(&b->cell, &b->s, NEWTON_MIXED, why), sound, "%s: %s", what, why);
     gsl_test(!sound && why[0] == '\0', "%s: it says why", what);
 }
 
@@ -185,7 +185,7 @@ static void counted_equations(int count, const element_data *const data[], const
 /* A real cell: the counters are what the elements count. Strains that reactions are read from
  * are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
-                   const char *parameters, solve_newton newton, int reactions, int looks)
+                   const char *parameters, newton_form newton, int reactions, int looks)
 {
     cell_result cell;
     formulation chosen;
@@ -236,18 +236,19 @@ int main(void)
     for (size_t i = 0; i < sizeof kind / sizeof kind[0]; i++)
         counts(kind[i]);
     steps();
-    for (int newton = 0; newton < SOLVE_NEWTONS; newton++) {
+    for (int newton = 0; newton < NEWTON_FORMS; newton++) {
         actual("elastica", 3, "beamw_consistent", "", newton, 0, 0);
         actual("bend_45", 3, "geometrically_exact", "", newton, 0, 0);
         actual("sheet_cantilever", 3, "sheet_third", "", newton, 1, 0);
     }
-    actual("c_column", 3, "beamw_consistent", "", SOLVE_MIXED, 0, 0);
-    actual("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", SOLVE_MIXED, 0, 0);
-    actual("rotating_cantilever", 3, "geometrically_exact", "", SOLVE_MIXED, 1, 0);
-    actual("snap_through", 3, "collocation", "", SOLVE_MIXED, 0, 1);
-    actual("shear_elastica", 1, "beamw_consistent", "", SOLVE_MIXED, 0, 0);
-    actual("roll_up", 4, "sheet_third", "", SOLVE_MIXED, 0, 0);
-    actual("c_cantilever", 6, "beamw_vlasov", "w=1.0;step=0.15", SOLVE_MIXED, 0, 0);
-    actual("hexapod", 3, "sheet_third", "steps=3", SOLVE_MIXED, 1, 0);
+    actual("c_column", 3, "beamw_consistent", "", NEWTON_MIXED, 0, 0);
+    actual("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", NEWTON_MIXED, 0,
+           0);
+    actual("rotating_cantilever", 3, "geometrically_exact", "", NEWTON_MIXED, 1, 0);
+    actual("snap_through", 3, "collocation", "", NEWTON_MIXED, 0, 1);
+    actual("shear_elastica", 1, "beamw_consistent", "", NEWTON_MIXED, 0, 0);
+    actual("roll_up", 4, "sheet_third", "", NEWTON_MIXED, 0, 0);
+    actual("c_cantilever", 6, "beamw_vlasov", "w=1.0;step=0.15", NEWTON_MIXED, 0, 0);
+    actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
     return gsl_test_summary();
 }
