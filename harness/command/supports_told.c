@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/scene_writer/warping_ends.h"
+#include "harness/model/warping_ends.h"
 #include "harness/study/cell.h"
 
 enum { MOST_MEMBERS = 200, ELEMENTS = 2 };

@@ -6,8 +6,8 @@
 #include "elements/feature.h"
 #include "harness/division/division_words.h"
 #include "harness/model/features.h"
-#include "harness/scene_writer/on_nodes.h"
-#include "harness/scene_writer/warping_ends.h"
+#include "harness/model/on_nodes.h"
+#include "harness/model/warping_ends.h"
 #include "harness/schema/fields_keys.h"
 #include "harness/timing/price.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "harness/judge/change.h"
-#include "harness/scene_writer/on_nodes.h"
-#include "harness/scene_writer/warping_ends.h"
+#include "harness/model/on_nodes.h"
+#include "harness/model/warping_ends.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_curves.h"

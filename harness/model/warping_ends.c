@@ -1,4 +1,4 @@
-#include "harness/scene_writer/warping_ends.h"
+#include "harness/model/warping_ends.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Which ends of members hold their warping, in words. */
-#ifndef BEAMWORK_SCENE_WRITER_WARPING_ENDS_H
-#define BEAMWORK_SCENE_WRITER_WARPING_ENDS_H
+#ifndef BEAMWORK_WARPING_ENDS_H
+#define BEAMWORK_WARPING_ENDS_H
 
 #include <stddef.h>
 

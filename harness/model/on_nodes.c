@@ -1,4 +1,4 @@
-#include "harness/scene_writer/on_nodes.h"
+#include "harness/model/on_nodes.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* What of loads and mass along members is put on nodes by convention, in words. */
-#ifndef BEAMWORK_SCENE_WRITER_ON_NODES_H
-#define BEAMWORK_SCENE_WRITER_ON_NODES_H
+#ifndef BEAMWORK_ON_NODES_H
+#define BEAMWORK_ON_NODES_H
 
 #include <stddef.h>
 
