@@ -184,6 +184,8 @@ typedef enum scene_shear {
     SCENE_SHEAR_ENGESSER,
     SCENE_SHEAR_OWN /* of each formulation the one that it has */
 } scene_shear;
+/* Those that a truth depends on. */
+#define SCENE_SHEAR_THEORIES "engesser|haringx"
 
 struct scene {
     char name[SCENE_NAME];

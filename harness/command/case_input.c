@@ -11,6 +11,7 @@
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
 #include "harness/model/features.h"
+#include "harness/project/scene_truths.h"
 #include "harness/study/cell.h"
 #include "harness/truth/data_place.h"
 
@@ -192,7 +193,7 @@ static status add_truths(const command_request *r, truths *t, fault *f)
     if (r->scene != NULL)
         truths_read_rules(case_input_truths_path(r), t, NULL); /* a scene needs none */
     if (r->scene != NULL)
-        TRY(scene_file_truths_add(r->scene, r->parameter, t, f));
+        TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else
         TRY(truths_read_case(case_input_truths_path(r), type, t, f));
     return own_tables_truths(r, (const case_type *const[]){type, NULL}, type, t, f);

@@ -9,6 +9,7 @@
 #include "harness/catalogue/registry.h"
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
+#include "harness/project/scene_truths.h"
 
 static status add_path(const char *path, scenes *out, fault *f)
 {
@@ -129,7 +130,7 @@ static status add_truths(const scenes *s, const command_request *r, truths *t, f
     else
         TRY(truths_read_rules(case_input_truths_path(r), t, f));
     for (int i = 0; i < s->count; i++)
-        TRY(scene_file_truths_add_all(s->file[i], t, f));
+        TRY(scene_truths_add_all(s->file[i], t, f));
     TRY(own_tables_truths(r, s->type, NULL, t, f));
     return own_tables_findings(r, s->type, t, f);
 }

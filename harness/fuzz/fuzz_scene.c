@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "harness/fuzz/fuzz.h"
+#include "harness/project/scene_truths.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/scene_writer/write.h"
 
@@ -49,7 +50,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (outcome != STATUS_OK)
         return 0;
     truths t = {0};
-    scene_file_truths_add_all(file, &t, &f);
+    scene_truths_add_all(file, &t, &f);
     truths_free(&t);
     size_t one = 0, two = 0;
     char *text = written(file, &one), *same = NULL;

@@ -7,6 +7,7 @@
 #include "harness/library/options.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
+#include "harness/project/scene_truths.h"
 #include "harness/record/json_convergence.h"
 #include "harness/record/reach_line.h"
 #include "harness/request/meshes.h"
@@ -30,7 +31,7 @@ typedef struct study {
 static status read_truths(study *s, fault *f)
 {
     const scene_file *file = source_file(s->scene->from);
-    return file != NULL ? scene_file_truths_add(file, s->scene->parameter, &s->truths, f)
+    return file != NULL ? scene_truths_add(file, s->scene->parameter, &s->truths, f)
                         : known_read(source_case(s->scene->from), &s->truths, f);
 }
 

@@ -6,6 +6,7 @@
 #include "harness/library/call.h"
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"
+#include "harness/project/scene_truths.h"
 #include "harness/request/meshes.h"
 #include "harness/request/solution.h"
 
@@ -31,7 +32,7 @@ static status know(bw_result *r, const double parameter[], fault *f)
     const scene_file *file = source_file(r->from);
     if (file != NULL) {
         r->truths = &r->own;
-        return scene_file_truths_add(file, parameter, &r->own, f);
+        return scene_truths_add(file, parameter, &r->own, f);
     }
     source_known(r->from, &r->truths, NULL);
     return STATUS_OK;

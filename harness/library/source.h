@@ -4,6 +4,7 @@
 
 #include "harness/library/beamwork.h"
 #include "harness/scene_file/scene_file.h"
+#include "harness/truth/truths.h"
 
 typedef struct source source;
 

@@ -6,6 +6,7 @@
 #include "harness/library/options.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
+#include "harness/project/scene_truths.h"
 #include "harness/record/json.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
@@ -37,7 +38,7 @@ static status read_truths(trial *v, fault *f)
         return known_read_all(&v->truths, f);
     const scene_file *file = source_file(v->scene->from);
     TRY(known_read(file == NULL ? source_case(v->scene->from) : NULL, &v->truths, f));
-    return file != NULL ? scene_file_truths_add_all(file, &v->truths, f) : STATUS_OK;
+    return file != NULL ? scene_truths_add_all(file, &v->truths, f) : STATUS_OK;
 }
 
 static status read_former(trial *v, fault *f)

@@ -6,6 +6,7 @@
 
 #include "harness/catalogue/parameters.h"
 #include "harness/model/features.h"
+#include "harness/project/scene_truths.h"
 #include "harness/scene_writer/write.h"
 #include "harness/truth/derive.h"
 #include "harness/truth/truth.h"
@@ -31,7 +32,7 @@ static status find_stored(const ranges *r, const point *p, known *out, fault *f)
         return q->truths != NULL ? borrow(q->truths, p, out, f) : STATUS_OK;
     if (!scene_file_states(q->file, "truths"))
         return STATUS_OK;
-    if (scene_file_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
+    if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
     truths_free(&out->stored); /* expressions that have no value here */
     out->stored = (truths){0};

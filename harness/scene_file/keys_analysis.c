@@ -2,6 +2,7 @@
 #include <stddef.h>
 
 #include "cases/scene/quantity.h"
+#include "cases/scene/scene.h"
 #include "harness/scene_file/keys.h"
 
 #define COMPONENTS "ux|uy|uz|rx|ry|rz"
@@ -324,7 +325,7 @@ const scene_key keys_truth[] = {
     {"source", KEY_TEXT, .needed = 1, .summary = "who says so"},
     {"uncertainty", KEY_NUMBER, .summary = "of the value, same unit", .usual = "0"},
     {"formulation", KEY_TEXT, .summary = "of whom it speaks", .left_out = "of the continuum"},
-    {"theory", KEY_WORD, .words = "engesser|haringx", .summary = "of shear in stability",
+    {"theory", KEY_WORD, .words = SCENE_SHEAR_THEORIES, .summary = "of shear in stability",
      .left_out = "of any"},
     {"parameters", KEY_NAMES, .below = nothing, .summary = "NAME: VALUE", .left_out = "any values"},
     {"at", KEY_NUMBER, .summary = "point of a curve", .left_out = "of the one value"},

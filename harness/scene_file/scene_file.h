@@ -6,9 +6,17 @@
 
 #include "cases/case.h"
 #include "harness/language/mistakes.h"
-#include "harness/truth/truths.h"
 
 typedef struct scene_file scene_file;
+
+/* What a file says of a quantity at a point of its parameters. */
+typedef struct scene_truth {
+    const double *parameter;       /* [CASE_MAX_PARAMETERS] */
+    double value, uncertainty, at; /* at: an abscissa of a curve; NAN: it is a number */
+    const char *quantity, *unit, *kind, *formulation, *theory, *model, *convention, *source;
+} scene_truth;
+/* Takes one, whose texts and numbers last as long as the call. */
+typedef status scene_truth_taker(void *to, const scene_truth *, fault *);
 
 /* The file, with its defaults built once to see that they are a scene. Not OK: *out is NULL;
  * REFUSED with all mistakes in m (and the first in f), FAULT when it cannot be read. path must
@@ -34,9 +42,10 @@ int scene_file_states(const scene_file *, const char *key);
 /* The scene as earlier versions read it: ends that say nothing of their warping leave it free.
  * The caller frees it in any case. */
 status scene_file_build_before(const scene_file *, const double value[], scene *, fault *);
-/* Adds the file's truths that hold at a point of its parameters, and their values there. */
-status scene_file_truths_add(const scene_file *, const double value[], truths *t, fault *f);
-/* The same at the defaults and at every point that a truth names. */
-status scene_file_truths_add_all(const scene_file *, truths *t, fault *f);
+/* Gives the truths that hold at a point of the parameters, with their values there. */
+status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
+                         fault *f);
+/* The same at the defaults and at every point that a truth names: some come several times. */
+status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
 #endif

@@ -9,11 +9,10 @@
 #include "harness/scene_file/keys.h"
 #include "harness/scene_file/scene_file_impl.h"
 
-/* A truth at a point, before its texts are copied. */
+/* A truth at a point. */
 typedef struct file_truth {
     int holds; /* 1: at this point */
-    double value, uncertainty, at;
-    const char *quantity, *unit, *kind, *formulation, *theory, *model, *convention, *source;
+    scene_truth says;
 } file_truth;
 
 static const scene_quantity *quantity_of(const scene *s, const char *name)
@@ -69,19 +68,21 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     double point[CASE_MAX_PARAMETERS];
     mistakes *m = f->b->mistakes;
     memcpy(point, value, sizeof point);
-    file_truth t = {.holds = visit_point(file, f, point),
-                    .value = fields_number(f, "value", 0),
-                    .uncertainty = fields_number(f, "uncertainty", 0),
-                    .at = fields_number(f, "at", NAN),
-                    .quantity = fields_text(f, "quantity", ""),
-                    .kind = fields_text(f, "kind", ""),
-                    .formulation = fields_text(f, "formulation", ""),
-                    .theory = fields_text(f, "theory", ""),
-                    .model = fields_have(f, "model") ? "other" : "same",
-                    .convention = fields_text(f, "convention", ""),
-                    .source = fields_text(f, "source", "")};
+    const int holds = visit_point(file, f, point);
+    scene_truth t = {.parameter = value,
+                     .value = fields_number(f, "value", 0),
+                     .uncertainty = fields_number(f, "uncertainty", 0),
+                     .at = fields_number(f, "at", NAN),
+                     .quantity = fields_text(f, "quantity", ""),
+                     .unit = "",
+                     .kind = fields_text(f, "kind", ""),
+                     .formulation = fields_text(f, "formulation", ""),
+                     .theory = fields_text(f, "theory", ""),
+                     .model = fields_have(f, "model") ? "other" : "same",
+                     .convention = fields_text(f, "convention", ""),
+                     .source = fields_text(f, "source", "")};
     fields_word(f, "kind", kinds, 0);
-    fields_word(f, "theory", TRUTH_THEORIES, 0);
+    fields_word(f, "theory", SCENE_SHEAR_THEORIES, 0);
     fields_word(f, "model", "plate|solid", 0);
     if (!(t.uncertainty >= 0))
         document_mistake(m, document_find(f->map, "uncertainty"), 0,
@@ -94,7 +95,7 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
         fields_entry(f, "quantity", LIST_QUANTITIES);
     else
         t.unit = q->unit;
-    return t;
+    return (file_truth){holds, t};
 }
 
 /* What is needed to read truths of a point. */
@@ -135,57 +136,9 @@ void scene_file_truths_check(const scene_file *file, const scene *s, const doubl
     arena_free(&a);
 }
 
-static int same_point(const scene_file *file, const double a[], const double b[])
-{
-    for (int i = 0; i < file->parameters; i++)
-        if (a[i] != b[i])
-            return 0;
-    return 1;
-}
-
-static int is_known_row(const scene_file *file, const truths *t, const double value[],
-                        const file_truth *one)
-{
-    for (int i = 0; i < t->rows; i++)
-        if (t->row[i].type == &file->type && strcmp(t->row[i].quantity, one->quantity) == 0 &&
-            strcmp(t->row[i].kind, one->kind) == 0 &&
-            strcmp(t->row[i].formulation, one->formulation) == 0 &&
-            strcmp(t->row[i].theory, one->theory) == 0 &&
-            strcmp(t->row[i].model, one->model) == 0 &&
-            same_point(file, t->row[i].parameter, value) &&
-            (isnan(one->at) ? !t->row[i].on_curve : t->row[i].at == one->at))
-            return 1;
-    return 0;
-}
-
-static status add_row(const scene_file *file, const double value[], const file_truth *one,
-                      truths *t, fault *f)
-{
-    truth *more = realloc(t->row, (size_t)(t->rows + 1) * sizeof *more);
-    if (more == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for truths");
-    t->row = more;
-    truth *row = &more[t->rows++];
-    memset(row, 0, sizeof *row);
-    row->type = &file->type;
-    memcpy(row->parameter, value, sizeof row->parameter);
-    row->value = one->value;
-    row->uncertainty = one->uncertainty;
-    row->on_curve = !isnan(one->at);
-    row->at = one->at;
-    char **const to[] = {&row->formulation, &row->theory, &row->quantity,   &row->unit,
-                         &row->kind,        &row->model,  &row->convention, &row->source};
-    const char *const from[] = {one->formulation, one->theory, one->quantity,   one->unit,
-                                one->kind,        one->model,  one->convention, one->source};
-    for (size_t i = 0; i < sizeof to / sizeof to[0]; i++)
-        if ((*to[i] = strdup(from[i])) == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for truths");
-    return STATUS_OK;
-}
-
-/* With what scene_file_truths_add frees. */
-static status add_at(const scene_file *file, const double point[], scene *s, arena *a, truths *t,
-                     fault *f)
+/* With what scene_file_truths frees. */
+static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
+                      scene_truth_taker *take, void *to, fault *f)
 {
     mistakes m = {.file = file->path};
     TRY(file->type.build_from(file, point, s, f));
@@ -195,33 +148,35 @@ static status add_at(const scene_file *file, const double point[], scene *s, are
         const file_truth one = read_one(file, &those, s, point);
         m.out_of_memory |= a->failed;
         TRY(mistakes_status(&m, f));
-        if (one.holds && !is_known_row(file, t, point, &one))
-            TRY(add_row(file, point, &one, t, f));
+        if (one.holds)
+            TRY(take(to, &one.says, f));
     }
     m.out_of_memory |= a->failed;
     return mistakes_status(&m, f);
 }
 
-status scene_file_truths_add(const scene_file *file, const double value[], truths *t, fault *f)
+status scene_file_truths(const scene_file *file, const double value[], scene_truth_taker *take,
+                         void *to, fault *f)
 {
     arena a = {0};
     double point[CASE_MAX_PARAMETERS] = {0};
     scene s;
     memcpy(point, value, (size_t)file->parameters * sizeof *point);
     scene_init(&s, file->type.name);
-    const status outcome = add_at(file, point, &s, &a, t, f);
+    const status outcome = give_at(file, point, &s, &a, take, to, f);
     scene_free(&s);
     arena_free(&a);
     return outcome;
 }
 
 /* At the defaults, and at every other point that a truth speaks of. */
-static status add_everywhere(const scene_file *file, arena *a, truths *t, fault *f)
+static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
+                              fault *f)
 {
     mistakes m = {.file = file->path};
     double defaults[CASE_MAX_PARAMETERS] = {0};
     parameter_defaults(file->type.parameters, defaults);
-    TRY(scene_file_truths_add(file, defaults, t, f));
+    TRY(scene_file_truths(file, defaults, take, to, f));
     const truth_reader r = open_truths(file, defaults, a, &m);
     for (int i = 0; i < r.count; i++) {
         builder b = r.b;
@@ -229,16 +184,16 @@ static status add_everywhere(const scene_file *file, arena *a, truths *t, fault 
         double point[CASE_MAX_PARAMETERS];
         memcpy(point, defaults, sizeof point);
         if (!visit_point(file, &those, point))
-            TRY(scene_file_truths_add(file, point, t, f));
+            TRY(scene_file_truths(file, point, take, to, f));
     }
     m.out_of_memory |= a->failed;
     return mistakes_status(&m, f);
 }
 
-status scene_file_truths_add_all(const scene_file *file, truths *t, fault *f)
+status scene_file_truths_all(const scene_file *file, scene_truth_taker *take, void *to, fault *f)
 {
     arena a = {0};
-    const status outcome = add_everywhere(file, &a, t, f);
+    const status outcome = give_everywhere(file, &a, take, to, f);
     arena_free(&a);
     return outcome;
 }

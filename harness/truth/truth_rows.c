@@ -62,7 +62,7 @@ const char *truth_rows_wrong(const truth *row)
         return "elements";
     if (!is_known(row->model, "same|other"))
         return "model";
-    if (!is_known_or_empty(row->theory, TRUTH_THEORIES))
+    if (!is_known_or_empty(row->theory, SCENE_SHEAR_THEORIES))
         return "theory";
     return is_known_or_empty(row->convention, conventions) ? NULL : "convention";
 }

@@ -9,8 +9,6 @@
 #include "harness/truth/rules.h"
 
 enum { TRUTHS_VERSION = 3 };
-/* Of shear in stability; "": the truth depends on none. */
-#define TRUTH_THEORIES "engesser|haringx"
 
 typedef struct truth {
     const case_type *type;

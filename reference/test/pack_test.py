@@ -226,7 +226,8 @@ class Words(unittest.TestCase):
     def test_the_program_knows_the_same_words(self):
         text = "".join((ROOT / "harness" / "truth" / name).read_text(encoding="utf-8")
                        for name in ("truths.h", "truths.c", "truth.c", "truth_rows.c"))
-        for name, words in (("truth_kinds", pack.KINDS), ("TRUTH_THEORIES", pack.THEORIES[1:]),
+        text += (ROOT / "cases" / "scene" / "scene.h").read_text(encoding="utf-8")
+        for name, words in (("truth_kinds", pack.KINDS), ("SCENE_SHEAR_THEORIES", pack.THEORIES[1:]),
                             ("conventions", pack.CONVENTIONS[1:])):
             quoted = re.search(rf'\b{name}(?:\[\] =)?\s+((?:"[^"]*"\s*)+)', text)[1]
             self.assertEqual("".join(re.findall(r'"([^"]*)"', quoted)).split("|"), list(words),

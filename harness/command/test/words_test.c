@@ -48,7 +48,7 @@ int main(void)
     for (int i = 0; i <= AGAINST_SLOWER; i++)
         explained("comparison of times", against_name((against_outcome)i));
     all_of("kind of truth", truth_kinds);
-    all_of("theory of shear", TRUTH_THEORIES);
+    all_of("theory of shear", SCENE_SHEAR_THEORIES);
     all_of("moment convention", SCENE_MOMENTS_CHOICES);
     all_of("model", "same|other");
     all_of("group of analyses", "statics|vibration|buckling");

@@ -11,6 +11,7 @@
 
 #include "harness/catalogue/case_find.h"
 #include "harness/catalogue/registry.h"
+#include "harness/project/scene_truths.h"
 #include "harness/record/store.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/study/plan.h"
@@ -178,7 +179,7 @@ static status read_scene(const void *what, double *value, fault *f)
     scene_init(&s, "scene");
     status outcome = case_build(scene_file_case(file), parameter, &s, f);
     if (outcome == STATUS_OK)
-        outcome = scene_file_truths_add_all(file, &t, f);
+        outcome = scene_truths_add_all(file, &t, f);
     *value = t.rows;
     const int nodes = outcome == STATUS_OK ? s.nodes : 0;
     for (int i = 0; i < nodes; i++)
