@@ -23,7 +23,7 @@ PROGRAM_SOURCES := $(sort $(wildcard harness/cli/*.c))
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a room's own test folder is never part of the library.
 KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/test/*.c)))
-PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py harness/*/test/*_test.py))))
+PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard harness/*/test/*_test.py))
 
 REGISTRY := $(BUILD)/registry.c
 PRICES := $(BUILD)/price_table.c
@@ -201,7 +201,7 @@ layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) ## check that includes po
 # In C all of them, in Python those that give the program what its readers cannot trust; all: ASAN_PYTHON='$(PYTHON_TESTS)'.
 # Without what only walks through all cases once more, or the ways of consistent_test on finer meshes.
 ASAN_WITHOUT ?= harness/analysis/test/invariants_test harness/motion/test/consistent_mesh_test
-ASAN_PYTHON ?= $(filter $(addprefix harness/,$(addsuffix /test,completion imports process record scene_file)),$(PYTHON_TESTS))
+ASAN_PYTHON ?= $(filter $(addprefix harness/,$(addsuffix /test/%,completion imports process record scene_file)),$(PYTHON_TESTS))
 asan: ## tests under the address and undefined-behaviour sanitizers: those in C, and those of the readers
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PLAIN=-O0 PYTHON_TESTS="$(ASAN_PYTHON)" TEST_SOURCES="$(filter-out $(ASAN_WITHOUT:%=%.c),$(TEST_SOURCES))" test
 

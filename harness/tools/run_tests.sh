@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs every test program given and every folder of Python tests, as many at once as there are processors, and ends in
-# one line: N passed, M failed[, K skipped].  A skipped test is named with what it needs: "SKIP name: needs chromium".
-# usage: run_tests.sh LOGDIR PROGRAM|FOLDER...
+# Runs every test program given and every file or folder of tests in Python, as many at once as there are processors,
+# and ends in one line: N passed, M failed[, K skipped].  A skipped test is named with what it needs: "SKIP name: needs chromium".
+# usage: run_tests.sh LOGDIR PROGRAM|FILE.py|FOLDER...
 set -u
 # One that hangs ends here [s]: far beyond what the longest takes on a slow machine with sanitizers.
 limit=1200
@@ -24,10 +24,15 @@ tally() { # name log exit-status
     [ "$k" = 0 ] || grep '^SKIP' "$2"
     printf '%-44s %5d passed %3d failed\n' "$1" "$p" "$f"
 }
-one() { # program or folder
-    if [ -d "$1" ]; then
+one() { # program, file or folder
+    if [ -d "$1" ] || [ "${1%.py}" != "$1" ]; then
         name=$1 log=$logs/$(echo "$1" | tr / _).log
-        timeout -k 30 $limit /usr/bin/python3 -m unittest discover -v -s "$1" -t . -p '*_test.py' >"$log.raw" 2>&1
+        if [ -d "$1" ]; then
+            set -- discover -v -s "$1" -t . -p '*_test.py'
+        else
+            set -- -v "$1"
+        fi
+        timeout -k 30 $limit /usr/bin/python3 -m unittest "$@" >"$log.raw" 2>&1
         status=$?
         verdicts <"$log.raw" >"$log"
         [ $status = 0 ] || tail -n 30 "$log.raw" | sed 's/^/    /' >&2

@@ -163,6 +163,13 @@ class Runner(Folder):
             self.assertEqual((done.returncode, done.stdout.splitlines()[-1]),
                              (1, "0 passed, 1 failed"))
 
+    def test_one_file(self):
+        self.tests("def test_good(self):", "    pass")
+        (self.folder / "room" / "other_test.py").write_text("raise OSError\n", encoding="ascii")
+        done = self.run_tests(python=("room/made_up_test.py", ))
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "1 passed, 0 failed"))
+        self.assertEqual(self.run_tests(python=("room/other_test.py", )).returncode, 1)
+
     def test_class_that_is_skipped(self):
         self.tests("@classmethod", "def setUpClass(cls):",
                    "    raise unittest.SkipTest('needs a lake')", "def test_one(self):", "    pass")
