@@ -18,8 +18,8 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c))
 LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
-LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/test/% harness/cli/% harness/fuzz/%,$(LIBRARY_SOURCES))
-PROGRAM_SOURCES := $(sort $(wildcard harness/cli/*.c))
+LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/test/% harness/cli/main.c harness/fuzz/%,$(LIBRARY_SOURCES))
+PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a room's own test folder is never part of the library.
 KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/test/*.c)))
@@ -34,7 +34,7 @@ PLANTED := $(BUILD)/planted
 TRUTHS := $(BUILD)/truths.h5
 OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
-WIDE := elements/math/congruence.c elements/beamw/in_time.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/triangular/*.c))
+WIDE := elements/math/congruence.c elements/beamw/in_time.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/*/triangular_*.c))
 ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
 OBJECTS += $(WIDE:%.c=$(BUILD)/%.avx2.o)
 endif
