@@ -1,11 +1,17 @@
 #!/usr/bin/python3
-"""Refuses circles of calls between source files: nm says what an object defines and what it needs.
+"""Refuses circles: of calls between source files, and of calls or includes between their folders.
+nm says what an object defines and what it needs.
 
 usage: circles.py OBJECT...     one line for each circle; exit status 1 when there is one
 """
 import collections
+import pathlib
+import re
 import subprocess
 import sys
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.M)
+SHOWN = 3  # reasons of each step of a circle
 
 
 def symbols(objects):
@@ -46,17 +52,65 @@ def circles(calls):
     return found
 
 
-def main(objects):
+def calls_of(objects):
+    """{(object, object): the functions that the first one calls of the second}."""
     defined, needed = symbols(objects)
-    calls = {name: {defined[s] for s in needed[name] if s in defined} - {name} for name in objects}
-    found = circles(calls)
+    calls = collections.defaultdict(set)
+    for name in objects:
+        for symbol in needed[name]:
+            if defined.get(symbol, name) != name:
+                calls[name, defined[symbol]].add(symbol)
+    return calls
+
+
+FOLDER = re.compile(r"(?:.*/)?((?:elements|cases|harness/\w+)/)(?:.*/)?")
+
+
+def folder(path):
+    """Of a source or an object: build/harness/time/step.o is of harness/time. The elements are one,
+    and so are the cases."""
+    found = FOLDER.match(path)
+    return found[1] if found else str(pathlib.Path(path).parent)
+
+
+def includes_of(objects):
+    """{(file, file): ""} of the sources and headers beside those of the objects."""
+    matches = map(FOLDER.match, objects)
+    places = {found[0][found.start(1):] for found in matches if found}
+    return {(str(path), other): {""} for place in places for path in pathlib.Path(place).glob("*.[ch]")
+            for other in INCLUDE.findall(path.read_text(encoding="utf-8"))}
+
+
+def between_folders(steps):
+    """{(folder, folder): "file -> file: why"}."""
+    found = collections.defaultdict(set)
+    for (one, other), why in steps.items():
+        ends = folder(one), folder(other)
+        if ends[0] != ends[1]:
+            found[ends] |= {f"{one} -> {other} {word}".rstrip() for word in why}
+    return found
+
+
+def tell(what, steps):
+    """Prints the circles that steps {(from, to): why} make; how many there are."""
+    ways = collections.defaultdict(set)
+    for one, other in steps:
+        ways[one].add(other)
+    found = circles(ways)
     for group in found:
-        print("circle of calls: " + ", ".join(group))
-        for name in group:
-            for other in group:
-                shared = sorted(s for s in needed[name] if defined.get(s) == other)
-                if shared and other != name:
-                    print(f"    {name} -> {other}: {', '.join(shared)}")
+        print(f"circle of {what}: {', '.join(group)}")
+        for one in group:
+            for other in sorted(ways[one] & set(group)):
+                why = sorted(steps[one, other])
+                print(f"    {one} -> {other}: {', '.join(why[:SHOWN])}"
+                      + (f" and {len(why) - SHOWN} more" if len(why) > SHOWN else ""))
+    return len(found)
+
+
+def main(objects):
+    calls = calls_of(objects)
+    found = tell("calls", calls) + tell("folders by calls", between_folders(calls)) + \
+        tell("folders by includes", between_folders(includes_of(objects)))
     return 1 if found else 0
 
 

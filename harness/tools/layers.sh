@@ -1,6 +1,6 @@
 #!/bin/sh
-# Rules of the house: an include points down only, nobody names what it must not know, and files do
-# not call each other in circles.
+# Rules of the house: an include points down only, nobody names what it must not know, and neither
+# files nor folders stand in circles.
 # usage: layers.sh OBJECT...
 set -eu
 bad=0
@@ -50,5 +50,5 @@ hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --inclu
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- a truth shares no code with what it judges|'; bad=1; }
 /usr/bin/python3 harness/tools/circles.py "$@" || bad=1
-[ $bad = 0 ] && echo "layers: every include points down, no calls in circles"
+[ $bad = 0 ] && echo "layers: every include points down, nothing in circles"
 exit $bad

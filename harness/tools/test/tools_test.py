@@ -195,6 +195,7 @@ class Circles(Folder):
         paths = []
         for name, text in sources.items():
             path = self.folder / f"{name}.o"
+            path.parent.mkdir(parents=True, exist_ok=True)
             subprocess.run(["cc", "-w", "-x", "c", "-c", "-o", path, "-"],
                            input=text,
                            text=True,
@@ -203,7 +204,8 @@ class Circles(Folder):
         return subprocess.run(["/usr/bin/python3", TOOLS / "circles.py", *paths],
                               capture_output=True,
                               text=True,
-                              check=False)
+                              check=False,
+                              cwd=self.folder)
 
     def test_calls_in_one_direction(self):
         said = self.objects(low="int low(void) { return 1; }",
@@ -221,6 +223,33 @@ class Circles(Folder):
         self.assertTrue(all(f"{name}.o" in first for name in ("one", "two", "three")))
         self.assertNotIn("apart", said.stdout)
         self.assertIn("three.o: three", said.stdout)
+
+    def test_folders_that_call_each_other(self):
+        """No two files do."""
+        said = self.objects(**{
+            "harness/low/one": "int one(void) { return 1; }",
+            "harness/low/two": "int three(void); int two(void) { return three(); }",
+            "harness/high/three": "int one(void); int three(void) { return one(); }",
+            "harness/high/apart": "int apart(void) { return 1; }"})
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("circle of folders by calls: harness/high/, harness/low/\n", said.stdout)
+        self.assertIn("three.o three", said.stdout)
+        self.assertNotIn("apart", said.stdout)
+
+    def test_folders_that_include_each_other(self):
+        """Though none calls the other."""
+        for name, other in (("harness/low/one.c", "harness/high/two.h"),
+                            ("harness/high/two.c", "harness/low/one.h")):
+            path = self.folder / name
+            path.parent.mkdir(parents=True)
+            path.write_text(f'#include "{other}"\n', encoding="ascii")
+        said = self.objects(**{"harness/low/one": "int one(void) { return 1; }",
+                               "harness/high/two": "int two(void) { return 1; }"})
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("circle of folders by includes: harness/high/, harness/low/\n", said.stdout)
+        (self.folder / "harness/high/two.c").write_text("", encoding="ascii")
+        self.assertEqual(self.objects(**{"harness/low/one": "int one(void) { return 1; }",
+                                         "harness/high/two": "int two(void) { return 1; }"}).stdout, "")
 
 
 class Mutants(Folder):
