@@ -69,6 +69,13 @@ class OnNodes(ProgramTest):
             for coarse, fine in zip(error, error[1:]):
                 self.assertAlmostEqual(math.log2(coarse / fine), order, delta=0.05)
 
+    def test_halves(self):
+        """A uniform load of one element: half of it pushes the tip, q L/2 L^3/3EI for q L^4/8EI."""
+        scene = SCENE.replace("beamwork: 1", "beamwork: 1\nomit: [shear]") % ("", "d: {distributed: [0, 20, 0], on: beam%s}",
+                                                                            "run: {linear: {}}")
+        exact, lumped = (self.cell(scene % how, 1)[1] for how in ("", ", lumped: yes"))
+        self.assertAlmostEqual(lumped / exact, 4/3, delta=1e-9)
+
     def test_motions(self):
         for integrator, more, what in (("conserving", "", " and loads along members"),
                                        ("alpha", ", mass: lumped", " and weight")):
