@@ -81,6 +81,15 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
                          : "");
 }
 
+/* Does a quantity read it? */
+static int is_asked(const scene *s, int analysis)
+{
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].analysis == analysis)
+            return 1;
+    return 0;
+}
+
 status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
@@ -104,7 +113,7 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         return check_continuation(s, i, f);
     if (a->kind == SCENE_MOTION)
         return scene_validate_motion(s, i, f);
-    if (a->kind == SCENE_MODAL)
+    if (a->kind == SCENE_MODAL && is_asked(s, i))
         return scene_validate_mass(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }
