@@ -74,8 +74,8 @@ class Scarce(ProgramTest):
                 with self.subTest(verb=verb, call=k):
                     code, out, errors, files = self.attempt(words, SCARCE_AT=str(k))
                     self.assertFalse([name for name in files if ".part-" in name], files)
-                    if code == right[0]:
-                        self.assertEqual((out, files), (right[1], right[3]))
+                    if code == right[0]:  # lines that have no memory to be folded are long ones
+                        self.assertEqual(("".join(out.split()), files), ("".join(right[1].split()), right[3]))
                         continue
                     last = errors.strip().splitlines()[-1]
                     self.assertTrue(last.startswith("beamwork: "), errors)

@@ -75,7 +75,7 @@ class OwnMass(Speaker):
         """Motions have the mass at the nodes then, and it is said."""
         changed = ("mass=mass,", 'mass=mass, inertia="vibration",')
         cell, here = self.solved(self.python(*changed), "own_mass_py", self.swing(HOW[1]), 1)
-        self.assertIn("mass and weight of analysis run: half", cell["lumped"])
+        self.assertIn("mass and weight of analysis run: at nodes", cell["lumped"])
         beam = self.solved(self.python(*changed), "own_mass_py", "deep_beam", 4)[1]
         whole, lumped = (self.solved(self.python(), "own_mass_py", self.swing(HOW[1], more), 1)[1]
                          for more in ("", "mass: lumped\n"))
