@@ -20,10 +20,10 @@ CASES := $(sort $(wildcard cases/*.c))
 LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
 LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/test/% harness/cli/main.c harness/fuzz/%,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := harness/cli/main.c
-TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c harness/*/test/*_test.c))
+TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a room's own test folder is never part of the library.
 KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/test/*.c)))
-PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard harness/*/test/*_test.py))
+PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard cases/*/test/*_test.py harness/*/test/*_test.py harness/*/*/test/*_test.py))
 
 REGISTRY := $(BUILD)/registry.c
 PRICES := $(BUILD)/price_table.c

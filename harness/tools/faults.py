@@ -269,7 +269,7 @@ UNJUDGED = tuple(f"harness/{room}/" for room in ("manual", "completion", "timing
 
 def tests():
     """The texts of tests."""
-    files = set(listed("ls-files", "*/test/*_test.c", "harness/*_test.py"))
+    files = set(listed("ls-files", "*/test/*_test.c", "cases/*_test.py", "harness/*_test.py"))
     return {file: (ROOT / file).read_text(encoding="utf-8") for file in sorted(files)}
 
 

@@ -7,7 +7,7 @@ bad=0
 # rule PATHS... -- FORBIDDEN-REGEX -- reason
 rule() {
     where=$1 pattern=$2 reason=$3
-    hits=$(grep -rnE "^[[:space:]]*#[[:space:]]*include[[:space:]]+\"($pattern)" $where --include='*.c' --include='*.h' 2>/dev/null | grep -v '/test/' || true)
+    hits=$(grep -rnE "^[[:space:]]*#[[:space:]]*include[[:space:]]+\"($pattern)" $where --include='*.c' --include='*.h' 2>/dev/null | grep -vE '/(test|kit)/' || true)
     if [ -n "$hits" ]; then
         echo "$hits" | sed "s|\$|   <- $reason|"
         bad=1
@@ -38,14 +38,14 @@ for file in elements/*.c cases/*.c; do
     name=$(basename "$file" .c)
     quoted="\"$name\"|"
     case $name in release) quoted="" ;; esac # a word of scene files, too
-    hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness --include='*.c' --include='*.h' 2>/dev/null | grep -v '/test/' || true)
+    hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness --include='*.c' --include='*.h' 2>/dev/null | grep -vE '/(test|kit)/' || true)
     if [ -n "$hits" ]; then
         echo "$hits" | sed "s|\$|   <- the harness names $name|"
         bad=1
     fi
 done
 # Reports call no program of the house, references share nothing with it.
-hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --include='*.py' 2>/dev/null | grep -v '/test/' || true)
+hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --include='*.py' 2>/dev/null | grep -vE '/(test|kit)/' || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- reports read files only|'; bad=1; }
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- a truth shares no code with what it judges|'; bad=1; }

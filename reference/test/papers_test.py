@@ -23,8 +23,9 @@ EQUATIONS = {
     "J": {*map(str, range(1, 77)), "App. A"},
     "N": {*map(str, range(1, 71)), "A1", "B2"}
 }
-RUN = ("elements/test/*_test.c", "cases/test/*_test.c", "harness/*/test/*_test.c",
-       "reference/test/*_test.py", "reports/test/*_test.py", "harness/*/test/*_test.py")
+RUN = ("elements/test/*_test.c", "cases/test/*_test.c", "cases/*/test/*_test.c",
+       "harness/*/test/*_test.c", "reference/test/*_test.py", "reports/test/*_test.py",
+       "cases/*/test/*_test.py", "harness/*/test/*_test.py", "harness/*/*/test/*_test.py")
 
 
 def rows(name="papers.csv"):

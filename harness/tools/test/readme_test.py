@@ -24,7 +24,10 @@ class Readme(unittest.TestCase):
     def test_paths_exist(self):
         found = 0
         for readme in files(".md"):
-            for name in PATH.findall(readme.read_text(encoding="utf-8")):
+            text = readme.read_text(encoding="utf-8")
+            if readme.name == "CHANGELOG.md":  # what is released names the folders of its time
+                text = "## ".join(text.split("\n## ")[:2])
+            for name in PATH.findall(text):
                 if any(part in name for part in PATTERNS):
                     continue
                 found += 1
