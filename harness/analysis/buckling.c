@@ -9,10 +9,10 @@
 #include <string.h>
 
 #include "cases/scene/along_path.h"
-#include "harness/algebra/eigen.h"
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
 #include "harness/model/metric.h"
+#include "harness/numerics/eigen.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
 #include "harness/solver/quadratic_forms.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/clock.h"
+#include "harness/numerics/clock.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
 #include "harness/solver/singular.h"

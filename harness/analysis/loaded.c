@@ -11,7 +11,6 @@
 
 #include "cases/scene/along_path.h"
 #include "elements/math/pi.h"
-#include "harness/algebra/eigen.h"
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
 #include "harness/equations/internal.h"
@@ -21,6 +20,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
 #include "harness/model/model_impl.h"
+#include "harness/numerics/eigen.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/newton.h"

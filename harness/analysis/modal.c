@@ -9,11 +9,11 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/algebra/eigen.h"
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/rotating_frame.h"
 #include "harness/flutter/flutter.h"
+#include "harness/numerics/eigen.h"
 #include "harness/solver/context.h"
 #include "harness/solver/linear_system.h"
 #include "harness/solver/quadratic_forms.h"

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/clock.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/static.h"
 #include "harness/equations/linearise.h"
@@ -16,13 +15,14 @@
 #include "harness/equations/stiffness_parts.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/numerics/clock.h"
+#include "harness/numerics/gyroscopic.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/modes.h"
 #include "harness/solver/newton.h"
 #include "harness/solver/singular.h"
 #include "harness/solver/tangent.h"
-#include "harness/turning/gyroscopic.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 

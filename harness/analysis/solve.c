@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "cases/scene/inputs.h"
-#include "harness/algebra/clock.h"
 #include "harness/analysis/buckling.h"
 #include "harness/analysis/collect.h"
 #include "harness/analysis/collect_systems.h"
@@ -18,6 +17,7 @@
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
 #include "harness/motion/motion.h"
+#include "harness/numerics/clock.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/linear_system.h"

@@ -2,7 +2,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "harness/algebra/clock.h"
 #include "harness/cli/cli.h"
 #include "harness/command/errors.h"
 #include "harness/command/named.h"
@@ -11,6 +10,7 @@
 #include "harness/command/supports_told.h"
 #include "harness/imports/import_store.h"
 #include "harness/judge/sentence.h"
+#include "harness/numerics/clock.h"
 #include "harness/record/output.h"
 #include "harness/request/regressions.h"
 #include "harness/request/verification.h"

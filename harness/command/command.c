@@ -6,13 +6,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/algebra/team.h"
 #include "harness/command/case_input.h"
 #include "harness/command/help.h"
 #include "harness/command/message.h"
 #include "harness/command/named.h"
 #include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
+#include "harness/numerics/team.h"
 #include "harness/request/meshes.h"
 #include "harness/shards/shard.h"
 #include "harness/solver/shapes.h"

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/memory.h"
 #include "harness/catalogue/assignment.h"
 #include "harness/catalogue/select.h"
 #include "harness/comparison/table_reader.h"
+#include "harness/numerics/memory.h"
 #include "harness/truth/handles.h"
 
 enum {

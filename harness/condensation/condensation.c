@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/algebra/memory.h"
 #include "harness/condensation/condensation_impl.h"
 #include "harness/condensation/link.h"
 #include "harness/equations/ahead.h"
@@ -14,6 +13,7 @@
 #include "harness/model/discrete.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/release.h"
+#include "harness/numerics/memory.h"
 
 /* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
  * them free? */

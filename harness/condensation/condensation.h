@@ -6,8 +6,8 @@
 #ifndef BEAMWORK_CONDENSATION_H
 #define BEAMWORK_CONDENSATION_H
 
-#include "harness/algebra/sparse.h"
 #include "harness/model/model.h"
+#include "harness/numerics/sparse.h"
 
 typedef struct condensation condensation;
 

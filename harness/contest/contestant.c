@@ -7,9 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/algebra/clock.h"
 #include "harness/judge/reach.h"
 #include "harness/model/missing.h"
+#include "harness/numerics/clock.h"
 #include "harness/tables/paragraph.h"
 #include "harness/timing/rounds.h"
 

@@ -8,7 +8,7 @@
 
 #include <complex.h>
 
-#include "harness/algebra/sparse.h"
+#include "harness/numerics/sparse.h"
 
 enum { LEFT_NEAREST = 6 };
 

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/memory.h"
 #include "harness/judge/agreements.h"
 #include "harness/judge/coverage.h"
 #include "harness/judge/missed.h"
 #include "harness/judge/sound.h"
 #include "harness/model/features.h"
+#include "harness/numerics/memory.h"
 #include "harness/truth/truth.h"
 #include "harness/truth/truth_index.h"
 

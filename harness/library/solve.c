@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/team.h"
 #include "harness/library/call.h"
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"
+#include "harness/numerics/team.h"
 #include "harness/project/scene_truths.h"
 #include "harness/request/meshes.h"
 #include "harness/request/solution.h"

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
+#include "harness/numerics/memory.h"
 
 /* Tangents of dead moments about fixed axes, be they loads or reactions, and of loads that follow
  * are stored whole: whether they are symmetric is a matter of the state. */

@@ -10,11 +10,11 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/shared/lumped.h"
-#include "harness/algebra/memory.h"
 #include "harness/model/member_arc.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/profile.h"
 #include "harness/model/release.h"
+#include "harness/numerics/memory.h"
 
 /* Of a sequence's next angle; any length. */
 static void add_axis(const double axis[3], mesh_vertex *v)

@@ -7,7 +7,6 @@
 
 #include "cases/scene/names.h"
 #include "harness/adapters/adapters.h"
-#include "harness/algebra/memory.h"
 #include "harness/model/discrete.h"
 #include "harness/model/features.h"
 #include "harness/model/kinematics.h"
@@ -16,6 +15,7 @@
 #include "harness/model/profile.h"
 #include "harness/model/spring.h"
 #include "harness/model/turns.h"
+#include "harness/numerics/memory.h"
 #include "harness/process/process.h"
 
 /* In scenes with a motion, loads along members do their work on the field that its mass has. */

@@ -18,8 +18,8 @@
 
 #include "cases/scene/scene.h"
 #include "elements/element.h"
-#include "harness/algebra/phases.h"
-#include "harness/algebra/sparse.h"
+#include "harness/numerics/phases.h"
+#include "harness/numerics/sparse.h"
 
 typedef struct model model;
 

@@ -3,9 +3,9 @@
 #define BEAMWORK_MODEL_IMPL_H
 
 #include "elements/field/field.h"
-#include "harness/algebra/team.h"
 #include "harness/division/division.h"
 #include "harness/model/model.h"
+#include "harness/numerics/team.h"
 
 /* An element depends on the coordinates of its nodes and on those of released ends. */
 enum {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "elements/math/larger.h"
-#include "harness/algebra/memory.h"
 #include "harness/equations/linearise.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
@@ -19,6 +18,7 @@
 #include "harness/motion/resume.h"
 #include "harness/motion/stations.h"
 #include "harness/motion/watches.h"
+#include "harness/numerics/memory.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/kinks.h"
 #include "harness/solver/history.h"

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/memory.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/turns.h"
+#include "harness/numerics/memory.h"
 #include "harness/scheme/damping.h"
 
 static int is_followed(const scene *s, int analysis)

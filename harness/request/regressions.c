@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/algebra/memory.h"
 #include "harness/comparison/comparison.h"
+#include "harness/numerics/memory.h"
 #include "harness/record/store.h"
 
 /* An error may be so much larger: between processors the kernels of LAPACK move errors near

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/algebra/memory.h"
 #include "harness/catalogue/formulations.h"
 #include "harness/certificate/certificate.h"
 #include "harness/judge/families.h"
+#include "harness/numerics/memory.h"
 #include "harness/study/run.h"
 
 typedef struct verification {

@@ -5,7 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "harness/algebra/clock.h"
+#include "harness/numerics/clock.h"
 
 /* Of this process and those that it has waited for. */
 static double processor_seconds(void)

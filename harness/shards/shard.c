@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/algebra/clock.h"
+#include "harness/numerics/clock.h"
 #include "harness/shards/deal.h"
 #include "harness/shards/labour.h"
 #include "harness/shards/stock.h"

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/clock.h"
 #include "harness/equations/linear.h"
 #include "harness/equations/loads.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/numerics/clock.h"
 #include "harness/solver/context.h"
 #include "harness/solver/refinement.h"
 

@@ -8,8 +8,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/algebra/clock.h"
-#include "harness/algebra/memory.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
@@ -17,6 +15,8 @@
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/numerics/clock.h"
+#include "harness/numerics/memory.h"
 #include "harness/solver/context.h"
 #include "harness/solver/history.h"
 #include "harness/solver/singular.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SOLVER_OUTCOME_H
 #define BEAMWORK_SOLVER_OUTCOME_H
 
-#include "harness/algebra/eigen.h"
+#include "harness/numerics/eigen.h"
 #include "harness/solver/modes.h"
 
 /* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their

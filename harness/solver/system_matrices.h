@@ -4,8 +4,8 @@
 #ifndef BEAMWORK_SYSTEM_MATRICES_H
 #define BEAMWORK_SYSTEM_MATRICES_H
 
-#include "harness/algebra/triplets.h"
 #include "harness/equations/rows.h"
+#include "harness/numerics/triplets.h"
 
 typedef struct state_matrices {
     int analysis; /* of the scene; SCENE_NONE: the undeformed structure at rest */

@@ -8,12 +8,12 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/algebra/clock.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/stiffness_parts.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/numerics/clock.h"
 #include "harness/solver/border.h"
 #include "harness/solver/bordered.h"
 #include "harness/solver/context.h"

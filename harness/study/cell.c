@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/clock.h"
+#include "harness/numerics/clock.h"
 #include "harness/solver/quantity.h"
 
 static status copy_left_out(const model *m, cell_result *out, fault *f)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/algebra/clock.h"
+#include "harness/numerics/clock.h"
 #include "harness/study/progress.h"
 
 static const double longest_elsewhere = 0.05; /* [s] of one run */

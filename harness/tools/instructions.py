@@ -39,7 +39,7 @@ PARTS = (
     ("factorisation", "harness/", r"^(context_factor|factor_numeric|factor_alloc)$",
      "factorisations"),
     ("solution", "harness/", r"^factor_(solve|solve_many|solve_transposed)$", "solutions"),
-    ("eigenvalues", "harness/algebra/", r"^(eigen|lanczos|gyroscopic)_", None),
+    ("eigenvalues", "harness/numerics/", r"^(eigen|lanczos|gyroscopic)_", None),
     ("places of nodes", "harness/model/", r"^kinematics_gather$", "strain_evaluations"),
     ("products", "elements/math/", r"^dense_", "strain_evaluations"),
     ("guesses", "harness/solver/", r"^predictor_", "load_steps"),

@@ -22,15 +22,14 @@ rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 # The floors of the harness, lowest first: a room includes itself and those before it.
-floors="triangular algebra turning adapters process catalogue division model recovery equations condensation solver inertia scheme flutter radau conserving explicit motion analysis contract language scene_file scene_writer truth study timing judge project schema record shards tables extremes certificate comparison imports export request ranges pace library command manual spread completion contest cli"
+floors="numerics adapters process catalogue division model recovery equations condensation solver inertia scheme flutter radau conserving explicit motion analysis contract language scene_file scene_writer truth study timing judge project schema record shards tables extremes certificate comparison imports export request ranges pace library command manual spread completion contest cli"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}
     above=${above# }
     [ -z "$above" ] || rule "harness/$room" "harness/($(echo $above | tr ' ' '|'))/" "$room stands below"
 done
-rule harness/triangular 'cases/|elements/(element|section|beamw|sheet|exact)' 'factors know no beam'
-rule harness/algebra 'cases/|elements/(element|section|beamw|sheet|exact)' 'algebra knows no beam'
+rule harness/numerics 'cases/|elements/(element|section|beamw|sheet|exact)' 'numerics know no beam'
 rule harness 'reference/|reports/|elements/(beamw|sheet|exact)/' 'the harness names no formulation and no truth'
 # The harness walks generated lists: neither a formulation nor a case is named in it.
 for file in elements/*.c cases/*.c; do

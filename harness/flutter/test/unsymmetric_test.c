@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/algebra/test/matrices.h"
 #include "harness/flutter/unsymmetric.h"
+#include "harness/numerics/test/matrices.h"
 
 /* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` planes that do
  * not touch, the stiffness of the second one `ratio` times that of the first; P follows the tip. */

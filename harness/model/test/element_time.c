@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "elements/test/chain.h"
-#include "harness/algebra/clock.h"
 #include "harness/catalogue/registry.h"
+#include "harness/numerics/clock.h"
 
 enum { REPEATS = 40, CALLS = 300, PHASES = 4 };
 

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/algebra/clock.h"
+#include "harness/numerics/clock.h"
 #include "harness/record/test/folder.h"
 #include "harness/shards/merge.h"
 #include "harness/shards/shard.h"

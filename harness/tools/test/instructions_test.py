@@ -19,7 +19,7 @@ cfi=(2) /old/place/elements/sheet/third.c
 cfn=(2) third_strain
 calls=2 0x200 1
 * 12 60
-cfi=(3) harness/algebra/factor.c
+cfi=(3) harness/numerics/factor.c
 cfn=(3) factor_numeric
 calls=1 0x300 1
 +4 13 20

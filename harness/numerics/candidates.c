@@ -1,0 +1,271 @@
+#include "harness/numerics/candidates.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+
+status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f)
+{
+    const size_t n = (size_t)problem->K->n;
+    memset(p, 0, sizeof *p);
+    p->problem = problem;
+    p->sign = sign;
+    p->n = problem->K->n;
+    p->work = malloc(n * sizeof *p->work);
+    p->form = malloc(n * sizeof *p->form);
+    if (p->work == NULL || p->form == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for an eigenvalue problem");
+    return STATUS_OK;
+}
+
+void candidates_free(candidates *p)
+{
+    void *const all[] = {p->mu, p->matrix_mu, p->noise, p->stiffness,
+                         p->x,  p->work,      p->form,  p->correction};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        free(all[i]);
+    sparse_free_values(&p->shifted);
+    factor_free(p->shifted_factor);
+    memset(p, 0, sizeof *p);
+}
+
+static int grow(double **list, size_t count)
+{
+    double *larger = realloc(*list, count * sizeof **list);
+    if (larger != NULL)
+        *list = larger;
+    return larger != NULL;
+}
+
+static status make_room(candidates *p, int room, fault *f)
+{
+    const size_t count = (size_t)room, numbers = count * (size_t)p->n;
+    if (room > p->room &&
+        !(grow(&p->mu, count) && grow(&p->matrix_mu, count) && grow(&p->noise, count) &&
+          grow(&p->stiffness, count) && grow(&p->x, numbers)))
+        return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", room);
+    p->room = room > p->room ? room : p->room;
+    return STATUS_OK;
+}
+
+/* x^T a x: the caller's, or from the matrix with a x kept in `product`. */
+static double form_of(const candidates *p, eigen_form *form, const sparse *a, const double x[],
+                      double product[])
+{
+    if (form != NULL)
+        return form(p->problem->context, x);
+    sparse_mul(a, x, product);
+    return dense_dot(p->n, x, product);
+}
+
+static double K_form(candidates *p, const double x[])
+{
+    return form_of(p, p->problem->K_energy, p->problem->K, x, p->form);
+}
+
+/* Root of the sum of the squares of all terms of x^T (K - s A/mu) x, times eps: their rounding
+ * errors are independent. */
+static double rounding(const candidates *p, double mu, const double x[])
+{
+    const sparse *K = p->problem->K, *A = p->problem->A;
+    double sum = 0;
+    for (int j = 0; j < p->n; j++)
+        for (int k = K->column[j]; k < K->column[j + 1]; k++) {
+            const double term = x[K->row[k]] * x[j] * (fabs(K->value[k]) + fabs(A->value[k] / mu));
+            sum += (K->row[k] != j ? 2 : 1) * term * term;
+        }
+    return DBL_EPSILON * sqrt(sum);
+}
+
+/* Moves the last candidate to its place. */
+static void sort_last(candidates *p)
+{
+    const size_t n = (size_t)p->n;
+    for (int i = p->count - 1; i > 0 && p->mu[i] > p->mu[i - 1]; i--) {
+        double *const numbers[] = {p->mu, p->matrix_mu, p->noise, p->stiffness};
+        for (int k = 0; k < 4; k++) {
+            const double kept = numbers[k][i];
+            numbers[k][i] = numbers[k][i - 1];
+            numbers[k][i - 1] = kept;
+        }
+        double *last = p->x + (size_t)i * n, *before = last - n;
+        memcpy(p->work, last, n * sizeof *last);
+        memcpy(last, before, n * sizeof *last);
+        memcpy(before, p->work, n * sizeof *last);
+    }
+}
+
+double candidates_least(int n, double scale)
+{
+    return 16 * n * sqrt(n) * DBL_EPSILON * scale;
+}
+
+int candidates_is_rounding(const candidates *p, double energy, const double x[])
+{
+    const double sure = 128; /* inside an element it passes through eliminations of its own */
+    const eigen_problem *e = p->problem;
+    return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
+}
+
+double candidates_departure(const candidates *p, int count)
+{
+    double largest = 0;
+    const int first = count < p->count ? count : p->count;
+    for (int i = 0; i < first; i++)
+        largest = fmax(largest, fabs(p->stiffness[i] - 1));
+    return largest;
+}
+
+status candidates_refine(candidates *p, int count, fault *f)
+{
+    enum { MOST = 12 };
+    const double departure = candidates_departure(p, count), left = 1e-6;
+    double error = departure;
+    p->refinements = 1;
+    while (p->refinements < MOST && (error *= departure) > left)
+        p->refinements++;
+    if (p->correction == NULL)
+        p->correction = malloc((size_t)p->n * sizeof *p->correction);
+    return p->correction != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
+}
+
+/* y += K^-1 (s A x - K y), with K y from the elements: what is left falls by the part of K that
+ * assembling it has changed. */
+static void refine(candidates *p, const double x[], double y[])
+{
+    const eigen_problem *e = p->problem;
+    double *r = p->correction;
+    e->K_product(e->context, y, r);
+    sparse_mul(e->A, x, p->form);
+    for (int i = 0; i < p->n; i++)
+        r[i] = p->sign * p->form[i] - r[i];
+    factor_solve(e->K_factor, r);
+    for (int i = 0; i < p->n; i++)
+        y[i] += r[i];
+}
+
+void candidates_apply(candidates *p, const double x[], double y[])
+{
+    sparse_mul(p->problem->A, x, y);
+    for (int i = 0; i < p->n; i++)
+        y[i] *= p->sign;
+    factor_solve(p->problem->K_factor, y);
+    if (p->correction != NULL)
+        for (int pass = 0; pass < p->refinements; pass++)
+            refine(p, x, y);
+}
+
+double candidates_scale(candidates *p, long *solutions)
+{
+    enum { POWERS = 6 };
+    double *x = p->form, before = 0, largest = 0;
+    for (int i = 0; i < p->n; i++)
+        x[i] = sin(1.7 * i) / sqrt(sparse_diagonal(p->problem->K, i));
+    for (int power = 0; power <= POWERS; power++) {
+        sparse_mul(p->problem->K, x, p->work);
+        const double size = sqrt(dense_dot(p->n, x, p->work));
+        if (power > 0 && before > 0)
+            largest = fmax(largest, size / before);
+        if (size > 0)
+            for (int i = 0; i < p->n; i++)
+                x[i] /= size;
+        before = size > 0;
+        if (power < POWERS) {
+            candidates_apply(p, x, p->work);
+            memcpy(x, p->work, (size_t)p->n * sizeof *x);
+            (*solutions)++;
+        }
+    }
+    return candidates_is_rounding(p, largest, x) ? 0 : largest;
+}
+
+/* The vector behind the last candidate becomes one, if its mu is large enough. */
+static void add_next(candidates *p, double least)
+{
+    const eigen_problem *e = p->problem;
+    double *vector = p->x + (size_t)p->count * (size_t)p->n;
+    sparse_mul(e->K, vector, p->work);
+    const double length = sqrt(dense_dot(p->n, vector, p->work));
+    for (int i = 0; i < p->n; i++)
+        vector[i] /= length;
+    const double stiffness = K_form(p, vector);
+    const double mu = p->sign * form_of(p, e->A_energy, e->A, vector, p->form) / stiffness;
+    if (!(mu > least))
+        return;
+    p->mu[p->count] = mu;
+    p->stiffness[p->count] = stiffness;
+    p->matrix_mu[p->count] = p->sign * form_of(p, NULL, e->A, vector, p->form);
+    p->noise[p->count] = rounding(p, mu, vector);
+    p->count++;
+    sort_last(p);
+}
+
+/* x may be the candidates' own vectors. */
+static void add_all(candidates *p, int count, const double x[], double least)
+{
+    const size_t n = (size_t)p->n;
+    for (int c = 0; c < count; c++) {
+        memmove(p->x + (size_t)p->count * n, x + (size_t)c * n, n * sizeof *x);
+        add_next(p, least);
+    }
+}
+
+status candidates_add(candidates *p, int count, const double x[], double least, fault *f)
+{
+    TRY(make_room(p, p->count + count, f));
+    add_all(p, count, x, least);
+    return STATUS_OK;
+}
+
+status candidates_take(candidates *p, int count, double *x, double least, fault *f)
+{
+    if (p->room == 0) {
+        p->x = x;
+        TRY(make_room(p, count, f));
+        add_all(p, count, p->x, least);
+        return STATUS_OK;
+    }
+    const status outcome = candidates_add(p, count, x, least, f);
+    free(x);
+    return outcome;
+}
+
+double *candidates_products(const candidates *p)
+{
+    const size_t n = (size_t)p->n;
+    double *products = malloc(((size_t)p->count * n + 1) * sizeof *products);
+    for (int i = 0; i < p->count && products != NULL; i++)
+        sparse_mul(p->problem->K, p->x + (size_t)i * n, products + (size_t)i * n);
+    return products;
+}
+
+/* With x^T K x = 1 and y = K^-1 s A x - mu x an eigenvalue lies within sqrt(y^T K y) of mu. What y
+ * has of a larger mode k, c_k = x_k^T K y = x_k^T s A y/mu_k, comes from a part c_k/(mu_k - mu) of
+ * that mode in x, which moves the quotient mu by c_k^2/(mu_k - mu), or, where they are too close to
+ * be told apart, by their distance. The rest counts in full. */
+void candidates_judge(candidates *p, int i, double *residual, double *error)
+{
+    const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
+    double *y = p->work;
+    candidates_apply(p, x, y);
+    for (int k = 0; k < p->n; k++)
+        y[k] -= mu * x[k];
+    const double square = K_form(p, y) / (p->stiffness[i] * mu * mu);
+    double rest = square;
+    sparse_mul(p->problem->A, y, p->form);
+    *error = 0;
+    for (int k = 0; k < i; k++) {
+        const double part =
+                         dense_dot(p->n, p->x + (size_t)k * (size_t)p->n, p->form) / p->mu[k] / mu,
+                     apart = p->mu[k] / mu - 1;
+        rest -= part * part;
+        *error += part * part >= apart * apart ? apart : part * part / apart;
+    }
+    *residual = sqrt(square);
+    *error += fmax(rest, 0);
+}

@@ -1,0 +1,305 @@
+#include "harness/numerics/eigen.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/numerics/candidates.h"
+#include "harness/numerics/candidates_count.h"
+#include "harness/numerics/eigen_dense.h"
+#include "harness/numerics/lanczos.h"
+#include "harness/numerics/polish.h"
+
+enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
+enum { DENSE_AT_LAST_UP_TO = 700 }; /* where the iteration ends early: seconds, and the answer */
+
+/* Part of the largest size of an eigenvalue below which none is looked for by iteration. */
+static const double negligible = 1e-9;
+
+static void free_side(eigen_side *s)
+{
+    free(s->mu);
+    free(s->mode);
+    free(s->residual);
+    free(s->error);
+}
+
+void eigen_free(eigen_result *r)
+{
+    free_side(&r->positive);
+    free_side(&r->negative);
+    memset(r, 0, sizeof *r);
+}
+
+/* Candidates from one run of Lanczos, in what the present ones leave; mu[count], Kx[candidates x
+ * n]. */
+static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
+                           long *solutions, fault *f)
+{
+    const eigen_problem *e = p->problem;
+    const lanczos_problem l = {e->K, e->A, e->K_factor, p->sign, p->count, p->x, Kx};
+    int found = 0;
+    double *x;
+    TRY(lanczos_largest(&l, count, &found, mu, &x, solutions, f));
+    return candidates_take(p, found, x, least, f);
+}
+
+static status run_lanczos(candidates *p, int wanted, double least, long *solutions, fault *f)
+{
+    const int room = p->n - p->count - 1, count = wanted < room ? wanted : room;
+    double *mu = malloc((size_t)count * sizeof *mu), *Kx = candidates_products(p);
+    const status outcome =
+        mu != NULL && Kx != NULL
+            ? take_lanczos(p, count, mu, Kx, least, solutions, f)
+            : fault_set(f, STATUS_FAULT, "out of memory for %d eigenvectors", count);
+    free(mu);
+    free(Kx);
+    return outcome;
+}
+
+/* How many eigenvalues exist, as far as `enough`: counted above ever smaller values. Far down,
+ * where K is small beside A/s, the count may fail for want of pivoting: what is known by then
+ * stands. */
+static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
+                             eigen_result *r, fault *f)
+{
+    const double step = 30;
+    *exist = 0;
+    for (double s = scale; *exist < enough && s > least;) {
+        int above = 0;
+        s = fmax(s / step, least);
+        const status outcome = candidates_count_above(p, s, &above, r, f);
+        if (outcome == STATUS_FAULT)
+            return outcome;
+        if (outcome == STATUS_OK && above > *exist)
+            *exist = above;
+    }
+    return STATUS_OK;
+}
+
+/* Both sides (NULL: not asked for) from all eigenvectors. */
+static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
+                            fault *f)
+{
+    const double n = r->n;
+    r->dense_operations += n * n * n;
+    return eigen_dense_add((candidates *[]){up, down}, wanted, f);
+}
+
+/* Candidates until the inertia says that no eigenvalue above the last wanted one is missing. */
+static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
+{
+    int exist;
+    TRY(count_existing(p, wanted + SPARE, scale, least, &exist, r, f));
+    const int asked = wanted < exist ? wanted : exist;
+    int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
+    for (int pass = 0; missing > 0; pass++) {
+        if (pass == MAX_PASSES || p->count + missing >= p->n)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "%d of %d eigenvalues are missing after %d attempts", missing, asked,
+                             pass);
+        candidates_count_rest(p);
+        TRY(run_lanczos(p, missing, least, &r->solutions, f));
+        missing = asked - p->count;
+        if (missing <= 0)
+            TRY(candidates_count_missing(p, asked, &missing, r, f));
+    }
+    return STATUS_OK;
+}
+
+/* Of candidates that are not all, those that are the first ones stay. */
+static status keep_first(candidates *p, eigen_result *r, fault *f)
+{
+    int missing = 1;
+    while (p->count > 0) {
+        const status outcome = candidates_count_missing(p, p->count, &missing, r, f);
+        if (outcome == STATUS_FAULT || (outcome == STATUS_OK && missing == 0))
+            return outcome;
+        p->count--;
+    }
+    return STATUS_OK;
+}
+
+/* One side (0: the most positive) by iteration; densely where that ends early and the problem is
+ * small. */
+static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
+                         fault *f)
+{
+    const double scale = wanted > 0 ? candidates_scale(p, &r->solutions) : 0;
+    fault why = {""};
+    out->rounding += wanted > 0 && scale == 0;
+    if (scale == 0)
+        return STATUS_OK;
+    out->status =
+        fill(p, wanted, scale, fmax(negligible * scale, candidates_least(p->n, scale)), r, &why);
+    if (out->status == STATUS_NOT_CONVERGED && p->n <= DENSE_AT_LAST_UP_TO) {
+        p->count = 0;
+        out->status = solve_densely(side == 0 ? p : NULL, side == 0 ? NULL : p,
+                                    (int[]){wanted, wanted}, r, &why);
+    }
+    if (out->status == STATUS_OK)
+        return STATUS_OK;
+    snprintf(out->reason, sizeof out->reason, "%s", why.text);
+    return out->status == STATUS_FAULT ? fault_set(f, STATUS_FAULT, "%s", why.text)
+                                       : keep_first(p, r, f);
+}
+
+/* Leaves out what is rounding of A alone: with one such value all smaller ones are, for so much
+ * rounding moves any of them. It is asked of the largest, and where a value is small beside it. */
+static void drop_rounding(candidates *p, eigen_side *out)
+{
+    const double suspect = 1e-6; /* of the largest */
+    for (int i = 0; i < p->count; i++)
+        if ((i == 0 || p->mu[i] < suspect * p->mu[0]) &&
+            candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
+                                   p->x + (size_t)i * (size_t)p->n)) {
+            out->rounding = p->count - i;
+            p->count = i;
+        }
+}
+
+/* Residuals and errors of the first `count`; the largest error. */
+static double judge(candidates *p, int count, eigen_side *out, long *solutions)
+{
+    double largest = 0;
+    for (int i = 0; i < count; i++, (*solutions)++) {
+        candidates_judge(p, i, &out->residual[i], &out->error[i]);
+        largest = fmax(largest, out->error[i]);
+    }
+    return largest;
+}
+
+/* Where assembling K has moved the eigenvalues, its errors are in the vectors too. */
+static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
+{
+    enum { SWEEPS = 3 };
+    const double bearable =
+        1e-6; /* values are off by its square, and what their distance makes of it */
+    const double good = 1e-8;
+    if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
+        judge(p, count, out, &r->solutions);
+        return STATUS_OK;
+    }
+    TRY(candidates_refine(p, count, f));
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        TRY(polish(p, &r->solutions, f));
+        if (judge(p, count, out, &r->solutions) <= good)
+            break;
+    }
+    return STATUS_OK;
+}
+
+/* What has no digits has no value. */
+static void drop_lost(candidates *p, int count, eigen_side *out)
+{
+    const double noticeable = 1e-9; /* part of K that assembling it has changed */
+    const int rounded =
+        p->problem->K_rounding != NULL && candidates_departure(p, count) > noticeable;
+    for (int i = 0; i < count; i++) {
+        const double *x = p->x + (size_t)i * (size_t)p->n;
+        if (rounded)
+            out->error[i] += p->problem->K_rounding(p->problem->context, x) / p->stiffness[i];
+        if (out->error[i] <= EIGEN_LARGEST_ERROR)
+            continue;
+        p->mu[i] = NAN;
+        if (out->status == STATUS_OK)
+            snprintf(out->reason, sizeof out->reason,
+                     "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): refine less",
+                     i + 1, p->n, out->error[i]);
+        out->status = STATUS_NOT_CONVERGED;
+    }
+}
+
+/* The best of the candidates become the result. */
+static status hand_over(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
+{
+    const size_t n = (size_t)p->n;
+    drop_rounding(p, out);
+    const int count = p->count < wanted ? p->count : wanted;
+    out->residual = calloc((size_t)count + 1, sizeof *out->residual);
+    out->error = calloc((size_t)count + 1, sizeof *out->error);
+    if (out->residual == NULL || out->error == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d eigenvalues", count);
+    TRY(improve(p, count, out, r, f));
+    drop_lost(p, count, out);
+    for (int i = 0; i < count; i++) {
+        for (size_t k = 0; k < n; k++)
+            p->x[(size_t)i * n + k] /= sqrt(p->stiffness[i]);
+        p->mu[i] *= p->sign * p->problem->sign;
+    }
+    out->count = count;
+    out->mu = p->mu;
+    out->mode = p->x;
+    p->mu = p->x = NULL;
+    return STATUS_OK;
+}
+
+static status find(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
+                   fault *f)
+{
+    const int most = (e->largest > e->smallest ? e->largest : e->smallest) + SPARE + 1;
+    if ((r->n <= DENSE_UP_TO && !e->iterate) || most >= r->n)
+        return solve_densely(up, down, (int[]){e->largest, e->smallest}, r, f);
+    TRY(one_sparse(up, 0, e->largest, &r->positive, r, f));
+    return one_sparse(down, 1, e->smallest, &r->negative, r, f);
+}
+
+/* With what eigen_solve frees. */
+static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
+                    fault *f)
+{
+    TRY(candidates_alloc(up, e, e->sign, f));
+    TRY(candidates_alloc(down, e, -e->sign, f));
+    TRY(find(e, up, down, r, f));
+    TRY(hand_over(up, e->largest, &r->positive, r, f));
+    TRY(hand_over(down, e->smallest, &r->negative, r, f));
+    const eigen_side *worse = r->positive.status != STATUS_OK ? &r->positive : &r->negative;
+    return worse->status == STATUS_OK ? STATUS_OK
+                                      : fault_set(f, worse->status, "%s", worse->reason);
+}
+
+/* Of a matrix that is stored whole, its upper triangle: K - A/mu, of which little may be left, is
+ * symmetric whatever rounding has made of K and A. */
+static status take_upper(const sparse **a, by_numbers **whole, fault *f)
+{
+    if ((*a)->symmetric)
+        return STATUS_OK;
+    TRY(by_numbers_alloc(*a, whole, f));
+    by_numbers_take(*whole, *a);
+    *a = by_numbers_upper(*whole);
+    return STATUS_OK;
+}
+
+static status solve_upper(const eigen_problem *e, eigen_result *r, fault *f)
+{
+    eigen_problem upper = *e;
+    by_numbers *K = NULL, *A = NULL;
+    candidates up = {0}, down = {0};
+    status outcome = take_upper(&upper.K, &K, f);
+    if (outcome == STATUS_OK)
+        outcome = take_upper(&upper.A, &A, f);
+    if (outcome == STATUS_OK)
+        outcome = solve(&upper, &up, &down, r, f);
+    candidates_free(&up);
+    candidates_free(&down);
+    by_numbers_free(K);
+    by_numbers_free(A);
+    return outcome;
+}
+
+status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
+{
+    const int negative = factor_count(e->K_factor).negative_pivots;
+    memset(r, 0, sizeof *r);
+    r->n = e->K->n;
+    if (negative != 0)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "eigenvalues need a positive definite stiffness: this one has %d negative pivots%s",
+            negative,
+            negative > 0 ? ", the structure is beyond a critical point" : " (it is not symmetric)");
+    if (r->n == 0)
+        return STATUS_OK;
+    return solve_upper(e, r, f);
+}

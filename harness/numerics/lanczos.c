@@ -1,0 +1,192 @@
+/* OP = K^-1 s A is symmetric in the inner product of K (ARPACK's mode 2). Known eigenvectors X are
+ * taken out by the projection I - X X^T K: a repeated eigenvalue, of which one starting vector
+ * shows one copy only, comes out one copy at a time. */
+#include "harness/numerics/lanczos.h"
+
+#include <arpack/arpack.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_RESTARTS = 300, EXTRA_VECTORS = 12, PARAMETERS = 11, POINTERS = 14 };
+enum {
+    ENDED_EARLY = 1,
+    CONVERGED = 4
+}; /* ARPACK's verdict; where it tells how many values have converged */
+
+/* Of a vector: Rayleigh's quotient squares it. */
+static const double tolerance = 1e-10;
+
+typedef struct workspace {
+    int n, wanted, vectors, size;
+    double *numbers, *start, *basis, *vector, *work, *value;
+    int *integers, *parameter, *pointer, *select;
+} workspace;
+
+static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *f)
+{
+    memset(w, 0, sizeof *w);
+    w->n = n;
+    w->wanted = wanted;
+    w->vectors = wanted + EXTRA_VECTORS < room ? wanted + EXTRA_VECTORS : room;
+    w->size = w->vectors * (w->vectors + 8);
+    const size_t N = (size_t)n, vectors = (size_t)w->vectors;
+    w->numbers = malloc((4 * N + (size_t)w->size + vectors) * sizeof *w->numbers);
+    w->basis = malloc(N * vectors * sizeof *w->basis);
+    w->integers = calloc(PARAMETERS + POINTERS + vectors, sizeof *w->integers);
+    if (w->numbers == NULL || w->integers == NULL || w->basis == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for %d vectors of %d unknowns", w->vectors,
+                         n);
+    w->start = w->numbers;
+    w->vector = w->start + N;
+    w->work = w->vector + 3 * N;
+    w->value = w->work + w->size;
+    w->parameter = w->integers;
+    w->pointer = w->parameter + PARAMETERS;
+    w->select = w->pointer + POINTERS;
+    return STATUS_OK;
+}
+
+static void workspace_free(workspace *w)
+{
+    free(w->numbers);
+    free(w->basis);
+    free(w->integers);
+}
+
+/* The same start every time, with a part of every mode. */
+static void fill_start(int n, double x[])
+{
+    unsigned long long seed = 0x9E3779B97F4A7C15ull;
+    for (int i = 0; i < n; i++) {
+        seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+        x[i] = (double)(seed >> 11) / 9007199254740992.0 - 0.5;
+    }
+}
+
+/* x -= a-part of X, where each coefficient is measured with the dual vector. */
+static void deflate(int n, int known, const double *dual, const double *measured, const double *X,
+                    double x[])
+{
+    for (int k = 0; k < known; k++) {
+        const double *d = dual + (size_t)k * (size_t)n, *v = X + (size_t)k * (size_t)n;
+        double part = 0;
+        for (int i = 0; i < n; i++)
+            part += d[i] * measured[i];
+        for (int i = 0; i < n; i++)
+            x[i] -= part * v[i];
+    }
+}
+
+/* y = OP x; x becomes K y = s A x, as mode 2 wants it; both without their share of X. */
+static void apply(const lanczos_problem *p, double x[], double y[])
+{
+    const int n = p->K->n;
+    sparse_mul(p->A, x, y);
+    for (int i = 0; i < n; i++)
+        x[i] = y[i] *= p->sign;
+    factor_solve(p->K_factor, y);
+    deflate(n, p->known, p->KX, y, p->X, y);
+    deflate(n, p->known, p->X, x, p->KX, x);
+}
+
+/* Returns ARPACK's verdict: 0 when all wanted ones converged. */
+static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
+{
+    int ido = 0, info = 1;
+    w->parameter[0] = 1;
+    w->parameter[2] = MAX_RESTARTS;
+    w->parameter[6] = 2;
+    for (;;) {
+        dsaupd_c(&ido, "G", w->n, "LA", w->wanted, tolerance, w->start, w->vectors, w->basis, w->n,
+                 w->parameter, w->pointer, w->vector, w->work, w->size, &info);
+        if (ido != 2 && ido != 1 && ido != -1)
+            return info;
+        double *x = &w->vector[w->pointer[0] - 1], *y = &w->vector[w->pointer[1] - 1];
+        if (ido == 2) {
+            sparse_mul(p->K, x, y);
+        } else {
+            apply(p, x, y);
+            (*solutions)++;
+        }
+    }
+}
+
+/* ARPACK's order is the reverse of ours. */
+static void reverse(size_t n, int count, double x[])
+{
+    for (int low = 0, high = count - 1; low < high; low++, high--)
+        for (size_t k = 0; k < n; k++) {
+            const double kept = x[(size_t)low * n + k];
+            x[(size_t)low * n + k] = x[(size_t)high * n + k];
+            x[(size_t)high * n + k] = kept;
+        }
+}
+
+/* ARPACK's values and vectors, the largest first. The vectors are what is left of the basis. */
+static status take_vectors(workspace *w, int n, int wanted, int found, double mu[], double **x,
+                           fault *f)
+{
+    int info = 0;
+    dseupd_c(1, "A", w->select, w->value, w->basis, n, 0, "G", n, "LA", wanted, tolerance, w->start,
+             w->vectors, w->basis, n, w->parameter, w->pointer, w->vector, w->work, w->size, &info);
+    if (info != 0)
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the eigenvectors were not found (ARPACK says %d)", info);
+    for (int i = 0; i < found; i++)
+        mu[i] = w->value[found - 1 - i];
+    reverse((size_t)n, found, w->basis);
+    double *less = realloc(w->basis, (size_t)found * (size_t)n * sizeof *less);
+    *x = less != NULL ? less : w->basis;
+    w->basis = NULL;
+    return STATUS_OK;
+}
+
+/* With what lanczos_largest frees. */
+static status solve(const lanczos_problem *p, workspace *w, int wanted, int *found, double mu[],
+                    double **x, long *solutions, fault *f)
+{
+    const int n = p->K->n;
+    TRY(workspace_alloc(w, n, wanted, n - p->known, f));
+    fill_start(n, w->start);
+    deflate(n, p->known, p->KX, w->start, p->X, w->start);
+    const int info = iterate(p, w, solutions);
+    *found = info == 0 ? wanted : w->parameter[CONVERGED];
+    if (info != 0 && (info != ENDED_EARLY || *found == 0))
+        return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK says %d)",
+                         *found, wanted, info);
+    return take_vectors(w, n, wanted, *found, mu, x, f);
+}
+
+/* ARPACK keeps its place between calls in variables of its own: one thread at a time. A process
+ * that is forked meanwhile has no such thread. */
+static pthread_mutex_t arpack = PTHREAD_MUTEX_INITIALIZER;
+static pthread_once_t forks = PTHREAD_ONCE_INIT;
+
+static void lock(void)
+{
+    pthread_mutex_lock(&arpack);
+}
+
+static void unlock(void)
+{
+    pthread_mutex_unlock(&arpack);
+}
+
+static void mind_forks(void)
+{
+    pthread_atfork(lock, unlock, unlock);
+}
+
+status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
+                       long *solutions, fault *f)
+{
+    workspace w;
+    *x = NULL;
+    pthread_once(&forks, mind_forks);
+    lock();
+    const status outcome = solve(p, &w, wanted, found, mu, x, solutions, f);
+    unlock();
+    workspace_free(&w);
+    return outcome;
+}

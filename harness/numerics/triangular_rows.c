@@ -1,0 +1,138 @@
+#include "harness/numerics/triangular_rows.h"
+
+#include <math.h>
+
+#include "elements/math/real.h"
+
+enum { ROWS = TRIANGULAR_LANES };
+
+/* One number of each row, also where doubles stand. */
+typedef double lanes
+    __attribute__((vector_size(ROWS * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+/* x[columns]: the entries of the rows in a run, as the columns before have left them; their rest is
+ * 0 afterwards. */
+static inline __attribute__((always_inline)) void subtract(const triangular_rows *t, int first,
+                                                           int columns, lanes x[])
+{
+    const double *value[TRIANGULAR_RUN];
+    const int last = first + columns - 1, *row = t->row + t->begin[last], filled = t->filled[last];
+    lanes *rest = (lanes *)t->rest;
+    for (int c = 0; c < columns; c++) {
+        x[c] = rest[first + c];
+        rest[first + c] = (lanes){0};
+    }
+    for (int c = 0; c < columns; c++) {
+        value[c] = t->value + t->begin[first + c];
+        for (int r = c + 1; r < columns; r++)
+            x[r] -= *value[c]++ * x[c];
+    }
+    for (int p = 0; p < filled; p++) {
+        lanes sum = rest[row[p]];
+        for (int c = 0; c < columns; c++)
+            sum -= value[c][p] * x[c];
+        rest[row[p]] = sum;
+    }
+}
+
+/* Entries of L in a run, and what they leave of the rows' own block: own[s][r] of row r in column
+ * s. The numbers are known when this is compiled. */
+static inline __attribute__((always_inline)) void use(const triangular_rows *t, int first,
+                                                      int columns, int rows, lanes own[ROWS])
+{
+    lanes x[TRIANGULAR_RUN];
+    subtract(t, first, columns, x);
+    for (int c = 0; c < columns; c++) {
+        const lanes l = x[c] / t->D[first + c];
+        double *to = t->value + t->begin[first + c] + t->filled[first + c];
+        t->filled[first + c] += rows;
+        if (rows == ROWS)
+            *(lanes *)to = l;
+        else
+            for (int r = 0; r < rows; r++)
+                to[r] = l[r];
+        for (int r = 0; r < rows; r++)
+            own[r] -= l[r] * x[c];
+    }
+}
+
+static inline __attribute__((always_inline)) void
+use_run(const triangular_rows *t, triangular_run run, int rows, lanes own[ROWS])
+{
+    switch (run.count) {
+    case 1:
+        use(t, run.first, 1, rows, own);
+        break;
+    case 2:
+        use(t, run.first, 2, rows, own);
+        break;
+    case 3:
+        use(t, run.first, 3, rows, own);
+        break;
+    case 4:
+        use(t, run.first, 4, rows, own);
+        break;
+    case 5:
+        use(t, run.first, 5, rows, own);
+        break;
+    case 6:
+        use(t, run.first, 6, rows, own);
+        break;
+    default:
+        use(t, run.first, TRIANGULAR_RUN, rows, own);
+    }
+}
+
+/* The rows' own columns, after those before them. 0: a pivot is zero. */
+static inline __attribute__((always_inline)) int factor_own(const triangular_rows *t, int first,
+                                                            int rows, lanes own[ROWS])
+{
+    for (int c = 0; c < rows; c++) {
+        const double pivot = own[c][c];
+        double *l = t->value + t->begin[first + c];
+        t->D[first + c] = pivot;
+        t->filled[first + c] = rows - 1 - c;
+        if (pivot == 0)
+            return 0;
+        for (int r = c + 1; r < rows; r++) {
+            const double x = own[c][r];
+            l[r - c - 1] = x / pivot;
+            for (int s = c + 1; s <= r; s++)
+                own[s][r] -= l[s - c - 1] * x;
+        }
+    }
+    return 1;
+}
+
+static inline __attribute__((always_inline)) int
+factor_rows(const triangular_rows *t, const double a[], int group, int first, int rows)
+{
+    lanes own[ROWS], *rest = (lanes *)t->rest + first;
+    for (int p = t->begin_A[first]; p < t->begin_A[first + rows]; p++)
+        t->rest[t->place[p]] += a[t->source[p]];
+    for (int r = 0; r < rows; r++) {
+        own[r] = rest[r];
+        rest[r] = (lanes){0};
+        t->diagonal[first + r] = fabs(own[r][r]);
+    }
+    for (int i = t->run_of_group[group]; i < t->run_of_group[group + 1]; i++)
+        use_run(t, t->run[i], rows, own);
+    return factor_own(t, first, rows, own);
+}
+
+int REAL_NAMED(triangular_rows_factor)(const triangular_rows *t, const double a[])
+{
+    int regular = 1;
+    for (int group = 0; group < t->groups && regular; group++) {
+        const int first = t->first_of_group[group], rows = t->first_of_group[group + 1] - first;
+        if (rows == 4)
+            regular = factor_rows(t, a, group, first, 4);
+        else if (rows == 3)
+            regular = factor_rows(t, a, group, first, 3);
+        else if (rows == 2)
+            regular = factor_rows(t, a, group, first, 2);
+        else
+            regular = factor_rows(t, a, group, first, 1);
+    }
+    return regular;
+}
