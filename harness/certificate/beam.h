@@ -4,8 +4,8 @@
 #define BEAMWORK_BEAM_H
 
 #include "cases/scene/scene.h"
-#include "harness/catalogue/formulation.h"
 #include "harness/certificate/measures.h"
+#include "harness/formulations/formulation.h"
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
 

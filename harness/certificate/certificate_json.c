@@ -3,8 +3,8 @@
 #include <jansson.h>
 #include <math.h>
 
-#include "harness/adapters/adapters.h"
-#include "harness/catalogue/environment.h"
+#include "harness/formulations/adapters.h"
+#include "harness/formulations/environment.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 

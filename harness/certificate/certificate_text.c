@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/adapters/adapters.h"
+#include "harness/formulations/adapters.h"
 #include "harness/tables/paragraph.h"
 
 enum { NAME = 14, INDENT = 18, MEASURE = 36, COLUMN = 8 };

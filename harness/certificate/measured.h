@@ -2,9 +2,9 @@
 #ifndef BEAMWORK_MEASURED_H
 #define BEAMWORK_MEASURED_H
 
-#include "harness/catalogue/formulation.h"
 #include "harness/certificate/measures.h"
 #include "harness/contract/claims.h"
+#include "harness/formulations/formulation.h"
 
 typedef void measured_run(const formulation *chosen, claims *, measures *out);
 

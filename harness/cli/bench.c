@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulations.h"
 #include "harness/cli/cli.h"
 #include "harness/command/help.h"
 #include "harness/contest/contest.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/record/csv.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"

@@ -1,11 +1,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
 #include "harness/certificate/certificate_json.h"
 #include "harness/certificate/certificate_text.h"
 #include "harness/cli/cli.h"
 #include "harness/command/named.h"
+#include "harness/formulations/formulations.h"
 #include "harness/record/output.h"
 
 typedef struct found {

@@ -6,8 +6,8 @@
 
 #include "cases/scene/inputs.h"
 #include "elements/shared/choice.h"
-#include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
+#include "harness/formulations/registry.h"
 #include "harness/scene_writer/meaning.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"

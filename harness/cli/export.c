@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
 #include "harness/export/deck.h"
+#include "harness/formulations/parameters.h"
 #include "harness/record/output.h"
 #include "harness/study/cell.h"
 

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "elements/feature.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
 #include "harness/cli/cli.h"
 #include "harness/cli/list_formulation.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/request/list_json.h"
 #include "harness/request/list_subject.h"
 #include "harness/request/runs_on.h"

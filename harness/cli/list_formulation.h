@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_LIST_FORMULATION_H
 #define BEAMWORK_LIST_FORMULATION_H
 
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/truth/rules.h"
 
 /* rules NULL: the ledger is not known. */

@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
-#include "harness/catalogue/parameters.h"
 #include "harness/cli/cli.h"
 #include "harness/command/defaults.h"
 #include "harness/command/guard.h"
 #include "harness/command/supports_told.h"
+#include "harness/formulations/parameters.h"
 #include "harness/record/csv.h"
 #include "harness/record/follow_record.h"
 #include "harness/record/json.h"

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/environment.h"
 #include "harness/cli/cli.h"
 #include "harness/command/help.h"
 #include "harness/completion/completion.h"
 #include "harness/completion/offer.h"
+#include "harness/formulations/environment.h"
 #include "harness/manual/manual.h"
 #include "harness/tables/paragraph.h"
 

@@ -6,10 +6,10 @@
 
 #include "cases/scene/omission.h"
 #include "cases/scene/unit.h"
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/parameters.h"
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/parameters.h"
 #include "harness/model/features.h"
 #include "harness/project/scene_truths.h"
 #include "harness/study/cell.h"

@@ -4,8 +4,8 @@
 
 #include <argp.h>
 
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/scene_file/scene_file.h"
 
 enum {

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/process/words.h"
+#include "harness/formulations/words.h"
 #include "harness/record/output.h"
 #include "harness/record/output_folder.h"
 

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/catalogue/formulations.h"
 #include "harness/command/command.h"
+#include "harness/formulations/formulations.h"
 #include "harness/record/output.h"
 
 /* What can happen, and the line for each, written before it does. */

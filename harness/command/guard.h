@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_GUARD_H
 #define BEAMWORK_GUARD_H
 
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 
 /* From now on; seconds: 0 for no limit. Does nothing for formulations of the program's own. */
 void guard_formulation(const formulation *chosen, int seconds);

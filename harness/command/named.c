@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/formulation_list.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/plugin.h"
 #include "harness/command/message.h"
-#include "harness/process/process.h"
+#include "harness/formulations/formulation_list.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/plugin.h"
+#include "harness/formulations/process.h"
 #include "harness/truth/data_place.h"
 
 void named_add(command_request *r, const char *text)

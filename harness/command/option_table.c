@@ -7,7 +7,8 @@ const verb_option option_table[OPTION_MOST] = {
      "formulation and its options; again for another, 'all' for every one", 0},
     {"element", 'x', "FILE|exec:COMMAND",
      "a formulation of your own: a shared object (with a '/': ./mine.so), or a command that speaks "
-     "the protocol of harness/process ('exec:python3 my_beam.py'); again for another",
+     "the protocol of harness/formulations/protocol.md ('exec:python3 my_beam.py'); again for "
+     "another",
      0},
     {"elements", 'n', "N[,N...]",
      "elements per member; of each piece where loads begin, end or act within it", 0},

@@ -6,9 +6,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "harness/catalogue/registry.h"
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
+#include "harness/formulations/registry.h"
 #include "harness/project/scene_truths.h"
 
 static status add_path(const char *path, scenes *out, fault *f)

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/select.h"
+#include "harness/formulations/select.h"
 
 #include "harness/comparison/results_case.h"
 #include "harness/comparison/results_sweep.h"

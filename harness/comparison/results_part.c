@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/select.h"
 #include "harness/comparison/results.h"
+#include "harness/formulations/select.h"
 
 enum { NAME = 2048 };
 

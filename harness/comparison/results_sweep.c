@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/assignment.h"
-#include "harness/catalogue/select.h"
 #include "harness/comparison/table_reader.h"
+#include "harness/formulations/assignment.h"
+#include "harness/formulations/select.h"
 #include "harness/numerics/memory.h"
 #include "harness/truth/handles.h"
 

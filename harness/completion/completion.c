@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
 #include "harness/completion/names.h"
+#include "harness/formulations/case_find.h"
 #include "harness/scene_file/scene_file.h"
 
 enum { SAID = 400 };

@@ -4,10 +4,10 @@
 #include <strings.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
 #include "harness/command/case_input.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/truth/glossary.h"
 #include "harness/truth/truths.h"
 

@@ -7,11 +7,11 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
-#include "harness/adapters/chart.h"
-#include "harness/adapters/stencil.h"
 #include "harness/analysis/solve.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/stencil.h"
 #include "harness/model/model.h"
 
 enum { SIX = 6, END = 1 };

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/adapters/adapted.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/adapted.h"
 
 enum { GUARD = 64, M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/adapters/chart.h"
-#include "harness/adapters/stencil.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/stencil.h"
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 

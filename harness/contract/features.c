@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/effects.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 

@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/adapters/adapted.h"
-#include "harness/adapters/chart.h"
-#include "harness/adapters/stencil.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/adapted.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/stencil.h"
 
 enum { N = SPECIMEN_COORDINATES };
 

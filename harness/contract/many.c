@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/adapters/chart.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/chart.h"
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES, MANY = 5 };
 

@@ -6,9 +6,9 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/adapters/chart.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/chart.h"
 
 enum { N = SPECIMEN_COORDINATES };
 

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/adapters/chart.h"
-#include "harness/adapters/stencil.h"
 #include "harness/contract/checks.h"
 #include "harness/contract/specimens.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/stencil.h"
 
 enum { N = SPECIMEN_COORDINATES };
 

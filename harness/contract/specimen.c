@@ -8,8 +8,8 @@
 #include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/adapters/adapters.h"
-#include "harness/adapters/chart.h"
+#include "harness/formulations/adapters.h"
+#include "harness/formulations/chart.h"
 
 enum { SETTLING = 30 };
 

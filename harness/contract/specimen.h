@@ -3,8 +3,8 @@
 #ifndef BEAMWORK_SPECIMEN_H
 #define BEAMWORK_SPECIMEN_H
 
-#include "harness/catalogue/formulation.h"
 #include "harness/contract/profiles.h"
+#include "harness/formulations/formulation.h"
 
 enum {
     SPECIMEN_STRAINS = ELEMENT_MAX_STRAINS,

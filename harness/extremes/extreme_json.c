@@ -1,7 +1,7 @@
 #include "harness/extremes/extreme_json.h"
 
-#include "harness/catalogue/environment.h"
 #include "harness/extremes/extreme_record.h"
+#include "harness/formulations/environment.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 

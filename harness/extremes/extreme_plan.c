@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 
 /* Decimal fractions as a table of truths has them. */

@@ -1,7 +1,7 @@
 /* Any bytes as the words of the command line that have a grammar: formulation with options,
  * selection, thresholds. */
-#include "harness/catalogue/formulation.h"
 #include "harness/comparison/comparison.h"
+#include "harness/formulations/formulation.h"
 #include "harness/fuzz/fuzz.h"
 #include "harness/study/sweep.h"
 

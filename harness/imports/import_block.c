@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/case_find.h"
+#include "harness/formulations/case_find.h"
 #include "harness/imports/conversion.h"
 #include "harness/imports/import_cells.h"
 #include "harness/study/plan.h"

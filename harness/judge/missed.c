@@ -3,8 +3,8 @@
 #include <fnmatch.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/truth/truth.h"
 
 static int is_run(const sweep *s, const case_type *type, const element_type *element)

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/environment.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/plugin.h"
+#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/plugin.h"
 #include "harness/library/call.h"
 #include "harness/library/known.h"
 

@@ -1,8 +1,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/parameters.h"
 #include "harness/library/call.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"

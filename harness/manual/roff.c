@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "harness/catalogue/environment.h"
+#include "harness/formulations/environment.h"
 
 enum { WIDTH = 78 };
 

@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
-#include "harness/adapters/adapters.h"
+#include "harness/formulations/adapters.h"
+#include "harness/formulations/process.h"
 #include "harness/model/discrete.h"
 #include "harness/model/features.h"
 #include "harness/model/kinematics.h"
@@ -16,7 +17,6 @@
 #include "harness/model/spring.h"
 #include "harness/model/turns.h"
 #include "harness/numerics/memory.h"
-#include "harness/process/process.h"
 
 /* In scenes with a motion, loads along members do their work on the field that its mass has. */
 static int takes_loads(const model *m)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/environment.h"
+#include "harness/formulations/environment.h"
 #include "harness/pace/pace_reach.h"
 #include "harness/pace/pace_record.h"
 #include "harness/record/json.h"

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "elements/shared/number.h"
-#include "harness/catalogue/case_find.h"
+#include "harness/formulations/case_find.h"
 #include "harness/pace/pace_plan.h"
 #include "harness/pace/pace_verdict.h"
 

@@ -59,7 +59,7 @@ put 644 harness/completion/_beamwork "$SHAREDIR/zsh/site-functions/_beamwork"
 put 644 README.md "$SHAREDIR/doc/beamwork/README.md"
 put 644 LICENSE "$SHAREDIR/doc/beamwork/LICENSE"
 # Where README.md and the manual send authors of formulations.
-for file in CONTRIBUTING.md harness/process/README.md; do put 644 "$file" "$SHAREDIR/doc/beamwork/$file"; done
+for file in CONTRIBUTING.md harness/formulations/protocol.md; do put 644 "$file" "$SHAREDIR/doc/beamwork/$file"; done
 
 install -D -m 644 "$list" "$DESTDIR$data/installed"
 echo "installed $(wc -l <"$list") files below ${DESTDIR:-}$PREFIX"

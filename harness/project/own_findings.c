@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/judge/proposal.h"
 #include "harness/judge/verdict.h"
 #include "harness/language/line.h"

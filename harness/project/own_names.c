@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/language/mistakes.h"
 
 static int is_among(const case_type *const list[], const case_type *type)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/language/line.h"
 #include "harness/project/own_names.h"
 #include "harness/project/own_table.h"

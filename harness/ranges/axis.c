@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/shared/number.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 
 enum { TEXT = 128 };
 

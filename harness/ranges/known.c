@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 #include "harness/model/features.h"
 #include "harness/project/scene_truths.h"
 #include "harness/scene_writer/write.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 #include "harness/ranges/survey.h"
 
 static const double batch_cost = 0.5; /* [s] */

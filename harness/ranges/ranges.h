@@ -4,7 +4,7 @@
 #define BEAMWORK_RANGES_H
 
 #include "cases/scene/omission.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/ranges/design.h"
 #include "harness/ranges/rows.h"
 #include "harness/scene_file/scene_file.h"

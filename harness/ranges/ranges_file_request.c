@@ -1,7 +1,7 @@
 #include <string.h>
 
-#include "harness/catalogue/environment.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/environment.h"
+#include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_file_impl.h"
 #include "harness/timing/price.h"
 

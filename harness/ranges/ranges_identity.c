@@ -1,6 +1,6 @@
 #include "harness/ranges/ranges_identity.h"
 
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 
 static void add_count(digest *plan, long count)
 {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/assignment.h"
+#include "harness/formulations/assignment.h"
 
 void ranges_points_values(const ranges *r, const double at[], double value[CASE_MAX_PARAMETERS])
 {

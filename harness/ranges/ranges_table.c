@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/words.h"
 #include "harness/model/missing.h"
-#include "harness/process/words.h"
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/tables/paragraph.h"
 

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_points.h"
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/study/cell.h"

@@ -1,4 +1,4 @@
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/tables/paragraph.h"
 

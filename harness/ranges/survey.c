@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_points.h"
 #include "harness/schema/assumptions.h"
 #include "harness/study/expense.h"

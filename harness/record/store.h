@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_STORE_H
 #define BEAMWORK_STORE_H
 
-#include "harness/catalogue/environment.h"
+#include "harness/formulations/environment.h"
 #include "harness/judge/judgement.h"
 #include "harness/record/record.h"
 

@@ -5,9 +5,9 @@
 
 #include "elements/feature.h"
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 #include "harness/request/runs_on.h"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 
 /* All names that may be asked about, one after the other. */
 static const char *name_at(const void *context, int i)

@@ -1,7 +1,7 @@
 #include "harness/request/runs_on.h"
 
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/missing.h"
 #include "harness/study/cell.h"
 #include "harness/study/omission.h"

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
 #include "harness/certificate/certificate.h"
+#include "harness/formulations/formulations.h"
 #include "harness/judge/families.h"
 #include "harness/numerics/memory.h"
 #include "harness/study/run.h"

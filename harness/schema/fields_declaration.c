@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "elements/feature.h"
-#include "harness/adapters/adapters.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/process/process.h"
+#include "harness/formulations/adapters.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/process.h"
 #include "harness/schema/fields_keys.h"
 
 static const element_type *type_of(const subject *s)

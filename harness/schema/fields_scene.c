@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "cases/scene/names.h"
-#include "harness/catalogue/assignment.h"
+#include "harness/formulations/assignment.h"
 #include "harness/scene_writer/meaning.h"
 #include "harness/schema/assumptions.h"
 #include "harness/schema/fields_keys.h"

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_RESULT_H
 #define BEAMWORK_RESULT_H
 
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/model.h"
 #include "harness/solver/outcome.h"
 #include "harness/solver/shapes.h"

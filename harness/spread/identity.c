@@ -6,10 +6,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "harness/catalogue/environment.h"
 #include "harness/command/case_input.h"
 #include "harness/command/command_words.h"
-#include "harness/process/words.h"
+#include "harness/formulations/environment.h"
+#include "harness/formulations/words.h"
 
 static void name_build(char *out, size_t size)
 {

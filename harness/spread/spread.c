@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/process/words.h"
+#include "harness/formulations/words.h"
 #include "harness/record/output.h"
 #include "harness/shards/forecast.h"
 #include "harness/shards/merge.h"

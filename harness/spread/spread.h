@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_SPREAD_H
 #define BEAMWORK_SPREAD_H
 
-#include "harness/catalogue/environment.h"
 #include "harness/command/command.h"
+#include "harness/formulations/environment.h"
 #include "harness/shards/work.h"
 
 /* How it ended. */

@@ -4,8 +4,8 @@
 
 #include "harness/study/sweep.h"
 
-/* Before the run: keeps the quantities that the selection (catalogue/select.h; NULL: all) holds for
- * with some formulation, and the formulations it holds for with some quantity. REFUSED: it is
+/* Before the run: keeps the quantities that the selection (formulations/select.h; NULL: all) holds
+ * for with some formulation, and the formulations it holds for with some quantity. REFUSED: it is
  * malformed, has a word that names nothing, or holds for nothing. */
 status narrow_to(sweep *s, const char *select, fault *f);
 /* The same of a scene by itself, before it is planned. Its formulation may still be open (type

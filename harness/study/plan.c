@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/missing.h"
 #include "harness/truth/truth.h"
 

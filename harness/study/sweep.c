@@ -1,6 +1,6 @@
 #include "harness/study/sweep.h"
 
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/features.h"
 
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 
 #include <stdio.h>
 
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/select.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/select.h"
 #include "harness/study/cell.h"
 #include "harness/study/imported.h"
 #include "harness/study/omission.h"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "cases/scene/omission.h"
-#include "harness/catalogue/parameters.h"
 #include "harness/division/division_words.h"
+#include "harness/formulations/parameters.h"
 #include "harness/judge/rounding.h"
 #include "harness/model/features.h"
 #include "harness/schema/assumptions.h"

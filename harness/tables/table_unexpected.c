@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/words.h"
 #include "harness/judge/rounding.h"
 #include "harness/judge/sentence.h"
-#include "harness/process/words.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/tables/paragraph.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/formulations.h"
 #include "harness/truth/truths.h"
 
 static void read_table(void)

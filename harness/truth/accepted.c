@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/formulations.h"
 #include "harness/truth/columns.h"
 
 static status accept_all(columns *c)

@@ -8,8 +8,8 @@
 
 #include "elements/feature.h"
 #include "elements/shared/choice.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/model.h"
 #include "harness/truth/columns.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/truth/accepted.h"
 #include "harness/truth/columns.h"
 #include "harness/truth/truth_index.h"

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
 #include "harness/study/cell.h"
 
 enum { AS, SUPPORT, LOADED };

@@ -7,8 +7,8 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
 #include "harness/test/cells.h"
 #include "harness/test/scenes.h"
 

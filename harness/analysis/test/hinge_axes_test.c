@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "harness/analysis/test/hinged.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 
 enum { REACTIONS = 3 };
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/analysis/test/hinged.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/scenes.h"
 
 /* An end that turns or slides at a support (0), or a clamped node that it is released from (1):

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "elements/test/worst.h"
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/ask.h"
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};

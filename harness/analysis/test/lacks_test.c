@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/analysis/solve.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/missing.h"
 #include "harness/test/accepted.h"
 

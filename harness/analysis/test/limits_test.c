@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/ask.h"
 
 /* Asks a case on a mesh; 1: answered. */

@@ -6,9 +6,9 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/ask.h"
 #include "harness/test/cells.h"
 #include "harness/test/scenes.h"

@@ -7,7 +7,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/math/rotation.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/model_impl.h"
 #include "harness/solver/modes.h"
 

@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/study/cell.h"
 #include "harness/test/ask.h"
 

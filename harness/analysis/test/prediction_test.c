@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
+#include "harness/formulations/case_find.h"
 #include "harness/test/cells.h"
 
 static void solve(const char *const assignment[], cell_result *out)

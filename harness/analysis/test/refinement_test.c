@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/registry.h"
 #include "harness/solver/refinement.h"
 #include "harness/test/accepted.h"
 #include "harness/test/ask.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "harness/analysis/test/moves.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/missing.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "cases/case.h"
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
 #include "harness/test/cells.h"
 
 static status run(const case_type *type, const char *chosen, int n, const char *const assignment[],

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
 #include "harness/test/cells.h"
 
 static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all,

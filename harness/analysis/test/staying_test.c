@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/test/sections.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/ask.h"
 #include "harness/test/scenes.h"
 

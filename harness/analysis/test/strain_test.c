@@ -8,7 +8,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/ask.h"
 #include "harness/test/scenes.h"
 

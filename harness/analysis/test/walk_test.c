@@ -3,7 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/catalogue/case_find.h"
+#include "harness/formulations/case_find.h"
 #include "harness/test/cells.h"
 
 enum { STATIONS = 15 };

@@ -9,8 +9,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/catalogue/formulation.h"
 #include "harness/conserving/conserving.h"
+#include "harness/formulations/formulation.h"
 #include "harness/inertia/inertia.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"

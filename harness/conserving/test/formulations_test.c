@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "elements/test/sections.h"
-#include "harness/catalogue/registry.h"
 #include "harness/conserving/test/flight.h"
+#include "harness/formulations/registry.h"
 #include "harness/test/ask.h"
 
 enum { STEPS = 60 };

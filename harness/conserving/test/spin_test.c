@@ -3,11 +3,11 @@
  * for every formulation, about any axis, up to 3 rad a step. */
 #include <stdio.h>
 
-#include "harness/catalogue/registry.h"
 #include "harness/conserving/test/flight.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
+#include "harness/formulations/registry.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/catalogue/registry.h"
 #include "harness/contract/checks.h"
+#include "harness/formulations/registry.h"
 
 static void tell(const char *key, const checks_family *family, const claims *c)
 {

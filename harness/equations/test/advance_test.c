@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/catalogue/registry.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model.h"
 #include "harness/model/supports.h"

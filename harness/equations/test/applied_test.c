@@ -7,10 +7,10 @@
 #include "elements/math/dense.h"
 #include "elements/test/sections.h"
 #include "harness/analysis/solve.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/loads.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/kinematics.h"
 #include "harness/test/scenes.h"
 

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "harness/analysis/solve.h"
-#include "harness/catalogue/registry.h"
 #include "harness/equations/linearise.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/kinematics.h"
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };

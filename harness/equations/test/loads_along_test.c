@@ -2,9 +2,9 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/catalogue/formulation.h"
 #include "harness/equations/linearise.h"
 #include "harness/equations/rotating_frame.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/kinematics.h"
 
 enum { MOST = 40 };

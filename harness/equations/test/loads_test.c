@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "elements/test/sections.h"
-#include "harness/catalogue/formulation.h"
 #include "harness/equations/loads.h"
 #include "harness/equations/test/turned_body.h"
+#include "harness/formulations/formulation.h"
 #include "harness/test/scenes.h"
 
 /* Five points: the error is of the fourth order. */

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/catalogue/formulation.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 

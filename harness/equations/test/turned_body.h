@@ -10,9 +10,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/registry.h"
 #include "harness/equations/advance.h"
 #include "harness/equations/linearise.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/kinematics.h"
 #include "harness/test/scenes.h"
 

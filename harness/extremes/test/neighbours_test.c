@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
 #include "harness/extremes/extreme_judge.h"
 #include "harness/extremes/extreme_sweep.h"
+#include "harness/formulations/case_find.h"
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;

@@ -12,7 +12,7 @@
 #include "cases/shared/timed.h"
 #include "elements/math/vec3.h"
 #include "elements/test/random.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/inertia/carried.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/kinematics.h"

@@ -2,7 +2,7 @@
  * that closes a run. */
 #include "harness/judge/overview.h"
 
-#include "harness/catalogue/formulations.h"
+#include "harness/formulations/formulations.h"
 
 #include "harness/judge/test/bench.h"
 

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 

@@ -6,9 +6,9 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
 #include "harness/judge/sound.h"
 
 enum { STEPS = 3, ELEMENTS = 5 };

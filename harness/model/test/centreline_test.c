@@ -6,7 +6,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/kinematics.h"
 #include "harness/test/scenes.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "elements/test/chain.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/numerics/clock.h"
 
 enum { REPEATS = 40, CALLS = 300, PHASES = 4 };

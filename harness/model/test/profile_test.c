@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/section/taper.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/model_impl.h"
 
 enum { ELEMENTS = 5 };

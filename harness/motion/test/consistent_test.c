@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "cases/shared/timed.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/motion/test/moving.h"
 
 extern const element_type element_beamw_consistent, element_collocation,

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/parameters.h"
 #include "harness/test/ask.h"
 
 enum { MOVING_STATIONS = 20 };

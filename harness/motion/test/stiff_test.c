@@ -3,8 +3,8 @@
 #include "harness/analysis/solve.h"
 #include <math.h>
 
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/test/moving.h"
 

@@ -7,8 +7,8 @@
 #include <stdio.h>
 
 #include "cases/shared/timed.h"
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/parameters.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
 #include "harness/study/cell.h"
 
 typedef struct swung {

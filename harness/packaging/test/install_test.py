@@ -182,7 +182,7 @@ class Installed(ProgramTest):
         page = (self.root / "share" / "man" / "man7" / "beamwork-element.7").read_text("utf-8")
         for name in re.findall(r"\.Pa (share/\S+)", page):
             self.assertTrue((self.root / name).exists(), name)
-        self.assertIn("doc/beamwork/harness/process/README.md", page)
+        self.assertIn("doc/beamwork/harness/formulations/protocol.md", page)
         self.assertTrue((self.root / "share" / "doc" / "beamwork" / "CONTRIBUTING.md").exists())
 
     def test_report(self):

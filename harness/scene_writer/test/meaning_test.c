@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/scene_writer/meaning.h"
 #include "harness/scene_writer/write.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "cases/scene/unit.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/scene_file/scene_file.h"
 #include "harness/scene_file/test/same_scene.h"
 #include "harness/scene_writer/write.h"

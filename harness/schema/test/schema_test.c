@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/schema/schema.h"
 #include "harness/study/serialise.h"
 

@@ -4,7 +4,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/formulation.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
+#include "harness/formulations/case_find.h"
 #include "harness/spread/cells.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"

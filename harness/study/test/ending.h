@@ -5,8 +5,8 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "harness/catalogue/formulation.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/missing.h"
 
 enum { KILLED, ENDED, HANGING, STOPPED };

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/registry.h"
 #include "harness/study/expense.h"
 #include "harness/study/plan.h"
 

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/registry.h"
 #include "harness/project/scene_truths.h"
 #include "harness/record/store.h"
 #include "harness/scene_file/scene_file.h"

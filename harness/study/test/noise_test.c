@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/registry.h"
 #include "harness/study/noise.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"

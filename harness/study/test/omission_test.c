@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/parameters.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
 #include "harness/model/features.h"
 #include "harness/study/cell.h"
 #include "harness/study/expense.h"

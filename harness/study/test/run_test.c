@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/formulation.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"
 #include "harness/truth/truth.h"

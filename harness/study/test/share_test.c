@@ -3,8 +3,8 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/registry.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 #include "harness/study/test/same_cell.h"

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/catalogue/case_find.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/registry.h"
 #include "harness/judge/reach.h"
 #include "harness/test/cells.h"
 #include "harness/timing/against.h"

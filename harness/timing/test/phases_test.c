@@ -3,7 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <time.h>
 
-#include "harness/catalogue/case_find.h"
+#include "harness/formulations/case_find.h"
 #include "harness/test/cells.h"
 
 static const element_type *sleepy_type;

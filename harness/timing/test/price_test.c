@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/timing/price.h"
 
 static const price_row rows[] = {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/truth/test/truths_file.h"
 #include "harness/truth/truths.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "elements/test/random.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/registry.h"
 #include "harness/truth/truth_index.h"
 
 enum { ROWS = 500, CASES = 3, NAMES = 4 };

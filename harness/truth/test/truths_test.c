@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
-#include "harness/catalogue/formulations.h"
-#include "harness/catalogue/registry.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
 #include "harness/truth/test/truths_file.h"
 #include "harness/truth/truth.h"
 #include "harness/truth/truths.h"

@@ -1,0 +1,187 @@
+#include "harness/formulations/adapters.h"
+
+#include <string.h>
+
+#include "harness/formulations/places.h"
+
+static size_t data_size(const element_request *request)
+{
+    const element_type *given = request->type;
+    return sizeof(element_data) + (given->data_size != NULL ? given->data_size(request) : 0);
+}
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    const element_type *given = request->type;
+    out->given = given;
+    out->nodes = element_nodes(given, request->options);
+    out->strains = given->force == NULL ? element_strains(given, request->options)
+                   : out->nodes == 2    ? places_strains_two(request->options)
+                                        : places_strains_three(request->options);
+    out->length = request->length;
+    field_mass_prepare(request, out->nodes, &out->mass);
+    return given->prepare(request, (element_data *)out->own, f);
+}
+
+static status stress(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
+{
+    return d->given->stress(adapted_own(d), e, inner, out);
+}
+
+static double update(const element_data *d, const double de[], const double memory[],
+                     double inner[])
+{
+    return d->given->update(adapted_own(d), de, memory, inner);
+}
+
+static void rest(const element_data *d, double inner[])
+{
+    d->given->rest(adapted_own(d), inner);
+}
+
+static void geometric(const element_data *d, const double sigma[], double G[])
+{
+    d->given->geometric(adapted_own(d), sigma, G);
+}
+
+static status inertia(const element_data *d, const node_state x[],
+                      const element_rotating_frame *frame, inertia_output *out)
+{
+    return d->given->inertia(adapted_own(d), x, frame, out);
+}
+
+static const char *trouble(const element_data *d)
+{
+    return d->given->trouble(adapted_own(d));
+}
+
+static void stress_many(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    const element_data *own[ADAPTED_TOGETHER];
+    for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
+        const int part = adapted_owns(count - i, data + i, own);
+        data[0]->given->stress_many(part, own, e + i, inner + i, out + i, outcome + i);
+    }
+}
+
+static double tension(const element_data *d, const double sigma[])
+{
+    return d->given->tension(adapted_own(d), sigma);
+}
+
+static void along(int count, const element_data *const data[], const node_state x[],
+                  along_output out[], status outcome[])
+{
+    const element_data *own[ADAPTED_TOGETHER];
+    for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
+        const int part = adapted_owns(count - i, data + i, own);
+        data[0]->given->along(part, own, x + (ptrdiff_t)i * data[0]->nodes, out + i, outcome + i);
+    }
+}
+
+static status spread(const element_data *d, const node_state x[],
+                     const element_rotating_frame *frame, inertia_output *out)
+{
+    return field_mass_inertia(&d->mass, x, frame, out);
+}
+
+static int always(const double options[])
+{
+    (void)options;
+    return 1;
+}
+
+/* The same beam with data behind those of the adapter. */
+static void wrap(const element_type *given, element_type *out)
+{
+    *out = *given;
+    out->data_size = data_size;
+    out->prepare = prepare;
+    out->stress = stress;
+    out->update = given->update != NULL ? update : NULL;
+    out->rest = given->rest != NULL ? rest : NULL;
+    out->geometric = given->geometric != NULL ? geometric : NULL;
+    out->inertia = given->inertia != NULL ? inertia : spread;
+    out->spreads = given->inertia != NULL ? given->spreads : 1;
+    out->mass_of_field = given->inertia != NULL ? given->mass_of_field : always;
+    out->strain = differences_strain;
+    out->strain_many = given->strain_many != NULL ? differences_strain_many : NULL;
+    out->stress_many = given->stress_many != NULL ? stress_many : NULL;
+    out->force_many = NULL;
+    out->equations_many = NULL;
+    out->along = given->along != NULL ? along : NULL;
+    out->tension = given->tension != NULL ? tension : NULL;
+    out->trouble = given->trouble != NULL ? trouble : NULL;
+}
+
+static void make_relative(const element_type *given, int nodes, element_type *out)
+{
+    out->offers &= ~(unsigned)FEATURE_CURVATURE;
+    out->strains = nodes == 2 ? places_strains_two : places_strains_three;
+    out->inner = NULL;
+    out->memory = NULL;
+    out->strain = places_strain;
+    out->stress = relative_stress;
+    out->strain_many = NULL; /* it asks the formulation nothing */
+    out->stress_many = given->force_many != NULL ? relative_stress_many : NULL;
+    out->geometric = relative_geometric;
+}
+
+static status refuse(const element_type *given, const char *what, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED, "formulation %s: %s", given->name, what);
+}
+
+static status check(const element_type *given, const double options[], fault *f)
+{
+    const int nodes = element_nodes(given, options);
+    if (given->prepare == NULL)
+        return refuse(given, "without 'prepare' it learns nothing of its section", f);
+    if ((given->force != NULL) == (given->strain != NULL || given->stress != NULL))
+        return refuse(given, "give either 'strain' and 'stress', or 'force'", f);
+    if (given->force == NULL && (given->strain == NULL || given->stress == NULL))
+        return refuse(given, "'strain' and 'stress' belong together", f);
+    if (given->force != NULL && (given->along != NULL || given->tension != NULL))
+        return refuse(given, "'along' and 'tension' belong to 'strain' and 'stress'", f);
+    if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
+        return refuse(given, "an element has two or three nodes", f);
+    if (given->force == NULL && (element_strains(given, options) < 1 ||
+                                 element_strains(given, options) > ELEMENT_MAX_STRAINS))
+        return refuse(given, "an element has 1 to 24 strains", f);
+    return STATUS_OK;
+}
+
+status adapters_complete(const element_type *given, const double options[], element_type *out,
+                         fault *f)
+{
+    TRY(check(given, options, f));
+    *out = *given;
+    if (given->leaves == 0 && given->force == NULL && given->inertia != NULL &&
+        given->data_size != NULL)
+        return STATUS_OK;
+    wrap(given, out);
+    if (given->force != NULL)
+        make_relative(given, element_nodes(given, options), out);
+    return STATUS_OK;
+}
+
+double adapters_error(const element_type *given)
+{
+    if (given->force != NULL && given->leaves & LEAVES_FORCE)
+        return 1e-10;
+    return given->force != NULL || given->leaves != 0 ? 1e-11 : 0;
+}
+
+const char *adapters_words(const element_type *given)
+{
+    if (given->force != NULL && given->leaves & LEAVES_FORCE)
+        return "forces and stiffness (differences of its energy instead)";
+    if (given->force != NULL && given->leaves & LEAVES_TANGENT)
+        return "stiffness (differences of its forces instead)";
+    if (given->leaves & LEAVES_J)
+        return "derivatives of its strains (differences instead)";
+    return given->leaves & LEAVES_H ? "second derivatives of its strains (differences instead)"
+                                    : "";
+}

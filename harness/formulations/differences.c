@@ -1,0 +1,234 @@
+/* Derivatives of strains by central differences of sixth order in the rotation chart. */
+#include <string.h>
+
+#include "harness/formulations/adapted.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/gather.h"
+#include "harness/formulations/stencil.h"
+
+/* Where differences are taken. */
+typedef struct place {
+    const element_data *data;
+    const node_state *x;
+    const double *s;                /* for second derivatives */
+    differences_jacobian *jacobian; /* of the strains, where there is one */
+    gather *together;               /* strains of all moved states at once; NULL: each by itself */
+} place;
+
+static void moved(const place *at, int i, double si, int j, double sj, node_state out[])
+{
+    double step[ELEMENT_MAX_COORDINATES] = {0};
+    step[i] += si * chart_unit(i, at->data->length);
+    step[j] += sj * chart_unit(j, at->data->length);
+    chart_move(at->x, at->data->nodes, step, out);
+}
+
+/* Zero while there is none. */
+static void copy_answer(const double *answer, int count, double values[])
+{
+    if (answer != NULL)
+        memcpy(values, answer, (size_t)count * sizeof *values);
+    else
+        memset(values, 0, (size_t)count * sizeof *values);
+}
+
+static int strains_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const place *at = context;
+    node_state x[ELEMENT_MAX_NODES];
+    if (at->together == NULL || !at->together->answered)
+        moved(at, i, si, j, sj, x);
+    if (at->together == NULL)
+        at->data->given->strain(adapted_own(at->data), x, &(strain_output){.e = values});
+    else
+        copy_answer(gather_next(at->together, adapted_own(at->data), x), at->data->strains, values);
+    return 0;
+}
+
+/* s.e, whose second derivative is H. */
+static int work_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const place *at = context;
+    double e[ELEMENT_MAX_STRAINS];
+    strains_at(context, i, si, j, sj, e);
+    values[0] = 0;
+    for (int k = 0; k < at->data->strains; k++)
+        values[0] += at->s[k] * e[k];
+    return 0;
+}
+
+/* J^T s. */
+static int forces_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const place *at = context;
+    const int n = NODE_COORDINATES * at->data->nodes;
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    node_state x[ELEMENT_MAX_NODES];
+    if (at->together == NULL || !at->together->answered)
+        moved(at, i, si, j, sj, x);
+    if (at->together == NULL)
+        at->jacobian(at->data, x, J);
+    else
+        copy_answer(gather_next(at->together, adapted_own(at->data), x), at->data->strains * n, J);
+    for (int c = 0; c < n; c++) {
+        values[c] = 0;
+        for (int k = 0; k < at->data->strains; k++)
+            values[c] += J[k * n + c] * at->s[k];
+    }
+    return 0;
+}
+
+/* From differences per unit to derivatives. */
+static double per_unit(const element_data *d, int c)
+{
+    return 1 / chart_unit(c, d->length);
+}
+
+static void first(const place *at, double J[])
+{
+    const element_data *d = at->data;
+    const int n = NODE_COORDINATES * d->nodes;
+    double column[ELEMENT_MAX_STRAINS];
+    for (int c = 0; c < n; c++) {
+        stencil_first(strains_at, at, d->strains, c, column);
+        for (int k = 0; k < d->strains; k++)
+            J[k * n + c] = column[k] * per_unit(d, c);
+    }
+}
+
+static void second(const place *at, double H[])
+{
+    const element_data *d = at->data;
+    const int n = NODE_COORDINATES * d->nodes;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            double value;
+            stencil_second(work_at, at, 1, i, j, &value);
+            H[i * n + j] = H[j * n + i] = value * per_unit(d, i) * per_unit(d, j);
+        }
+}
+
+static void curvature(const place *at, double H[])
+{
+    const element_data *d = at->data;
+    const int n = NODE_COORDINATES * d->nodes;
+    double column[ELEMENT_MAX_COORDINATES];
+    memset(H, 0, (size_t)(n * n) * sizeof *H);
+    for (int j = 0; j < n; j++) {
+        stencil_first(forces_at, at, n, j, column);
+        for (int i = 0; i < n; i++) { /* the symmetric part: that of the exponential chart */
+            const double half = column[i] * per_unit(d, j) / 2;
+            H[i * n + j] += half;
+            H[j * n + i] += half;
+        }
+    }
+}
+
+void differences_curvature(const element_data *d, const node_state x[],
+                           differences_jacobian *jacobian, const double s[], double H[])
+{
+    curvature(&(place){.data = d, .x = x, .s = s, .jacobian = jacobian}, H);
+}
+
+static void given_jacobian(const element_data *d, const node_state x[], double J[])
+{
+    d->given->strain(adapted_own(d), x, &(strain_output){.J = J});
+}
+
+static int leaves_j(const element_data *d)
+{
+    return (d->given->leaves & LEAVES_J) != 0;
+}
+
+static int leaves_h(const element_data *d)
+{
+    return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
+}
+
+/* What of it the type gives itself. */
+static strain_output given_part(const element_data *d, const strain_output *out)
+{
+    strain_output asked = *out;
+    asked.J = leaves_j(d) ? NULL : out->J;
+    asked.H = leaves_h(d) ? NULL : out->H;
+    asked.s = leaves_h(d) ? NULL : out->s;
+    return asked;
+}
+
+/* The rest. */
+static void made_part(const element_data *d, const node_state x[], gather *together,
+                      const strain_output *out)
+{
+    const place at = {
+        .data = d, .x = x, .s = out->s, .jacobian = given_jacobian, .together = together};
+    if (leaves_j(d) && out->J != NULL)
+        first(&at, out->J);
+    if (!leaves_h(d) || out->s == NULL || out->H == NULL)
+        return;
+    if (leaves_j(d))
+        second(&at, out->H);
+    else
+        curvature(&at, out->H);
+}
+
+/* Of many elements. */
+typedef struct many {
+    const element_data *const *data;
+    const node_state *x;
+    strain_output *out;
+} many;
+
+static void make_one(void *context, gather *together, int i)
+{
+    const many *all = context;
+    const element_data *d = all->data[i];
+    made_part(d, all->x + i * d->nodes, together, &all->out[i]);
+}
+
+static void evaluate_states(void *context, gather *g, int first_state, int count)
+{
+    const many *all = context;
+    strain_output out[GATHER_TOGETHER];
+    for (int i = 0; i < count; i++) {
+        double *answer = g->answer + (size_t)(first_state + i) * g->size;
+        out[i] =
+            leaves_j(all->data[0]) ? (strain_output){.e = answer} : (strain_output){.J = answer};
+    }
+    all->data[0]->given->strain_many(count, g->data + first_state,
+                                     g->x + (size_t)first_state * (size_t)g->nodes, out);
+}
+
+static void give_parts(int count, const many *all)
+{
+    const element_data *own[ADAPTED_TOGETHER];
+    strain_output asked[ADAPTED_TOGETHER];
+    for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
+        const int part = adapted_owns(count - i, all->data + i, own);
+        for (int k = 0; k < part; k++)
+            asked[k] = given_part(all->data[i + k], &all->out[i + k]);
+        all->data[0]->given->strain_many(part, own, all->x + i * all->data[0]->nodes, asked);
+    }
+}
+
+void differences_strain_many(int count, const element_data *const data[], const node_state x[],
+                             strain_output out[])
+{
+    many all = {data, x, out};
+    if (count == 0)
+        return;
+    give_parts(count, &all);
+    const element_data *d = data[0];
+    const int answer = leaves_j(d) ? d->strains : d->strains * NODE_COORDINATES * d->nodes;
+    gather_run(count, d->nodes, (size_t)answer, make_one, evaluate_states, &all);
+}
+
+void differences_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    if (d->given->strain_many != NULL) {
+        differences_strain_many(1, &d, x, out);
+        return;
+    }
+    strain_output asked = given_part(d, out);
+    d->given->strain(adapted_own(d), x, &asked);
+    made_part(d, x, NULL, out);
+}

@@ -1,0 +1,228 @@
+/* Strains, stresses and forces of many elements in one request each. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/formulations/frame.h"
+
+_Static_assert(sizeof(node_state) == 16 * sizeof(double), "a node is sent as it stands");
+
+static status strain_frame(const frame_question *q, const node_state x[], strain_output out[],
+                           fault *f)
+{
+    const element_data *d = q->data[0];
+    const size_t m = (size_t)d->strains, c = (size_t)d->coordinates,
+                 nodes = (size_t)frame_nodes(d) * sizeof *x, s = q->mask & 4 ? m : 0;
+    const char *from;
+    char *to;
+    TRY(frame_begin(q, nodes + s * sizeof(double), &to, f));
+    frame_put(&to, x, (size_t)q->count * nodes);
+    for (int i = 0; i < q->count && s > 0; i++)
+        frame_put(&to, out[i].s, s * sizeof(double));
+    TRY(frame_ask(q, &from, f));
+    for (int i = 0; i < q->count && q->mask & 1; i++)
+        frame_take(&from, out[i].e, m);
+    for (int i = 0; i < q->count && q->mask & 2; i++)
+        frame_take(&from, out[i].J, m * c);
+    for (int i = 0; i < q->count && q->mask & 4; i++)
+        frame_take(&from, out[i].H, c * c);
+    return STATUS_OK;
+}
+
+static void fill_nan(double to[], size_t count)
+{
+    for (size_t i = 0; to != NULL && i < count; i++)
+        to[i] = NAN;
+}
+
+/* strain has no outcome: what it gives is no number, and the type says why when it is asked. */
+static void no_strains(const frame_question *q, strain_output out[], const fault *why)
+{
+    const size_t m = (size_t)q->data[0]->strains, c = (size_t)q->data[0]->coordinates;
+    channel_note(frame_channel(q), STATUS_REFUSED, why);
+    for (int i = 0; i < q->count; i++) {
+        fill_nan(out[i].e, m);
+        fill_nan(out[i].J, m * c);
+        if (out[i].s != NULL)
+            fill_nan(out[i].H, c * c);
+    }
+}
+
+static void strain_many(int count, const element_data *const data[], const node_state x[],
+                        strain_output out[])
+{
+    if (count == 0)
+        return;
+    const element_data *d = data[0];
+    const size_t m = (size_t)d->strains, c = (size_t)d->coordinates;
+    const int mask = (out->e != NULL ? 1 : 0) + (out->J != NULL ? 2 : 0) +
+                     (out->s != NULL && out->H != NULL ? 4 : 0);
+    const size_t answer =
+        sizeof(double) * ((mask & 1 ? m : 0) + (mask & 2 ? m * c : 0) + (mask & 4 ? c * c : 0));
+    const int most = frame_fitting(answer + (size_t)frame_nodes(d) * sizeof *x);
+    status outcome = STATUS_OK;
+    fault f = {""};
+    pthread_mutex_lock(&d->of->to.lock);
+    for (int i = 0; i < count && mask != 0; i += most) {
+        const frame_question q = {CHANNEL_STRAIN, mask, i + most < count ? most : count - i,
+                                  data + i, answer};
+        if (outcome == STATUS_OK)
+            outcome = strain_frame(&q, x + i * frame_nodes(d), out + i, &f);
+        if (outcome != STATUS_OK)
+            no_strains(&q, out + i, &f);
+    }
+    pthread_mutex_unlock(&d->of->to.lock);
+}
+
+static void strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    strain_many(1, &d, x, out);
+}
+
+static void linear_stress(const element_data *d, const double e[], stress_output *out)
+{
+    const int m = d->strains;
+    double sigma[ELEMENT_MAX_STRAINS], energy = 0;
+    dense_mul_vec(m, m, d->C, e, sigma);
+    for (int k = 0; k < m; k++)
+        energy += sigma[k] * e[k] / 2;
+    if (out->energy != NULL)
+        *out->energy = energy;
+    if (out->sigma != NULL)
+        memcpy(out->sigma, sigma, (size_t)m * sizeof *sigma);
+    if (out->C != NULL)
+        memcpy(out->C, d->C, (size_t)(m * m) * sizeof *d->C);
+}
+
+static status stress_frame(const frame_question *q, const double *const e[], stress_output out[],
+                           fault *f)
+{
+    const size_t m = (size_t)q->data[0]->strains;
+    const char *from;
+    char *to;
+    TRY(frame_begin(q, m * sizeof(double), &to, f));
+    for (int i = 0; i < q->count; i++)
+        frame_put(&to, e[i], m * sizeof(double));
+    TRY(frame_ask(q, &from, f));
+    for (int i = 0; i < q->count && q->mask & 1; i++)
+        frame_take(&from, out[i].energy, 1);
+    for (int i = 0; i < q->count && q->mask & 2; i++)
+        frame_take(&from, out[i].sigma, m);
+    for (int i = 0; i < q->count && q->mask & 4; i++)
+        frame_take(&from, out[i].C, m * m);
+    return STATUS_OK;
+}
+
+static void stress_frames(int count, const element_data *const data[], const double *const e[],
+                          stress_output out[], status outcome[])
+{
+    const size_t m = (size_t)data[0]->strains;
+    const int mask =
+        (out->energy != NULL ? 1 : 0) + (out->sigma != NULL ? 2 : 0) + (out->C != NULL ? 4 : 0);
+    const size_t answer =
+        sizeof(double) * ((mask & 1 ? 1 : 0) + (mask & 2 ? m : 0) + (mask & 4 ? m * m : 0));
+    const int most = frame_fitting(answer + m * sizeof(double));
+    pthread_mutex_lock(&data[0]->of->to.lock);
+    for (int i = 0; i < count; i += most) {
+        const frame_question q = {CHANNEL_STRESS, mask, i + most < count ? most : count - i,
+                                  data + i, answer};
+        fault f = {""};
+        const status found = mask != 0 ? stress_frame(&q, e + i, out + i, &f) : STATUS_OK;
+        for (int k = i; k < i + q.count; k++)
+            outcome[k] = found;
+        channel_note(&data[0]->of->to, found, &f);
+    }
+    pthread_mutex_unlock(&data[0]->of->to.lock);
+}
+
+/* Those whose stiffness is constant are not asked. */
+static void stress_many(int count, const element_data *const data[], const double *const e[],
+                        const double *const inner[], stress_output out[], status outcome[])
+{
+    int linear = 1;
+    (void)inner;
+    for (int i = 0; i < count; i++) {
+        linear &= data[i]->linear;
+        if (out[i].residual != NULL)
+            *out[i].residual = 0;
+    }
+    if (!linear) {
+        stress_frames(count, data, e, out, outcome);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        linear_stress(data[i], e[i], &out[i]);
+        outcome[i] = STATUS_OK;
+    }
+}
+
+static status stress(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
+{
+    status outcome = STATUS_OK;
+    stress_many(1, &d, &e, &inner, out, &outcome);
+    return outcome;
+}
+
+static status force_frame(const frame_question *q, const node_state x[], force_output out[],
+                          fault *f)
+{
+    const element_data *d = q->data[0];
+    const size_t c = (size_t)d->coordinates, nodes = (size_t)frame_nodes(d) * sizeof *x;
+    const char *from;
+    char *to;
+    TRY(frame_begin(q, nodes, &to, f));
+    frame_put(&to, x, (size_t)q->count * nodes);
+    TRY(frame_ask(q, &from, f));
+    for (int i = 0; i < q->count && q->mask & 1; i++)
+        frame_take(&from, out[i].energy, 1);
+    for (int i = 0; i < q->count && q->mask & 2; i++)
+        frame_take(&from, out[i].F, c);
+    for (int i = 0; i < q->count && q->mask & 4; i++)
+        frame_take(&from, out[i].K, c * c);
+    return STATUS_OK;
+}
+
+static void force_many(int count, const element_data *const data[], const node_state x[],
+                       force_output out[], status outcome[])
+{
+    if (count == 0)
+        return;
+    const element_data *d = data[0];
+    const size_t c = (size_t)d->coordinates;
+    const int mask =
+        (out->energy != NULL ? 1 : 0) + (out->F != NULL ? 2 : 0) + (out->K != NULL ? 4 : 0);
+    const size_t answer =
+        sizeof(double) * ((mask & 1 ? 1 : 0) + (mask & 2 ? c : 0) + (mask & 4 ? c * c : 0));
+    const int most = frame_fitting(answer + (size_t)frame_nodes(d) * sizeof *x);
+    pthread_mutex_lock(&d->of->to.lock);
+    for (int i = 0; i < count; i += most) {
+        const frame_question q = {CHANNEL_FORCE, mask, i + most < count ? most : count - i,
+                                  data + i, answer};
+        fault f = {""};
+        const status found =
+            mask != 0 ? force_frame(&q, x + i * frame_nodes(d), out + i, &f) : STATUS_OK;
+        for (int k = i; k < i + q.count; k++)
+            outcome[k] = found;
+        channel_note(&d->of->to, found, &f);
+    }
+    pthread_mutex_unlock(&d->of->to.lock);
+}
+
+static status force(const element_data *d, const node_state x[], force_output *out)
+{
+    status outcome = STATUS_OK;
+    force_many(1, &d, x, out, &outcome);
+    return outcome;
+}
+
+void frames_serve(process *p)
+{
+    element_type *t = &p->type;
+    t->strain = p->whole ? NULL : strain;
+    t->stress = p->whole ? NULL : stress;
+    t->force = p->whole ? force : NULL;
+    t->strain_many = p->whole ? NULL : strain_many;
+    t->stress_many = p->whole ? NULL : stress_many;
+    t->force_many = p->whole ? force_many : NULL;
+}

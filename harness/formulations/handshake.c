@@ -1,0 +1,262 @@
+#include "harness/formulations/handshake.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/formulations/handshake_options.h"
+
+typedef struct word_bit {
+    const char *word;
+    unsigned bit;
+} word_bit;
+
+static const word_bit limits[] = {{"doubly symmetric", LIMIT_DOUBLY_SYMMETRIC},
+                                  {"order dependent", LIMIT_ORDER_DEPENDENT},
+                                  {"quarter turn", LIMIT_QUARTER_TURN},
+                                  {"half turn", LIMIT_HALF_TURN},
+                                  {"eighth twist", LIMIT_EIGHTH_TWIST},
+                                  {"warping rigid", LIMIT_WARPING_RIGID},
+                                  {"flat arc", LIMIT_FLAT_ARC},
+                                  {NULL, 0}};
+static const word_bit theories[] = {
+    {"engesser", SHEAR_ENGESSER}, {"haringx", SHEAR_HARINGX}, {NULL, 0}};
+
+static const struct gives {
+    const char *words;
+    int whole;
+    unsigned leaves;
+} gives[] = {{"e", 0, LEAVES_J | LEAVES_H},
+             {"e,J", 0, LEAVES_H},
+             {"e,J,H", 0, 0},
+             {"energy", 1, LEAVES_FORCE | LEAVES_TANGENT},
+             {"force", 1, LEAVES_TANGENT},
+             {"tangent", 1, 0}};
+
+static const char *const keys[] = {"beamwork", "name",           "summary", "source", "family",
+                                   "offers",   "gives",          "strains", "nodes",  "order",
+                                   "limits",   "shear_theories", "options", "inertia"};
+
+typedef struct reading {
+    const char *who;
+    json_t *said;
+    fault *f;
+} reading;
+
+static status refuse(const reading *r, const char *key, const char *what)
+{
+    return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' of its first line: %.120s", r->who, key,
+                     what);
+}
+
+/* A text that stays when the JSON goes. */
+static status text_of(const reading *r, const char *key, const char **out)
+{
+    const char *text = json_string_value(json_object_get(r->said, key));
+    if (text == NULL || text[0] == '\0')
+        return refuse(r, key, "give one line of text");
+    for (const char *c = text; *c != '\0'; c++)
+        if ((unsigned char)*c < ' ')
+            return refuse(r, key, "give one line of text, without tabulators and the like");
+    *out = strdup(text);
+    return *out != NULL ? STATUS_OK : fault_set(r->f, STATUS_FAULT, "out of memory");
+}
+
+static status name_of(const reading *r, const char **out)
+{
+    TRY(text_of(r, "name", out));
+    const size_t length = strlen(*out);
+    if (length > 60 || strspn(*out, "abcdefghijklmnopqrstuvwxyz0123456789_") != length)
+        return refuse(r, "name", "give a word of small letters, digits and _, at most 60");
+    return STATUS_OK;
+}
+
+static unsigned bit_of(const word_bit list[], const char *word)
+{
+    for (; list != NULL && list->word != NULL; list++)
+        if (strcmp(list->word, word) == 0)
+            return list->bit;
+    return list == NULL ? feature_named(word) : 0;
+}
+
+static status no_such_word(const reading *r, const char *key, const word_bit known[],
+                           const char *word)
+{
+    char words[260] = "";
+    size_t at = 0;
+    if (known == NULL)
+        feature_words(~0u, words, sizeof words);
+    for (; known != NULL && known->word != NULL && at < sizeof words; known++)
+        at += (size_t)snprintf(words + at, sizeof words - at, "%s%s", at > 0 ? ", " : "",
+                               known->word);
+    return fault_set(r->f, STATUS_REFUSED,
+                     "%.60s: '%s' of its first line has no word '%.40s'; give %s", r->who, key,
+                     word != NULL ? word : "that is no text", words);
+}
+
+/* The sum of the bits of a list of words; known NULL: words of feature.h. */
+static status words_of(const reading *r, const char *key, const word_bit known[], unsigned *out)
+{
+    const json_t *list = json_object_get(r->said, key);
+    *out = 0;
+    if (list != NULL && !json_is_array(list))
+        return refuse(r, key, "give a list of words");
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const char *word = json_string_value(json_array_get(list, i));
+        const unsigned bit = word != NULL ? bit_of(known, word) : 0;
+        if (bit == 0)
+            return no_such_word(r, key, known, word);
+        *out |= bit;
+    }
+    return STATUS_OK;
+}
+
+/* A whole number; `absent` where there is none. */
+static status number_of(const reading *r, const char *key, int least, int most, int absent,
+                        int *out)
+{
+    const json_t *value = json_object_get(r->said, key);
+    const json_int_t number = json_integer_value(value);
+    char what[80];
+    snprintf(what, sizeof what, "give a whole number from %d to %d", least, most);
+    if ((value == NULL && absent < 0) ||
+        (value != NULL && (!json_is_integer(value) || number < least || number > most)))
+        return refuse(r, key, what);
+    *out = value != NULL ? (int)number : absent;
+    return STATUS_OK;
+}
+
+static status orders_of(const reading *r, element_order out[])
+{
+    static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
+    const json_t *order = json_object_get(r->said, "order");
+    size_t known = 0;
+    if (order != NULL && !json_is_object(order))
+        return refuse(r, "order", "give an object such as {\"statics\": [2, 4]}");
+    for (int i = 0; i < ELEMENT_ANALYSES; i++) {
+        const json_t *both = json_object_get(order, analysis[i]);
+        known += both != NULL;
+        if (both == NULL)
+            continue;
+        const json_int_t least = json_integer_value(json_array_get(both, 0)),
+                         highest = json_integer_value(json_array_get(both, 1));
+        if (json_array_size(both) != 2 || least < 1 || highest < least || highest > 100)
+            return refuse(r, "order", "give two whole numbers such as [2, 4] for each analysis");
+        out[i] = (element_order){(int)least, (int)highest};
+    }
+    if (order != NULL && json_object_size(order) != known)
+        return refuse(r, "order", "its keys are statics, vibration and buckling");
+    return STATUS_OK;
+}
+
+static status gives_of(const reading *r, handshake *out)
+{
+    const char *words = json_string_value(json_object_get(r->said, "gives"));
+    for (size_t i = 0; words != NULL && i < sizeof gives / sizeof gives[0]; i++)
+        if (strcmp(gives[i].words, words) == 0) {
+            out->whole = gives[i].whole;
+            out->type.leaves = gives[i].leaves;
+            return STATUS_OK;
+        }
+    return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
+}
+
+/* Of its own: in vibration and in frames that turn, or in motions in time too. */
+static status inertia_of(const reading *r, handshake *out)
+{
+    const json_t *given = json_object_get(r->said, "inertia");
+    const char *word = json_string_value(given);
+    if (given == NULL)
+        return STATUS_OK;
+    if (word == NULL || (strcmp(word, "vibration") != 0 && strcmp(word, "motion") != 0))
+        return refuse(r, "inertia", "give vibration or motion, or leave it out");
+    if (!(out->type.offers & FEATURE_MASS))
+        return refuse(r, "inertia", "who brings it offers mass; add that to 'offers'");
+    out->inertia = 1;
+    out->type.spreads = strcmp(word, "motion") == 0;
+    if (out->type.spreads && out->constants.nodes != 2)
+        return refuse(r, "inertia", "motion is for two nodes; give vibration");
+    return STATUS_OK;
+}
+
+static status only_known_keys(const reading *r)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(r->said, key, value)
+    {
+        int known = 0;
+        for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+            known |= strcmp(keys[i], key) == 0;
+        if (!known)
+            return refuse(r, key, "no such key in this protocol; leave it out");
+    }
+    return STATUS_OK;
+}
+
+static status protocol_of(const reading *r)
+{
+    const json_t *number = json_object_get(r->said, "beamwork");
+    if (json_is_integer(number) && json_integer_value(number) == PROCESS_PROTOCOL)
+        return STATUS_OK;
+    return fault_set(r->f, STATUS_REFUSED,
+                     "%.100s: speaks protocol %lld, this program %d; its first line must have "
+                     "\"beamwork\": %d",
+                     r->who, (long long)json_integer_value(number), PROCESS_PROTOCOL,
+                     PROCESS_PROTOCOL);
+}
+
+static status read_all(const reading *r, handshake *out)
+{
+    element_type *t = &out->type;
+    TRY(protocol_of(r));
+    TRY(only_known_keys(r));
+    TRY(name_of(r, &t->name));
+    TRY(text_of(r, "summary", &t->summary));
+    TRY(text_of(r, "source", &t->source));
+    TRY(text_of(r, "family", &t->family));
+    TRY(gives_of(r, out));
+    TRY(words_of(r, "offers", NULL, &t->offers));
+    TRY(words_of(r, "limits", limits, &t->limits));
+    TRY(words_of(r, "shear_theories", theories, &t->shear_theories));
+    /* who has a theory of shear offers it */
+    t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
+    t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
+    TRY(number_of(r, "nodes", 2, ELEMENT_MAX_NODES, 2, &out->constants.nodes));
+    if (!out->whole)
+        TRY(number_of(r, "strains", 1, ELEMENT_MAX_STRAINS, -1, &out->constants.strains));
+    else if (json_object_get(r->said, "strains") != NULL)
+        return refuse(r, "strains", "a formulation of whole elements has none; leave it out");
+    TRY(orders_of(r, out->constants.order));
+    TRY(inertia_of(r, out));
+    return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);
+}
+
+void handshake_free(element_type *t)
+{
+    free((void *)t->name);
+    free((void *)t->summary);
+    free((void *)t->source);
+    free((void *)t->family);
+    handshake_options_free(t->options[0]);
+}
+
+status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f)
+{
+    json_error_t why;
+    const reading r = {who, json_loadb(line, length, JSON_REJECT_DUPLICATES, &why), f};
+    *out = (handshake){.type = {.abi = ELEMENT_ABI, .size = sizeof(element_type)}};
+    if (!json_is_object(r.said)) {
+        json_decref(r.said);
+        return fault_set(f, STATUS_REFUSED,
+                         "%.100s: began with '%.60s', which is no line of JSON as "
+                         "harness/formulations/protocol.md says; print to standard error",
+                         who, line);
+    }
+    const status outcome = read_all(&r, out);
+    json_decref(r.said);
+    if (outcome != STATUS_OK)
+        handshake_free(&out->type);
+    return outcome;
+}

@@ -1,0 +1,196 @@
+#include "harness/formulations/places.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/formulations/chart.h"
+
+int places_strains_two(const double options[])
+{
+    (void)options;
+    return 8;
+}
+
+int places_strains_three(const double options[])
+{
+    (void)options;
+    return PLACES_MOST;
+}
+
+/* Distance of node k from the first one, undeformed [m]. */
+static double distance(const element_data *d, int k)
+{
+    return d->length * k / (d->nodes - 1);
+}
+
+/* Row of the first warping strain. */
+static int first_warping(const element_data *d)
+{
+    return 6 * (d->nodes - 1);
+}
+
+/* The chord to node k and how it moved, in the axes of the first node [m]. */
+static void chord(const node_state x[], int k, double to[3], double moved[3])
+{
+    double d[3], u[3];
+    for (int i = 0; i < 3; i++) {
+        d[i] = x[k].r[i] - x[0].r[i];
+        u[i] = x[k].u[i] - x[0].u[i];
+    }
+    mat3_transpose_mul_vec(x[0].R, d, to);
+    mat3_transpose_mul_vec(x[0].R, u, moved);
+}
+
+static void relative_rotation(const node_state *a, const node_state *b, double psi[3])
+{
+    double R[9], q[4];
+    mat3_transpose_mul(a->R, b->R, R);
+    rotation_from_matrix(R, q);
+    rotation_log(q, psi);
+}
+
+static void strains_of(const element_data *d, const node_state x[], double e[])
+{
+    const double l = d->length;
+    for (int k = 1; k < d->nodes; k++) {
+        double *own = e + 6 * (k - 1), to[3], moved[3], psi[3];
+        chord(x, k, to, moved);
+        relative_rotation(&x[0], &x[k], psi);
+        own[0] = vec3_elongation(to, moved, distance(d, k));
+        for (int i = 1; i < 3; i++)
+            own[i] = 2 * l * to[i] / (vec3_norm(to) + to[0]);
+        for (int i = 0; i < 3; i++)
+            own[3 + i] = l * psi[i];
+    }
+    for (int k = 0; k < d->nodes; k++)
+        e[first_warping(d) + k] = l * l * x[k].a;
+}
+
+/* Rows of Q: derivatives of the strains of a place by the chord that leads there. */
+static void direction_rows(double l, const double to[3], double Q[9])
+{
+    const double size = vec3_norm(to);
+    for (int i = 0; i < 3; i++) {
+        const double p = 2 * to[i] / (size + to[0]);
+        for (int j = 0; j < 3; j++) {
+            const double n = to[j] / size;
+            Q[3 * i + j] = i == 0 ? n : l / (size + to[0]) * (2 * (i == j) - p * ((j == 0) + n));
+        }
+    }
+}
+
+/* Rows of one other node: derivatives of its relative place and rotation. */
+static void node_rows(const element_data *d, const node_state x[], int k, double J[])
+{
+    const int n = NODE_COORDINATES * d->nodes;
+    double to[3], moved[3], psi[3], T[9], Q[9], turned[9], placed[9];
+    double *place = J + 6 * (k - 1) * n, *turn = place + 3 * n;
+    chord(x, k, to, moved);
+    relative_rotation(&x[0], &x[k], psi);
+    chart_dexp_inverse(psi, T);
+    direction_rows(d->length, to, Q);
+    double back[9]; /* R0^T */
+    for (int i = 0; i < 9; i++)
+        back[i] = x[0].R[3 * (i % 3) + i / 3];
+    mat3_mul(T, back, turned);
+    mat3_mul(Q, back, placed);
+    for (int i = 0; i < 3; i++) {
+        double lever[3], global[3];
+        mat3_mul_vec(x[0].R, to, global);
+        vec3_cross(global, placed + 3 * i, lever); /* d(n.d) = n.dd + dphi.(n x d), n turns */
+        for (int j = 0; j < 3; j++) {
+            place[i * n + j] = -placed[3 * i + j];
+            place[i * n + 3 + j] = -lever[j];
+            place[i * n + NODE_COORDINATES * k + j] = placed[3 * i + j];
+            turn[i * n + 3 + j] = -d->length * turned[3 * i + j];
+            turn[i * n + NODE_COORDINATES * k + 3 + j] = d->length * turned[3 * i + j];
+        }
+    }
+}
+
+static void jacobian(const element_data *d, const node_state x[], double J[])
+{
+    const int n = NODE_COORDINATES * d->nodes;
+    memset(J, 0, (size_t)(d->strains * n) * sizeof *J);
+    for (int k = 1; k < d->nodes; k++)
+        node_rows(d, x, k, J);
+    for (int k = 0; k < d->nodes; k++)
+        J[(first_warping(d) + k) * n + NODE_COORDINATES * k + 6] = d->length * d->length;
+}
+
+void places_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    if (out->e != NULL)
+        strains_of(d, x, out->e);
+    if (out->J != NULL)
+        jacobian(d, x, out->J);
+    if (out->s != NULL && out->H != NULL)
+        differences_curvature(d, x, jacobian, out->s, out->H);
+}
+
+/* 1 + n_x of the direction whose p is e[1], e[2] over l. */
+static double forward(double l, const double e[])
+{
+    return 8 / (4 + (e[1] * e[1] + e[2] * e[2]) / (l * l));
+}
+
+void places_nodes(const element_data *d, const double e[], node_state x[])
+{
+    const double l = d->length;
+    memset(x, 0, (size_t)d->nodes * sizeof *x);
+    for (int k = 0; k < d->nodes; k++) {
+        double psi[3] = {0}, q[4];
+        x[k].r[0] = distance(d, k);
+        if (k > 0) {
+            const double *own = e + 6 * (k - 1), c = forward(l, own);
+            const double size = x[k].r[0] + own[0];
+            x[k].u[0] = own[0] - size * (own[1] * own[1] + own[2] * own[2]) / (l * l) * c / 4;
+            x[k].u[1] = size * own[1] / l * c / 2;
+            x[k].u[2] = size * own[2] / l * c / 2;
+            for (int i = 0; i < 3; i++) {
+                x[k].r[i] += x[k].u[i];
+                psi[i] = own[3 + i] / l;
+            }
+        }
+        rotation_exp(psi, q);
+        rotation_matrix(q, x[k].R);
+        x[k].a = e[first_warping(d) + k] / (l * l);
+    }
+}
+
+/* d(place)/d(its three strains), rows of stride m. */
+static void direction_columns(double l, double undeformed, const double e[], int m, double rows[])
+{
+    const double c = forward(l, e), size = undeformed + e[0];
+    const double n[3] = {c - 1, e[1] / l * c / 2, e[2] / l * c / 2};
+    for (int i = 0; i < 3; i++) {
+        rows[i * m] = n[i];
+        for (int j = 1; j < 3; j++) {
+            const double straight = i == j ? c / 2 : 0;
+            const double bent = i == 0 ? c * c / 4 : n[i] * c / 4;
+            rows[i * m + j] = size / l * (straight - bent * e[j] / l);
+        }
+    }
+}
+
+void places_motion(const element_data *d, const double e[], double B[])
+{
+    const double l = d->length;
+    const int m = d->strains;
+    memset(B, 0, (size_t)(NODE_COORDINATES * d->nodes * m) * sizeof *B);
+    for (int k = 0; k < d->nodes; k++) {
+        double *rows = B + NODE_COORDINATES * k * m, psi[3], T[9];
+        rows[6 * m + first_warping(d) + k] = 1 / (l * l);
+        if (k == 0)
+            continue;
+        const int own = 6 * (k - 1);
+        direction_columns(l, distance(d, k), e + own, m, rows + own);
+        for (int i = 0; i < 3; i++)
+            psi[i] = e[own + 3 + i] / l;
+        chart_dexp(psi, T);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                rows[(3 + i) * m + own + 3 + j] = T[3 * i + j] / l;
+    }
+}

@@ -1,0 +1,207 @@
+#include "harness/formulations/process.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/formulations/process_impl.h"
+
+enum { SECTION_NUMBERS = 111 };
+
+static process *list[PROCESS_MOST];
+static int limit = 120;
+
+static process *process_of(const element_type *t)
+{
+    for (int i = 0; i < PROCESS_MOST && list[i] != NULL; i++)
+        if (&list[i]->type == t)
+            return list[i];
+    return NULL;
+}
+
+int process_serves(const element_type *t)
+{
+    return process_of(t) != NULL;
+}
+
+void process_limit(int seconds)
+{
+    limit = seconds;
+    for (int i = 0; i < PROCESS_MOST && list[i] != NULL; i++)
+        list[i]->to.limit = seconds;
+}
+
+static size_t data_size(const element_request *request)
+{
+    const size_t m = (size_t)element_strains(request->type, request->options);
+    return sizeof(element_data) + m * m * sizeof(double);
+}
+
+/* Another start must say the same as the first. */
+static status start_again(process *p, fault *f)
+{
+    char *line = malloc(HANDSHAKE_MOST + 1);
+    handshake again;
+    if (line == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+    status outcome = channel_start(&p->to, line, f);
+    if (outcome == STATUS_OK)
+        outcome = handshake_read(p->to.who, line, strlen(line), &again, f);
+    free(line);
+    p->kinds = 0;
+    TRY(outcome);
+    const int same =
+        strcmp(again.type.name, p->type.name) == 0 && again.whole == p->whole &&
+        again.type.leaves == p->type.leaves && again.inertia == (p->type.inertia != NULL) &&
+        again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
+        again.constants.nodes == p->constants.nodes;
+    return same ? STATUS_OK
+                : channel_break(&p->to, "says something else of itself when it starts again", f);
+}
+
+static void put(char **to, const void *from, size_t bytes)
+{
+    memcpy(*to, from, bytes);
+    *to += bytes;
+}
+
+static void put_section(char **to, const section *c)
+{
+    const double first[14] = {c->young,    c->shear_modulus,
+                              c->density,  c->A,
+                              c->Iy,       c->Iz,
+                              c->It,       c->Iw,
+                              c->ys,       c->zs,
+                              c->Ip,       c->wagner_y,
+                              c->wagner_z, c->wagner_torque};
+    const double angle[3] = {c->axes_angle, c->centroid[0], c->centroid[1]}, matrices = c->matrices,
+                 last[3] = {c->rectangle, c->width, c->height};
+    put(to, first, sizeof first);
+    put(to, c->D, sizeof c->D);
+    put(to, c->F, sizeof c->F);
+    put(to, angle, sizeof angle);
+    put(to, &matrices, sizeof matrices);
+    put(to, c->stiffness, sizeof c->stiffness);
+    put(to, c->mass, sizeof c->mass);
+    put(to, last, sizeof last);
+}
+
+static status ask_prepare(process *p, const element_request *request, element_data *out, fault *f)
+{
+    const int options = parameter_count(p->type.options);
+    const int64_t head[3] = {out->kind % PROCESS_KINDS, request->features, options};
+    const size_t C = (size_t)(out->strains * out->strains) * sizeof(double),
+                 size = sizeof head + (7 + SECTION_NUMBERS + (size_t)options) * sizeof(double);
+    const char *body;
+    size_t count;
+    channel_begin(&p->to);
+    char *to = channel_add(&p->to, size);
+    if (to == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+    put(&to, head, sizeof head);
+    put(&to, &request->length, sizeof(double));
+    put(&to, request->curvature, sizeof request->curvature);
+    put(&to, request->strain, sizeof request->strain);
+    put_section(&to, request->section);
+    put(&to, request->options, (size_t)options * sizeof(double));
+    TRY(channel_ask(&p->to, CHANNEL_PREPARE, 0, 1, 0, p->whole ? 0 : C, &body, &count, f));
+    out->linear = count > 0;
+    memcpy(out->C, body, count);
+    return STATUS_OK;
+}
+
+static status prepare_locked(process *p, const element_request *request, element_data *out,
+                             fault *f)
+{
+    if (p->to.trouble[0] != '\0' && !p->to.told)
+        return fault_set(f, STATUS_FAULT, "%s", p->to.trouble);
+    if (!channel_runs(&p->to))
+        TRY(start_again(p, f));
+    *out =
+        (element_data){.of = p,
+                       .started = p->to.started,
+                       .kind = p->kinds++,
+                       .strains = p->constants.strains,
+                       .coordinates = NODE_COORDINATES * element_nodes(&p->type, request->options)};
+    return ask_prepare(p, request, out, f);
+}
+
+static status prepare(const element_request *request, element_data *out, fault *f)
+{
+    process *p = process_of(request->type);
+    pthread_mutex_lock(&p->to.lock);
+    const status outcome = prepare_locked(p, request, out, f);
+    p->to.told |= outcome != STATUS_OK;
+    pthread_mutex_unlock(&p->to.lock);
+    return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome; /* as in an evaluation */
+}
+
+static const char *trouble(const element_data *d)
+{
+    channel *c = &d->of->to;
+    if (c->trouble[0] == '\0' || c->told)
+        return NULL;
+    c->told = 1;
+    return c->trouble;
+}
+
+/* Another program's byte order is not made up for. */
+static status check_machine(const char *command, fault *f)
+{
+    const int64_t one = 1;
+    char first;
+    memcpy(&first, &one, 1);
+    return first == 1
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "exec:%.100s: this machine is big-endian", command);
+}
+
+static status begin(process *p, const char *command, fault *f)
+{
+    char *line = malloc(HANDSHAKE_MOST + 1);
+    handshake said;
+    if (line == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+    status outcome = channel_init(&p->to, command, f);
+    p->to.limit = limit;
+    if (outcome == STATUS_OK)
+        outcome = channel_start(&p->to, line, f);
+    if (outcome == STATUS_OK)
+        outcome = handshake_read(p->to.who, line, strlen(line), &said, f);
+    free(line);
+    TRY(outcome);
+    p->type = said.type;
+    p->constants = said.constants;
+    p->whole = said.whole;
+    p->type.constants = &p->constants;
+    p->type.data_size = data_size;
+    p->type.prepare = prepare;
+    p->type.trouble = trouble;
+    frames_serve(p);
+    if (said.inertia)
+        frames_serve_inertia(p);
+    return channel_call(&p->to, p->type.name, f);
+}
+
+status process_load(const char *command, const element_type **out, fault *f)
+{
+    int count = 0;
+    while (count < PROCESS_MOST && list[count] != NULL)
+        count++;
+    if (count == PROCESS_MOST)
+        return fault_set(f, STATUS_REFUSED, "at most %d processes can be formulations",
+                         PROCESS_MOST);
+    TRY(check_machine(command, f));
+    process *p = calloc(1, sizeof *p);
+    if (p == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+    const status outcome = begin(p, command, f);
+    if (outcome != STATUS_OK) {
+        channel_end(&p->to);
+        handshake_free(&p->type);
+        free(p);
+        return outcome;
+    }
+    list[count] = p;
+    *out = &p->type;
+    return STATUS_OK;
+}

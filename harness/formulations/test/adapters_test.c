@@ -1,0 +1,321 @@
+/* What is left out and made by differences is what the formulations give themselves: for each of
+ * them, with J, H, forces or tangents taken away. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/test/nodes.h"
+#include "elements/test/random.h"
+#include "elements/test/sections.h"
+#include "harness/formulations/adapters.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
+
+enum { M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };
+
+typedef struct subject {
+    element_type type;
+    element_data *data;
+    int nodes, strains, coordinates;
+} subject;
+
+static const double length = 0.2385;
+static double options[ELEMENT_MAX_OPTIONS];
+
+static void start(const element_type *given, const section *c, subject *out)
+{
+    fault f = {""};
+    const unsigned features = given->offers & (FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE |
+                                               FEATURE_GEOMETRIC | FEATURE_LARGE);
+    const element_request request = {
+        .section = c, .length = length, .features = features, .options = options, .type = given};
+    memset(out, 0, sizeof *out);
+    gsl_test(adapters_complete(given, options, &out->type, &f) != STATUS_OK, "%s: completed: %s",
+             given->name, f.text);
+    out->nodes = element_nodes(&out->type, options);
+    out->strains = element_strains(&out->type, options);
+    out->coordinates = NODE_COORDINATES * out->nodes;
+    out->data = calloc(1, out->type.data_size(&request));
+    gsl_test(out->type.prepare(&request, out->data, &f) != STATUS_OK, "%s: prepared: %s",
+             given->name, f.text);
+}
+
+/* Energy, forces [n] and stiffness [n x n] of the nodes. */
+static status assemble(const subject *s, const node_state x[], double *energy, double F[],
+                       double K[])
+{
+    const int n = s->coordinates, m = s->strains;
+    double e[M], J[M * N], sigma[M], C[M * M], work[M * N];
+    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
+    TRY(s->type.stress(s->data, e, NULL,
+                       &(stress_output){.energy = energy, .sigma = sigma, .C = C}));
+    memset(F, 0, (size_t)n * sizeof *F);
+    dense_add_transpose_mul(n, m, 1, J, sigma, F);
+    s->type.strain(s->data, x, &(strain_output){.s = sigma, .H = K});
+    dense_add_congruence(m, n, J, C, K, work);
+    return STATUS_OK;
+}
+
+/* The formulation that the force of the adapted one comes from. */
+static subject source;
+
+static status force_of_source(const element_data *d, const node_state x[], force_output *out)
+{
+    double energy, F[N], K[N * N];
+    (void)d;
+    TRY(assemble(&source, x, &energy, F, K));
+    const size_t n = (size_t)source.coordinates;
+    if (out->energy != NULL)
+        *out->energy = energy;
+    if (out->F != NULL)
+        memcpy(out->F, F, n * sizeof *F);
+    if (out->K != NULL)
+        memcpy(out->K, K, n * n * sizeof *K);
+    return STATUS_OK;
+}
+
+/* Of the difference, in the unit of each node's coordinates (force, moment, bimoment), beside the
+ * largest entry. */
+static double departure(int n, const double a[], const double b[], const double unit[])
+{
+    double apart = 0, most = 0;
+    for (int i = 0; i < n; i++) {
+        apart = fmax(apart, fabs(a[i] - b[i]) * unit[i]);
+        most = fmax(most, fabs(a[i]) * unit[i]);
+    }
+    return apart / most;
+}
+
+static void units(int rows, int columns, double out[])
+{
+    static const double power[NODE_COORDINATES] = {1, 1, 1, 0, 0, 0, -1};
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++)
+            out[i * columns + j] =
+                pow(length, (rows > 1 ? power[i % NODE_COORDINATES] : 0) +
+                                (columns > 1 || rows == 1 ? power[j % NODE_COORDINATES] : 0));
+}
+
+/* A deformed element, turned as a whole. */
+static void deformed(const subject *s, unsigned seed, node_state x[])
+{
+    double d[N];
+    const double turn[3] = {0.7, -1.1, 0.4};
+    nodes_increments(s->nodes, length, 0.1, seed, d);
+    nodes_place(s->nodes, length, d, x);
+    for (int k = 0; k < s->nodes; k++) {
+        double r[3], axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        nodes_turn(x[k].R, turn);
+        nodes_turn(axes, turn);
+        mat3_mul_vec(axes, x[k].r, r);
+        for (int i = 0; i < 3; i++) {
+            x[k].u[i] += r[i] - x[k].r[i];
+            x[k].r[i] = r[i];
+        }
+    }
+}
+
+static void compare(const subject *whole, const subject *part, const char *what, double bound)
+{
+    const int n = whole->coordinates;
+    double worst[3] = {0}, one[N], two[N * N];
+    units(1, n, one);
+    units(n, n, two);
+    for (unsigned seed = 1; seed <= 5; seed++) {
+        double energy[2], F[2][N], K[2][N * N];
+        node_state x[ELEMENT_MAX_NODES];
+        deformed(whole, seed, x);
+        gsl_test(assemble(whole, x, &energy[0], F[0], K[0]) != STATUS_OK ||
+                     assemble(part, x, &energy[1], F[1], K[1]) != STATUS_OK,
+                 "%s, %s: has a state", whole->type.name, what);
+        worst[0] = fmax(worst[0], fabs(energy[1] / energy[0] - 1));
+        worst[1] = fmax(worst[1], departure(n, F[0], F[1], one));
+        worst[2] = fmax(worst[2], departure(n * n, K[0], K[1], two));
+    }
+    gsl_test(!(worst[0] < 1e-12 && worst[1] < bound && worst[2] < bound),
+             "%s, %s: energy, forces and stiffness agree (%.1e, %.1e, %.1e)", whole->type.name,
+             what, worst[0], worst[1], worst[2]);
+}
+
+/* Geometric stiffness [n x n] of linear buckling: about the undeformed element, prestressed by
+ * small motions v [n] of its nodes. */
+static double prestressed(const subject *s, const double v[], double K[])
+{
+    const int n = s->coordinates, m = s->strains;
+    const double none[N] = {0};
+    double e[M], J[M * N], strain[M], sigma[M], C[M * M], G[M * M] = {0}, work[M * N];
+    node_state x[ELEMENT_MAX_NODES];
+    nodes_place(s->nodes, length, none, x);
+    s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
+    dense_mul_vec(m, n, J, v, strain);
+    gsl_test(s->type.stress(s->data, e, NULL, &(stress_output){.C = C}) != STATUS_OK, "at rest");
+    dense_mul_vec(m, m, C, strain, sigma);
+    s->type.strain(s->data, x, &(strain_output){.s = sigma, .H = K});
+    if (s->type.geometric != NULL)
+        s->type.geometric(s->data, sigma, G);
+    dense_add_congruence(m, n, J, G, K, work);
+    double F[N] = {0};
+    dense_add_transpose_mul(n, m, 1, J, sigma, F);
+    return F[n - NODE_COORDINATES];
+}
+
+/* What an axial force does to the stiffness against twist [N m]: nothing but what the formulation
+ * knows of fibres that lengthen. */
+static void twists_as(const subject *whole, const subject *part, const char *what, double bound)
+{
+    const int n = whole->coordinates, last = n - NODE_COORDINATES;
+    double v[N] = {0}, K[2][N * N], worst = 0;
+    v[last] = 1e-3 * length;
+    if (whole->nodes == 3)
+        v[NODE_COORDINATES] = v[last] / 2;
+    const double force = prestressed(whole, v, K[0]);
+    prestressed(part, v, K[1]);
+    for (int k = 0; k < whole->nodes; k++)
+        worst = fmax(worst, fabs(K[1][3 * n + NODE_COORDINATES * k + 3] -
+                                 K[0][3 * n + NODE_COORDINATES * k + 3]));
+    gsl_test(!(worst < bound * force * length && force > 0),
+             "%s, %s: geometric stiffness against twist agrees (%.1e of %.1e)", whole->type.name,
+             what, worst, K[0][3 * n + 3]);
+}
+
+static void without(const element_type *given, const section *c, unsigned leaves, const char *what)
+{
+    element_type bare = *given;
+    subject whole, part;
+    bare.leaves = leaves;
+    start(given, c, &whole);
+    start(&bare, c, &part);
+    compare(&whole, &part, what, 1e-9);
+    free(whole.data);
+    free(part.data);
+}
+
+/* Of a uniform load along the undeformed element: stresses, and forces on its nodes. */
+static void loaded(const subject *s, double out[M + ELEMENT_ALONG_COORDINATES])
+{
+    const double none[N] = {0};
+    const element_data *data = s->data;
+    double force[3 * ELEMENT_ALONG_POINTS];
+    node_state x[ELEMENT_MAX_NODES];
+    along_output load = {.force = force, .sigma = out};
+    status outcome = STATUS_FAULT;
+    for (int i = 0; i < 3 * ELEMENT_ALONG_POINTS; i++)
+        force[i] = 2.385 + i % 3;
+    nodes_place(s->nodes, length, none, x);
+    s->type.along(1, &data, x, &load, &outcome);
+    gsl_test(outcome != STATUS_OK, "%s: takes a load", s->type.name);
+    memcpy(out + M, load.ends, sizeof load.ends);
+}
+
+/* What is given beside strains and stresses finds the data of its own type. */
+static void passes_on(const element_type *given, const section *c)
+{
+    const double sigma[M] = {2.385};
+    double by[2][M + ELEMENT_ALONG_COORDINATES] = {{0}};
+    element_type bare = *given;
+    subject whole, part;
+    bare.inertia = NULL;
+    start(given, c, &whole);
+    start(&bare, c, &part);
+    gsl_test(part.type.equations_many != NULL, "%s: equations by strains and stresses",
+             given->name);
+    if (given->tension != NULL)
+        gsl_test(part.type.tension(part.data, sigma) != whole.type.tension(whole.data, sigma),
+                 "%s: tension", given->name);
+    if (given->along != NULL) {
+        loaded(&whole, by[0]);
+        loaded(&part, by[1]);
+        gsl_test(memcmp(by[0], by[1], sizeof by[0]) != 0, "%s: loads along", given->name);
+    }
+    free(whole.data);
+    free(part.data);
+}
+
+static element_type by_force(const element_type *given, unsigned leaves)
+{
+    element_type out = *given;
+    out.strain = NULL;
+    out.stress = NULL;
+    out.strains = NULL;
+    out.geometric = NULL;
+    out.along = NULL;
+    out.tension = NULL;
+    out.force = force_of_source;
+    out.leaves = leaves;
+    return out;
+}
+
+static void forces_only(const element_type *given, const section *c)
+{
+    static const struct {
+        unsigned leaves;
+        const char *what;
+        double bound, buckling;
+    } way[] = {{0, "force and tangent", 1e-10, 1e-9},
+               {LEAVES_TANGENT, "force", 1e-9, 1e-9},
+               {LEAVES_FORCE | LEAVES_TANGENT, "energy", 1e-9, 1e-7}};
+    for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
+        const element_type bare = by_force(given, way[i].leaves);
+        subject part;
+        start(given, c, &source);
+        start(&bare, c, &part);
+        compare(&source, &part, way[i].what, way[i].bound);
+        twists_as(&source, &part, way[i].what, way[i].buckling);
+        free(part.data);
+        free(source.data);
+    }
+}
+
+static double no_tension(const element_data *d, const double sigma[])
+{
+    (void)d;
+    return 0 * sigma[0];
+}
+
+static void refusals(const element_type *given)
+{
+    element_type completed, bad = *given;
+    fault f;
+    bad.force = force_of_source;
+    gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
+             "strains and a force: refused");
+    bad = *given;
+    bad.stress = NULL;
+    gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
+             "strains without stresses: refused");
+    bad = by_force(given, 0);
+    bad.tension = no_tension;
+    gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
+             "a tension of stresses that a force has not: refused");
+    bad = *given;
+    bad.prepare = NULL;
+    gsl_test(adapters_complete(&bad, options, &completed, &f) != STATUS_REFUSED,
+             "nothing of the section: refused");
+}
+
+int main(void)
+{
+    section_spec spec = section_spec_rectangle(210e9, 80.7e9, 0.0371, 0.0123);
+    spec.shear_factor[0] = spec.shear_factor[1] = 0.847;
+    spec.density = 7850;
+    const section c = sections_computed(&spec);
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *given = registry_formulations[i];
+        element_type completed;
+        fault f;
+        parameter_defaults(given->options, options);
+        gsl_test(adapters_complete(given, options, &completed, &f) != STATUS_OK ||
+                     completed.strain != given->strain || adapters_words(given)[0] != '\0',
+                 "%s: nothing is left out, nothing is made", given->name);
+        passes_on(given, &c);
+        if (element_inner(given, options) > 0)
+            continue; /* needs a solution of its own equations */
+        without(given, &c, LEAVES_H, "without second derivatives");
+        without(given, &c, LEAVES_J, "without derivatives");
+        forces_only(given, &c);
+    }
+    refusals(registry_formulations[0]);
+    return gsl_test_summary();
+}
