@@ -3,7 +3,7 @@
 #define BEAMWORK_MODEL_IMPL_H
 
 #include "elements/field/field.h"
-#include "harness/division/division.h"
+#include "harness/model/division.h"
 #include "harness/model/model.h"
 #include "harness/numerics/team.h"
 

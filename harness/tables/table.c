@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "cases/scene/omission.h"
-#include "harness/division/division_words.h"
 #include "harness/formulations/parameters.h"
 #include "harness/judge/rounding.h"
+#include "harness/model/division_words.h"
 #include "harness/model/features.h"
 #include "harness/schema/assumptions.h"
 #include "harness/study/cell.h"

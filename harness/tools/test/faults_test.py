@@ -68,7 +68,7 @@ class Faults(unittest.TestCase):
 
 @unittest.skipUnless((faults.ROOT / ".git").exists(), "needs a clone")
 class Sample(unittest.TestCase):
-    FILES = ["elements/math/dense.c", "harness/division/division.c"]
+    FILES = ["elements/math/dense.c", "harness/model/division.c"]
 
     def setUp(self):
         for name, value in (("sources", lambda: self.FILES), ("equivalent", lambda: self.known)):
@@ -92,7 +92,7 @@ class Sample(unittest.TestCase):
     def test_checks_are_there(self):
         texts = faults.tests()
         found = faults.checks(self.FILES[1], texts)
-        self.assertEqual(found[0], "harness/division/test/division_test")
+        self.assertEqual(found[0], "harness/model/test/division_test")
         for one in found:
             self.assertTrue(one.startswith("verify:") or f"{one}.c" in texts or
                             one.replace(".", "/") + ".py" in texts, one)

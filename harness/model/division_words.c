@@ -1,10 +1,10 @@
-#include "harness/division/division_words.h"
+#include "harness/model/division_words.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
 #include "cases/scene/names.h"
-#include "harness/division/division.h"
+#include "harness/model/division.h"
 
 enum { MOST_NAMES = 4, MOST_PLACES = 8 };
 

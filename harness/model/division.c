@@ -1,4 +1,4 @@
-#include "harness/division/division.h"
+#include "harness/model/division.h"
 
 #include <math.h>
 #include <stdlib.h>

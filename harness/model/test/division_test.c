@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/division/division.h"
-#include "harness/division/division_words.h"
+#include "harness/model/division.h"
+#include "harness/model/division_words.h"
 
 enum { WHOLE, LOADED, OWN };
 
