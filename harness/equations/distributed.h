@@ -5,7 +5,7 @@
 #define BEAMWORK_MODEL_DISTRIBUTED_H
 
 #include "harness/model/model.h"
-#include "harness/recovery/span.h"
+#include "harness/section_forces/span.h"
 
 /* Of one element, at a path parameter. */
 typedef struct distributed {

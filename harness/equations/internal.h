@@ -2,13 +2,13 @@
  *
  * At the ends of an element they are what its nodal forces J^T sigma leave when the loads along it
  * that its nodes take are taken off: in equilibrium with everything beyond, whatever a formulation
- * assumes inside.  Between them harness/recovery/span.h carries them on, the same way for all
+ * assumes inside.  Between them harness/section_forces/span.h carries them on, the same way for all
  * formulations. */
 #ifndef BEAMWORK_MODEL_INTERNAL_H
 #define BEAMWORK_MODEL_INTERNAL_H
 
 #include "harness/model/model.h"
-#include "harness/recovery/span.h"
+#include "harness/section_forces/span.h"
 
 /* Which state. */
 typedef struct internal_state {

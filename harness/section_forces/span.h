@@ -10,7 +10,7 @@
 #define BEAMWORK_SPAN_H
 
 #include "elements/element.h"
-#include "harness/recovery/span_curve.h"
+#include "harness/section_forces/span_curve.h"
 
 /* In the principal axes of the turned section, of what lies towards q on what lies towards p;
  * moments about the centroid. */

@@ -1,4 +1,4 @@
-#include "harness/recovery/span_twist.h"
+#include "harness/section_forces/span_twist.h"
 
 #include <string.h>
 

@@ -1,12 +1,12 @@
-#include "harness/recovery/span.h"
+#include "harness/section_forces/span.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/shared/beam_coupled.h"
-#include "harness/recovery/fixed_point.h"
-#include "harness/recovery/span_twist.h"
+#include "harness/section_forces/fixed_point.h"
+#include "harness/section_forces/span_twist.h"
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
 static const double enough = 1e-12, tolerable = 1e-7; /* of strains times the length */

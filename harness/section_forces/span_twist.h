@@ -8,7 +8,7 @@
 #ifndef BEAMWORK_SPAN_TWIST_H
 #define BEAMWORK_SPAN_TWIST_H
 
-#include "harness/recovery/span_grid.h"
+#include "harness/section_forces/span_grid.h"
 
 typedef struct span_torsion {
     double EIw;                         /* 0: nothing warps */

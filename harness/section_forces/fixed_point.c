@@ -1,4 +1,4 @@
-#include "harness/recovery/fixed_point.h"
+#include "harness/section_forces/fixed_point.h"
 
 #include <math.h>
 #include <string.h>

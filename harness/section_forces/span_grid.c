@@ -1,4 +1,4 @@
-#include "harness/recovery/span_grid.h"
+#include "harness/section_forces/span_grid.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SPAN_CURVE_H
 #define BEAMWORK_SPAN_CURVE_H
 
-#include "harness/recovery/span_grid.h"
+#include "harness/section_forces/span_grid.h"
 
 typedef struct span_curve {
     double r[SPAN_GRID_POINTS][3], R[SPAN_GRID_POINTS][9]; /* columns: x along the line, y and z */

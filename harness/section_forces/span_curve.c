@@ -1,4 +1,4 @@
-#include "harness/recovery/span_curve.h"
+#include "harness/section_forces/span_curve.h"
 
 #include <math.h>
 #include <string.h>
