@@ -9,13 +9,13 @@
 #include <string.h>
 
 #include "cases/scene/along_path.h"
-#include "harness/equations/linear.h"
-#include "harness/equations/loads.h"
 #include "harness/model/metric.h"
+#include "harness/newton/context.h"
+#include "harness/newton/linear.h"
+#include "harness/newton/linear_system.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/quadratic_forms.h"
 #include "harness/numerics/eigen.h"
-#include "harness/solver/context.h"
-#include "harness/solver/linear_system.h"
-#include "harness/solver/quadratic_forms.h"
 
 /* What grows with the factor, and what stays. */
 typedef struct prestresses {

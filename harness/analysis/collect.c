@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/equations/linear.h"
 #include "harness/model/centreline.h"
 #include "harness/model/kinematics.h"
-#include "harness/solver/context.h"
+#include "harness/newton/context.h"
+#include "harness/newton/linear.h"
 
 static int least(int a, int b)
 {

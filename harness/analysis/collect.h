@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_COLLECT_H
 #define BEAMWORK_COLLECT_H
 
-#include "harness/solver/context.h"
+#include "harness/newton/context.h"
 
 /* Of the undeformed structure, of at most `most` states of every path, of linear solutions and
  * modes. */

@@ -3,12 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/equations/linear.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
-#include "harness/equations/rotating_frame.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/newton/linear.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/rotating_frame.h"
 
 /* What all states share. */
 typedef struct workspace {

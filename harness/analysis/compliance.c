@@ -7,14 +7,14 @@
 #include <string.h>
 
 #include "harness/analysis/extract_path.h"
-#include "harness/equations/linear.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
-#include "harness/solver/context.h"
-#include "harness/solver/convention.h"
-#include "harness/solver/tangent.h"
+#include "harness/newton/context.h"
+#include "harness/newton/convention.h"
+#include "harness/newton/linear.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/tangent.h"
 
 /* Loads whose response some quantity asks for. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)

@@ -4,7 +4,7 @@
 
 #include "harness/analysis/compliance.h"
 #include "harness/analysis/extract_path.h"
-#include "harness/solver/tangent.h"
+#include "harness/newton/tangent.h"
 
 typedef struct follower {
     int analysis;

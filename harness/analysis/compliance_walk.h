@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_COMPLIANCE_WALK_H
 #define BEAMWORK_COMPLIANCE_WALK_H
 
-#include "harness/solver/newton.h"
+#include "harness/newton/newton.h"
 
 typedef struct compliance_walk compliance_walk;
 

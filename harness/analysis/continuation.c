@@ -10,9 +10,9 @@
 #include "harness/analysis/extract_path.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
-#include "harness/solver/context.h"
-#include "harness/solver/history.h"
-#include "harness/solver/newton.h"
+#include "harness/newton/context.h"
+#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
 /* Swing that the next step is to have, of the largest allowed: the longest steps of which hardly

@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 #include "harness/model/kinematics.h"
-#include "harness/solver/context.h"
-#include "harness/solver/quantity.h"
+#include "harness/newton/context.h"
+#include "harness/newton/quantity.h"
 
 int continuation_extract_keeps_states(const scene *s, int analysis)
 {

@@ -7,12 +7,12 @@
 #include "cases/scene/along_path.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
-#include "harness/equations/advance.h"
-#include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
-#include "harness/solver/context.h"
-#include "harness/solver/newton.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/context.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,
                                continuation *p, fault *f)

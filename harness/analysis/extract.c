@@ -10,7 +10,7 @@
 #include "harness/analysis/extract_section.h"
 #include "harness/analysis/extract_spectrum.h"
 #include "harness/model/kinematics.h"
-#include "harness/solver/quantity.h"
+#include "harness/newton/quantity.h"
 
 static const char *const no_frequency =
     "the mesh has no mode of this kind that can be told from round-off: coordinates without mass, "

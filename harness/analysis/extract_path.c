@@ -8,8 +8,8 @@
 #include "harness/model/turns.h"
 #include "harness/motion/reading.h"
 #include "harness/motion/resultants.h"
-#include "harness/solver/modes.h"
-#include "harness/solver/quantity.h"
+#include "harness/newton/modes.h"
+#include "harness/newton/quantity.h"
 
 /* A value with its error, in parts of it; NAN with the reason where no digit is left. */
 static double known(const analysis_context *c, double value, double error, const char *what,

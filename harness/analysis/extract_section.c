@@ -3,12 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/equations/linear.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
 #include "harness/model/kinematics.h"
 #include "harness/motion/resultants.h"
-#include "harness/solver/quantity.h"
+#include "harness/newton/linear.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/quantity.h"
 
 /* Under the loads at path 1. */
 static double reaction_of(model *m, const scene_component *what, const double sigma[])

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/solver/modes.h"
-#include "harness/solver/quantity.h"
+#include "harness/newton/modes.h"
+#include "harness/newton/quantity.h"
 
 /* Value i of a side, or why it has none. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i, double unit,

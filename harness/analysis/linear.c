@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/newton/context.h"
+#include "harness/newton/linear_system.h"
+#include "harness/newton/singular.h"
 #include "harness/numerics/clock.h"
-#include "harness/solver/context.h"
-#include "harness/solver/linear_system.h"
-#include "harness/solver/singular.h"
 
 /* With what linear_analysis frees. */
 static status displace(analysis_context *c, linear_system *s, analysis_outcome *o, fault *f)

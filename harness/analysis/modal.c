@@ -9,15 +9,15 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/equations/linear.h"
-#include "harness/equations/loads.h"
-#include "harness/equations/rotating_frame.h"
 #include "harness/flutter/flutter.h"
+#include "harness/newton/context.h"
+#include "harness/newton/linear.h"
+#include "harness/newton/linear_system.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/quadratic_forms.h"
+#include "harness/newton/rotating_frame.h"
+#include "harness/newton/singular.h"
 #include "harness/numerics/eigen.h"
-#include "harness/solver/context.h"
-#include "harness/solver/linear_system.h"
-#include "harness/solver/quadratic_forms.h"
-#include "harness/solver/singular.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {

@@ -10,19 +10,19 @@
 
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/static.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/rotating_frame.h"
-#include "harness/equations/stiffness_parts.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/newton/context.h"
+#include "harness/newton/history.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/modes.h"
+#include "harness/newton/newton.h"
+#include "harness/newton/rotating_frame.h"
+#include "harness/newton/singular.h"
+#include "harness/newton/stiffness_parts.h"
+#include "harness/newton/tangent.h"
 #include "harness/numerics/clock.h"
 #include "harness/numerics/gyroscopic.h"
-#include "harness/solver/context.h"
-#include "harness/solver/history.h"
-#include "harness/solver/modes.h"
-#include "harness/solver/newton.h"
-#include "harness/solver/singular.h"
-#include "harness/solver/tangent.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 

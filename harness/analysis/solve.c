@@ -17,12 +17,12 @@
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
 #include "harness/motion/motion.h"
+#include "harness/newton/context.h"
+#include "harness/newton/history.h"
+#include "harness/newton/linear_system.h"
+#include "harness/newton/newton.h"
+#include "harness/newton/singular.h"
 #include "harness/numerics/clock.h"
-#include "harness/solver/context.h"
-#include "harness/solver/history.h"
-#include "harness/solver/linear_system.h"
-#include "harness/solver/newton.h"
-#include "harness/solver/singular.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
 

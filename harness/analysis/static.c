@@ -11,10 +11,10 @@
 #include "harness/analysis/extract_path.h"
 #include "harness/flutter/within.h"
 #include "harness/model/kinematics.h"
-#include "harness/solver/context.h"
-#include "harness/solver/history.h"
-#include "harness/solver/newton.h"
-#include "harness/solver/predictor.h"
+#include "harness/newton/context.h"
+#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
+#include "harness/newton/predictor.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_STATIC_H
 #define BEAMWORK_STATIC_H
 
-#include "harness/solver/newton.h"
+#include "harness/newton/newton.h"
 
 status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* From the present path to `target` in steps that halve when Newton fails and double when it is

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/solver/shapes.h"
+#include "harness/newton/shapes.h"
 
 static void add(json_t *to, const char *option, const char *value)
 {

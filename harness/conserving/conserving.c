@@ -9,13 +9,13 @@
 #include "elements/math/larger.h"
 #include "elements/math/vec3.h"
 #include "harness/conserving/deformable.h"
-#include "harness/equations/chunk.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/newton/chunk.h"
+#include "harness/newton/newton.h"
 #include "harness/scheme/drive.h"
-#include "harness/solver/newton.h"
 
 enum { LEAST_ITERATIONS = 3 };
 

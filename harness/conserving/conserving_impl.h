@@ -6,10 +6,10 @@
 #include "harness/inertia/inertia.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/spring.h"
+#include "harness/newton/arrival.h"
 #include "harness/scheme/complement.h"
 #include "harness/scheme/massive.h"
 #include "harness/scheme/scheme.h"
-#include "harness/solver/arrival.h"
 
 typedef struct evaluation evaluation; /* deformable.h */
 

@@ -4,8 +4,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/conserving/place.h"
-#include "harness/equations/applied.h"
-#include "harness/equations/loads.h"
+#include "harness/newton/applied.h"
+#include "harness/newton/loads.h"
 
 typedef struct loaded {
     conserving *s;

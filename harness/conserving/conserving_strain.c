@@ -5,10 +5,10 @@
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "harness/conserving/deformable.h"
-#include "harness/equations/chunk.h"
 #include "harness/model/discrete.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/turns.h"
+#include "harness/newton/chunk.h"
 
 static const double *inner_of(const model *m, const model_state *s, int i)
 {

@@ -4,9 +4,9 @@
 
 #include "elements/math/vec3.h"
 #include "harness/conserving/place.h"
-#include "harness/equations/chunk.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/turns.h"
+#include "harness/newton/chunk.h"
 
 int deformable_count(const conserving *s)
 {

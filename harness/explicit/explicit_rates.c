@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "harness/equations/linearise.h"
 #include "harness/explicit/explicit_impl.h"
 #include "harness/inertia/increment.h"
 #include "harness/inertia/inertia.h"
 #include "harness/inertia/turning.h"
 #include "harness/model/model_impl.h"
+#include "harness/newton/linearise.h"
 #include "harness/scheme/drive.h"
 
 /* inc' = v, but for rotations in the frame's axes. */

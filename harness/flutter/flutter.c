@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/equations/rotating_frame.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/newton/rotating_frame.h"
 #include "harness/scheme/damping.h"
 
 status flutter_system_alloc(const newton *n, flutter_system *s, fault *f)

@@ -5,7 +5,7 @@
 #define BEAMWORK_FLUTTER_H
 
 #include "harness/flutter/unsymmetric.h"
-#include "harness/solver/newton.h"
+#include "harness/newton/newton.h"
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
 

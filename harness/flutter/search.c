@@ -8,7 +8,7 @@
 
 #include "harness/flutter/flutter.h"
 #include "harness/model/kinematics.h"
-#include "harness/solver/context.h"
+#include "harness/newton/context.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
 static const double first_step = 1e-3; /* of the path of the state followed */

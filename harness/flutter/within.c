@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "harness/model/kinematics.h"
-#include "harness/solver/history.h"
+#include "harness/newton/history.h"
 
 enum { PARTS = 6 };
 static const double near_enough = 1e-5; /* correction that ends at a state that is looked at only */

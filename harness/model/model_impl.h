@@ -1,4 +1,4 @@
-/* Inside of a model, shared by the files of harness/model and harness/equations only. */
+/* Inside of a model, shared by the files of harness/model and harness/newton only. */
 #ifndef BEAMWORK_MODEL_IMPL_H
 #define BEAMWORK_MODEL_IMPL_H
 
@@ -103,7 +103,7 @@ typedef struct mesh_pattern {
     const mesh_element *element; /* of the model */
 } mesh_pattern;
 
-/* Strains and stresses evaluated for all elements at once: harness/equations/ahead.h. */
+/* Strains and stresses evaluated for all elements at once: harness/newton/ahead.h. */
 typedef struct mesh_ahead {
     int what, stresses; /* what of the strains, and whether the stresses, are valid */
     const element_data **data;
@@ -115,7 +115,7 @@ typedef struct mesh_ahead {
     double *e, *sigma, *J, *H, *C, *memory;
 } mesh_ahead;
 
-/* Derivatives of elements at rest: harness/equations/undeformed.h. */
+/* Derivatives of elements at rest: harness/newton/undeformed.h. */
 typedef struct mesh_undeformed {
     int *of;         /* [elements] index of its values, or NONE; NULL: nothing is known */
     int count, room; /* of values */

@@ -43,7 +43,7 @@ static int is_heavy(const scene *s)
     return heavy;
 }
 
-/* What of the loads along members goes to the nodes with the mass of a motion (equations/loads.c).
+/* What of the loads along members goes to the nodes with the mass of a motion (newton/loads.c).
  */
 static const char *goes_with(const scene *s, const scene_motion *how)
 {

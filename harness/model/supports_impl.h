@@ -1,5 +1,5 @@
 /* Rigid motions of parts of a structure, and what prevents them: shared with
- * harness/equations/linkage.c. Motions are six numbers: displacement of an origin, turn times the
+ * harness/newton/linkage.c. Motions are six numbers: displacement of an origin, turn times the
  * size of the model; what prevents them squares, of lengths. */
 #ifndef BEAMWORK_MODEL_SUPPORTS_IMPL_H
 #define BEAMWORK_MODEL_SUPPORTS_IMPL_H

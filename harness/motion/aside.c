@@ -1,6 +1,6 @@
 #include "harness/motion/aside.h"
 
-#include "harness/solver/history.h"
+#include "harness/newton/history.h"
 
 status aside_step(analysis_context *c, scheme *s, const instant *from, double time, instant *at,
                   fault *f)

@@ -3,7 +3,7 @@
 #define BEAMWORK_MOTION_CHECKS_H
 
 #include "harness/inertia/carried.h"
-#include "harness/solver/context.h"
+#include "harness/newton/context.h"
 
 /* The form of Newton has what the integrator needs; inertia and drivers can be written in time,
  * with the mass that is asked for. */

@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_FRAMES_H
 #define BEAMWORK_FRAMES_H
 
+#include "harness/newton/outcome.h"
 #include "harness/scheme/between.h"
-#include "harness/solver/outcome.h"
 
 typedef struct frames {
     const model *m;

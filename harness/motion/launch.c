@@ -13,10 +13,10 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/settle.h"
+#include "harness/newton/history.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/massless.h"
-#include "harness/solver/history.h"
 
 /* Of the square of a step: how far positions give way. */
 static const double softness = 1e-12;

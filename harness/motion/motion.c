@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "elements/math/larger.h"
-#include "harness/equations/linearise.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/motion/account.h"
@@ -18,11 +17,12 @@
 #include "harness/motion/resume.h"
 #include "harness/motion/stations.h"
 #include "harness/motion/watches.h"
+#include "harness/newton/history.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/numerics/memory.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/kinks.h"
-#include "harness/solver/history.h"
-#include "harness/solver/newton.h"
 
 enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 

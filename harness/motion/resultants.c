@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-#include "harness/equations/internal_stress.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
 #include "harness/inertia/shares.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/newton/internal_stress.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
 
 static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_QY] = SPAN_QY,

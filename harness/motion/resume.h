@@ -4,8 +4,8 @@
 
 #include "harness/motion/account.h"
 #include "harness/motion/extent.h"
+#include "harness/newton/context.h"
 #include "harness/scheme/instant.h"
-#include "harness/solver/context.h"
 
 /* What its steps depend on. */
 typedef struct resume_control {

@@ -6,15 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/equations/advance.h"
-#include "harness/equations/linearise.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/history.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/massless.h"
 #include "harness/scheme/stage.h"
-#include "harness/solver/history.h"
-#include "harness/solver/newton.h"
 
 /* Stiffness that holds what has inertia, in parts of the largest of its own: no more is lost of
  * that of the rest, no more of Newton's order is either. */

@@ -5,17 +5,17 @@
 #include <string.h>
 
 #include "elements/math/larger.h"
-#include "harness/equations/advance.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/newton.h"
 #include "harness/radau/radau_impl.h"
 #include "harness/scheme/damping.h"
 #include "harness/scheme/drive.h"
 #include "harness/scheme/kinks.h"
 #include "harness/scheme/stage.h"
-#include "harness/solver/newton.h"
 
 /* What an iteration of the stages works on. */
 typedef struct solution {

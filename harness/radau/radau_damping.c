@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/equations/equations_impl.h"
+#include "harness/newton/equations_impl.h"
 #include "harness/radau/radau_impl.h"
 #include "harness/scheme/damping.h"
 

@@ -5,9 +5,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/equations/linearise.h"
 #include "harness/inertia/inertia.h"
 #include "harness/inertia/released.h"
+#include "harness/newton/linearise.h"
 #include "harness/radau/radau_impl.h"
 #include "harness/scheme/kinks.h"
 

@@ -1,8 +1,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/equations/linearise.h"
 #include "harness/inertia/inertia.h"
+#include "harness/newton/linearise.h"
 #include "harness/radau/radau_impl.h"
 #include "harness/scheme/drive.h"
 

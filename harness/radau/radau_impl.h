@@ -3,10 +3,10 @@
 #define BEAMWORK_RADAU_IMPL_H
 
 #include "harness/model/model_impl.h"
+#include "harness/newton/arrival.h"
 #include "harness/radau/stages.h"
 #include "harness/scheme/complement.h"
 #include "harness/scheme/scheme.h"
-#include "harness/solver/arrival.h"
 
 /* One stage. */
 typedef struct radau_stage {

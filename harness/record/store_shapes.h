@@ -3,8 +3,8 @@
 #define BEAMWORK_STORE_SHAPES_H
 
 #include "cases/scene/scene.h"
+#include "harness/newton/shapes.h"
 #include "harness/record/record.h"
-#include "harness/solver/shapes.h"
 
 /* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
 hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s);

@@ -5,8 +5,8 @@
 #define BEAMWORK_VTKHDF_H
 
 #include "cases/scene/scene.h"
+#include "harness/newton/shapes.h"
 #include "harness/record/record.h"
-#include "harness/solver/shapes.h"
 
 void vtkhdf_write(record *r, const scene *sc, const shapes *s);
 

@@ -5,9 +5,9 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/equations/loads.h"
 #include "harness/inertia/turning.h"
 #include "harness/model/model_impl.h"
+#include "harness/newton/loads.h"
 
 status drive_check(const model *m, fault *f)
 {

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_INSTANT_H
 #define BEAMWORK_INSTANT_H
 
-#include "harness/solver/arrival.h"
+#include "harness/newton/arrival.h"
 
 typedef struct instant {
     double time; /* [s] */

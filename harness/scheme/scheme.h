@@ -3,9 +3,9 @@
 #define BEAMWORK_SCHEME_H
 
 #include "harness/inertia/carried.h"
+#include "harness/newton/context.h"
 #include "harness/scheme/between.h"
 #include "harness/scheme/work.h"
-#include "harness/solver/context.h"
 
 typedef struct scheme_request {
     analysis_context *c;

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/equations/advance.h"
-#include "harness/equations/linearise.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/scheme/complement.h"
 #include "harness/scheme/kinks.h"
-#include "harness/solver/newton.h"
 
 status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *f)
 {

@@ -7,9 +7,9 @@
 
 #include "harness/inertia/carried.h"
 #include "harness/inertia/inertia.h"
+#include "harness/newton/arrival.h"
+#include "harness/newton/context.h"
 #include "harness/scheme/complement.h"
-#include "harness/solver/arrival.h"
-#include "harness/solver/context.h"
 
 /* Do the factors of the last equations serve for the next ones? What they lack is the product of
  * both corrections; those of the stresses (arrival.h) tell where members are stiff. Measured with

@@ -6,11 +6,11 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/equations/applied.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
 #include "harness/inertia/inertia.h"
 #include "harness/model/model_impl.h"
+#include "harness/newton/applied.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
 #include "harness/scheme/kinks.h"
 
 static int is_driven(const model *m, const mesh_element *el)

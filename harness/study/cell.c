@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/newton/quantity.h"
 #include "harness/numerics/clock.h"
-#include "harness/solver/quantity.h"
 
 static status copy_left_out(const model *m, cell_result *out, fault *f)
 {

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_CLAIMS_H
 #define BEAMWORK_CLAIMS_H
 
-#include "harness/equations/identity.h"
+#include "harness/newton/identity.h"
 
 typedef struct claims claims;
 

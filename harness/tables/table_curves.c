@@ -5,7 +5,7 @@
 
 #include "harness/judge/curve_error.h"
 #include "harness/judge/rounding.h"
-#include "harness/solver/history.h"
+#include "harness/newton/history.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_stability.h"

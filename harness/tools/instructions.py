@@ -42,7 +42,7 @@ PARTS = (
     ("eigenvalues", "harness/numerics/", r"^(eigen|lanczos|gyroscopic)_", None),
     ("places of nodes", "harness/model/", r"^kinematics_gather$", "strain_evaluations"),
     ("products", "elements/math/", r"^dense_", "strain_evaluations"),
-    ("guesses", "harness/solver/", r"^predictor_", "load_steps"),
+    ("guesses", "harness/newton/", r"^predictor_", "load_steps"),
     ("set-up", "harness/model/", r"^model_alloc$", None),
 )
 OPERATION = re.compile(r"\s*([0-9a-f]+):\s+v?(?:add|sub|mul|div|sqrt|addsub|hadd)(sd|pd)\b")

@@ -9,7 +9,7 @@
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/registry.h"
-#include "harness/solver/refinement.h"
+#include "harness/newton/refinement.h"
 #include "harness/test/accepted.h"
 #include "harness/test/ask.h"
 

@@ -17,7 +17,7 @@
 #include "harness/model/spring.h"
 #include "harness/model/turns.h"
 #include "harness/motion/launch.h"
-#include "harness/solver/history.h"
+#include "harness/newton/history.h"
 
 typedef struct flight {
     scene scene;

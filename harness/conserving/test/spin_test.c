@@ -4,12 +4,12 @@
 #include <stdio.h>
 
 #include "harness/conserving/test/flight.h"
-#include "harness/equations/advance.h"
-#include "harness/equations/linearise.h"
-#include "harness/equations/loads.h"
 #include "harness/formulations/registry.h"
 #include "harness/inertia/increment.h"
 #include "harness/model/assemble.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
 
 enum { STEPS = 30, STAGES = 4, ITERATIONS = 40 };
 

@@ -3,11 +3,11 @@
 #include <math.h>
 
 #include "elements/math/vec3.h"
-#include "harness/equations/linearise.h"
 #include "harness/inertia/inertia.h"
 #include "harness/model/kinematics.h"
 #include "harness/motion/test/flying.h"
 #include "harness/motion/test/moving.h"
+#include "harness/newton/linearise.h"
 #include "harness/scheme/massless.h"
 
 extern const element_type element_geometrically_exact, element_beamw, element_beamw_consistent,

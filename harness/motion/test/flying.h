@@ -10,8 +10,8 @@
 #include "harness/model/model_impl.h"
 #include "harness/motion/integrator.h"
 #include "harness/motion/launch.h"
+#include "harness/newton/history.h"
 #include "harness/scheme/damping.h"
-#include "harness/solver/history.h"
 
 typedef struct flying {
     formulation chosen;

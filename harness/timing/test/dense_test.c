@@ -3,9 +3,9 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/equations/uncondensed.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
+#include "harness/newton/uncondensed.h"
 #include "harness/test/cells.h"
 #include "harness/timing/dense_reference.h"
 

@@ -11,7 +11,7 @@ positions: instr line
 events: Ir
 
 ob=(1) /there/build/beamwork
-fl=(1) harness/solver/newton.c
+fl=(1) harness/newton/newton.c
 fn=(1) newton_to
 0x100 10 5
 +4 11 7

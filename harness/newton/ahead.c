@@ -1,0 +1,120 @@
+#include "harness/newton/ahead.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Bytes of an array, so that the next one is aligned. */
+static size_t bytes(size_t count, size_t size)
+{
+    const size_t unit = _Alignof(max_align_t);
+    return (count * size + unit - 1) / unit * unit;
+}
+
+static void *part(char **from, size_t count, size_t size)
+{
+    void *here = *from;
+    *from += bytes(count, size);
+    return here;
+}
+
+/* All arrays in one block. 0: no memory. */
+static int allocate(model *m)
+{
+    const size_t n = (size_t)m->elements, s = (size_t)m->strains, c = (size_t)m->coordinates,
+                 nodes = (size_t)m->nodes, memory = (size_t)m->memory;
+    const size_t size = bytes(1, sizeof(mesh_ahead)) + 3 * bytes(n, sizeof(void *)) +
+                        bytes(n * nodes, sizeof(node_state)) + bytes(n, sizeof(strain_output)) +
+                        bytes(n, sizeof(stress_output)) + bytes(n, sizeof(status)) +
+                        2 * bytes(n * s, sizeof(double)) + bytes(n * s * c, sizeof(double)) +
+                        bytes(n * c * c, sizeof(double)) + bytes(n * s * s, sizeof(double)) +
+                        bytes(n * memory, sizeof(double));
+    char *block = m->ahead == NULL ? malloc(size) : NULL;
+    if (block == NULL)
+        return m->ahead != NULL;
+    mesh_ahead *a = m->ahead = part(&block, 1, sizeof *a);
+    memset(a, 0, sizeof *a);
+    a->data = part(&block, n, sizeof(void *));
+    a->at = part(&block, n, sizeof(void *));
+    a->inner = part(&block, n, sizeof(void *));
+    a->x = part(&block, n * nodes, sizeof *a->x);
+    a->strain = part(&block, n, sizeof *a->strain);
+    a->stress = part(&block, n, sizeof *a->stress);
+    a->outcome = part(&block, n, sizeof *a->outcome);
+    a->e = part(&block, n * s, sizeof *a->e);
+    a->sigma = part(&block, n * s, sizeof *a->sigma);
+    a->J = part(&block, n * s * c, sizeof *a->J);
+    a->H = part(&block, n * c * c, sizeof *a->H);
+    a->C = part(&block, n * s * s, sizeof *a->C);
+    a->memory = part(&block, n * memory, sizeof *a->memory);
+    for (int i = 0; i < m->elements; i++)
+        a->data[i] = m->kind[m->element[i].kind].data;
+    return 1;
+}
+
+void ahead_strains(model *m, const model_state *s, int what, const double sigma[])
+{
+    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(m))
+        return;
+    mesh_ahead *a = m->ahead;
+    const int n = m->strains, c = m->coordinates;
+    for (int i = 0; i < m->elements; i++) {
+        kinematics_gather(m, s, &m->element[i], a->x + i * m->nodes);
+        a->strain[i] = (strain_output){.e = what & AHEAD_E ? a->e + i * n : NULL,
+                                       .J = what & AHEAD_J ? a->J + i * n * c : NULL,
+                                       .s = what & AHEAD_H ? sigma + i * n : NULL,
+                                       .H = what & AHEAD_H ? a->H + i * c * c : NULL};
+    }
+    m->type->strain_many(m->elements, a->data, a->x, a->strain);
+    a->what = what;
+}
+
+void ahead_stresses(model *m, const double e[], const double inner[])
+{
+    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(m))
+        return;
+    mesh_ahead *a = m->ahead;
+    const int n = m->strains;
+    if (e == NULL && !(a->what & AHEAD_E))
+        return;
+    for (int i = 0; i < m->elements; i++) {
+        a->at[i] = (e != NULL ? e : a->e) + i * n;
+        a->inner[i] = inner + i * m->inner;
+        a->stress[i] = (stress_output){.sigma = a->sigma + i * n,
+                                       .C = a->C + i * n * n,
+                                       .memory = m->memory > 0 ? a->memory + i * m->memory : NULL};
+    }
+    m->type->stress_many(m->elements, a->data, a->at, a->inner, a->stress, a->outcome);
+    a->stresses = 1;
+}
+
+void ahead_end(model *m)
+{
+    if (m->ahead != NULL)
+        m->ahead->what = m->ahead->stresses = 0;
+}
+
+static void copy(double *to, const double *from, int count)
+{
+    if (to != NULL)
+        memcpy(to, from, (size_t)count * sizeof *to);
+}
+
+void ahead_copy_strain(const model *m, int i, const strain_output *out)
+{
+    const mesh_ahead *a = m->ahead;
+    const int n = m->strains, c = m->coordinates;
+    copy(out->e, a->e + i * n, n);
+    copy(out->J, a->J + i * n * c, n * c);
+    if (out->s != NULL)
+        copy(out->H, a->H + i * c * c, c * c);
+}
+
+status ahead_copy_stress(const model *m, int i, const stress_output *out)
+{
+    const mesh_ahead *a = m->ahead;
+    const int n = m->strains;
+    copy(out->sigma, a->sigma + i * n, n);
+    copy(out->C, a->C + i * n * n, n * n);
+    copy(out->memory, a->memory + i * m->memory, m->memory);
+    return a->outcome[i];
+}

@@ -1,0 +1,381 @@
+/* Loads on vertices: their directions and arms, and what they add to the stiffness. */
+#include "harness/newton/applied.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/along_path.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/section/matrices.h"
+#include "elements/shared/lumped.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/release.h"
+#include "harness/newton/equations_impl.h"
+
+double applied_factor(const model *m, const scene_load *load, double path)
+{
+    double at[3];
+    if (m->unloaded)
+        return 0;
+    if (!m->in_time)
+        return along_path_factor(load, path);
+    if (load->function.pieces == 0)
+        return along_path_factor(load, m->held_path);
+    function_at(&load->function, path, at);
+    return at[0];
+}
+
+void applied_member_axes(const double triad[9], const section *of, double R[9])
+{
+    const double angle = of->axes_angle, c = cos(angle), d = sin(angle);
+    memcpy(R, triad, 9 * sizeof(double));
+    for (int i = 0; i < 9; i += 3) {
+        const double y = R[i + 1];
+        R[i + 1] = c * y - d * R[i + 2];
+        R[i + 2] = c * R[i + 2] + d * y;
+    }
+}
+
+/* A load on one vertex. axes: those it is given in; NULL: fixed ones. beside: where it acts besides
+ * `at`, in fixed axes. */
+static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
+                         const double axes[9], const double beside[3])
+{
+    applied out = {.vertex = vertex, .follower = load->follower};
+    const int moment = scene_load_turns(load) ? 3 : 0;
+    double v[3], at[3];
+    memcpy(v, load->vector, sizeof v);
+    memcpy(at, load->at, sizeof at);
+    if (axes != NULL) {
+        mat3_mul_vec(axes, load->vector, v);
+        mat3_mul_vec(axes, load->at, at);
+    }
+    for (int i = 0; i < 3; i++)
+        at[i] += beside[i];
+    out.offset = vec3_norm(at) > 0;
+    if (out.offset)
+        rotation_apply(&s->q[4 * vertex], at, out.arm);
+    if (load->follower) {
+        memcpy(at, v, sizeof at);
+        rotation_apply(&s->q[4 * vertex], at, v);
+    }
+    for (int i = 0; i < 3; i++)
+        out.F[moment + i] = scale * v[i];
+    return out;
+}
+
+/* Of a body: m g at its centre of mass. */
+static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
+{
+    const scene_body *body = &m->scene->node[load->where].body;
+    scene_load force = *load;
+    for (int i = 0; i < 3; i++)
+        force.vector[i] *= body->mass;
+    return of_vertex(s, load->where, &force, scale, NULL, body->centre);
+}
+
+/* Per length, of an element: 1, or its mass for gravity. */
+static double density_of(const model *m, const scene_load *load, const mesh_element *el)
+{
+    const section *c = &m->section[m->kind[el->kind].section];
+    return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
+}
+
+/* Gravity acts at the centre of mass of the undeformed section. */
+static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
+                          double centre[3])
+{
+    const section *c = &m->section[m->kind[el->kind].section];
+    double at[3];
+    memset(centre, 0, 3 * sizeof *centre);
+    if (load->kind != SCENE_GRAVITY || !c->matrices)
+        return;
+    section_matrices_centre(c, at);
+    mat3_mul_vec(el->triad[node], at, centre);
+}
+
+/* Parts of an element shorter than this hold no load: rounding of where it begins. */
+static const double least_part = 1e-12;
+
+int applied_inside(double x)
+{
+    return x > least_part && x < 1 - least_part;
+}
+
+int applied_part(const model *m, int element, const scene_load *load, double part[2])
+{
+    const int member = m->element[element].member;
+    if (!scene_load_along(load) || load->where != member)
+        return 0;
+    const int number = element - m->first_element[member];
+    if (scene_load_within(load)) {
+        const int at = division_at(&m->division, member, load->range[0], 0, &part[0]);
+        part[1] = part[0];
+        return at == number;
+    }
+    for (int i = 0; i < 2; i++)
+        part[i] = division_inside(&m->division, member, number, load->range[i]);
+    part[0] = fmax(part[0], 0);
+    part[1] = fmin(part[1], 1);
+    return part[1] - part[0] > least_part;
+}
+
+void applied_vector(const model *m, int element, const scene_load *load, double x, double vector[3])
+{
+    const int member = m->element[element].member;
+    memcpy(vector, load->vector, 3 * sizeof *vector);
+    if (!load->varies)
+        return;
+    const double place =
+                     division_place(&m->division, member, element - m->first_element[member], x),
+                 along = (place - load->range[0]) / (load->range[1] - load->range[0]);
+    for (int i = 0; i < 3; i++)
+        vector[i] += along * (load->last[i] - load->vector[i]);
+}
+
+/* The share of node k at x. */
+static double share_of(const model *m, int k, double x)
+{
+    const double three[] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), -x * (1 - 2 * x)};
+    if (m->nodes == 2)
+        return k == 0 ? 1 - x : x;
+    return three[k];
+}
+
+/* Points of a load on a part of an element with their weights; exact for shares times what varies
+ * linearly. */
+static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
+{
+    const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
+    if (scene_load_within(load)) {
+        x[0] = part[0];
+        weight[0] = 1;
+        return 1;
+    }
+    for (int i = 0; i < 2; i++) {
+        x[i] = middle + (i ? half : -half) / sqrt(3);
+        weight[i] = half;
+    }
+    return 2;
+}
+
+/* Along the whole of a member, on its nodes with a motion's mass: not by the load's own wish. */
+static int with_mass(const scene_load *load)
+{
+    return !load->lumped && load->range[0] == 0 && load->range[1] == 1;
+}
+
+/* What node k of an element takes: the load's vector times its shares. */
+static void share_at(const model *m, const scene_load *load, int element, const double part[2],
+                     int k, double vector[3])
+{
+    const double length = scene_load_within(load) ? 1 : m->kind[m->element[element].kind].length;
+    double x[2], weight[2];
+    memset(vector, 0, 3 * sizeof *vector);
+    if (!load->varies && !scene_load_within(load) && part[0] == 0 && part[1] == 1) {
+        const double *share = with_mass(load) ? m->element[element].share : lumped_shares(m->nodes);
+        for (int i = 0; i < 3; i++)
+            vector[i] = share[k] * length * load->vector[i];
+        return;
+    }
+    const int count = points_of(load, part, x, weight);
+    for (int g = 0; g < count; g++) {
+        double here[3];
+        applied_vector(m, element, load, x[g], here);
+        for (int i = 0; i < 3; i++)
+            vector[i] += length * weight[g] * share_of(m, k, x[g]) * here[i];
+    }
+}
+
+void applied_element(const model *m, const model_state *s, const scene_load *load, double scale,
+                     int element, void (*take)(void *context, const applied *), void *context)
+{
+    const mesh_element *el = &m->element[element];
+    double part[2];
+    if (!applied_part(m, element, load, part))
+        return;
+    for (int k = 0; k < m->nodes; k++) {
+        double axes[9], centre[3];
+        scene_load one = *load;
+        share_at(m, load, element, part, k, one.vector);
+        if (load->axes == SCENE_AXES_MEMBER)
+            applied_member_axes(el->triad[k], &m->section[m->kind[el->kind].section], axes);
+        weight_centre(m, load, el, k, centre);
+        const applied what = of_vertex(s, el->vertex[k], &one, scale * density_of(m, load, el),
+                                       load->axes == SCENE_AXES_MEMBER ? axes : NULL, centre);
+        take(context, &what);
+    }
+}
+
+void applied_each(const model *m, const model_state *s, const scene_load *load, double scale,
+                  void (*take)(void *context, const applied *), void *context)
+{
+    if (!scene_load_along(load)) {
+        static const double none[3] = {0, 0, 0};
+        const applied one = load->kind == SCENE_WEIGHT
+                                ? of_weight(m, s, load, scale)
+                                : of_vertex(s, load->where, load, scale, NULL, none);
+        take(context, &one);
+        return;
+    }
+    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++)
+        applied_element(m, s, load, scale, i, take, context);
+}
+
+/* Where entries of the stiffness go. */
+typedef struct entries {
+    const model *m;
+    const model_state *s;
+    loads_entry take;
+    void *to;
+} entries;
+
+/* How the generalised load of a force F at rho and a moment F + 3 that turn with the body changes
+ * with its turn about b: that of b x F and b x F[3..5]. */
+static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
+                          const double rho[3], double b[3][3], int column)
+{
+    double force[3], moment[3], arm[3];
+    vec3_cross(b[column], F, force);
+    vec3_cross(b[column], F + 3, moment);
+    vec3_cross(rho, force, arm);
+    for (int i = 0; i < 3; i++) {
+        all->take(all->to, body->coordinate[i], body->coordinate[3 + column], force[i]);
+        all->take(all->to, body->coordinate[3 + i], body->coordinate[3 + column],
+                  vec3_dot(b[i], moment) + vec3_dot(b[i], arm));
+    }
+}
+
+/* What one coordinate does to a load on a released end. */
+typedef struct load_motion {
+    int coordinate;
+    int own;        /* 1: of the end, 0: of its body */
+    int chart;      /* 1: a turn about a fixed axis, in no order with the two others */
+    double axis[3]; /* of a turn */
+    double turn[3]; /* of the load's frame */
+    double shift[3];
+} load_motion;
+
+/* In the order of the frame: the body's place and turns, those of the end, its shifts. Returns how
+ * many there are. */
+static int motions_at_release(const entries *all, const applied *what,
+                              load_motion out[KINEMATICS_MOST])
+{
+    const mesh_release *r = release_of(all->m, what->vertex);
+    const int body = all->m->vertex[what->vertex].body;
+    int index[KINEMATICS_MOST];
+    double T[6 * KINEMATICS_MOST], of_body[6 * KINEMATICS_MOST];
+    const int from_body = kinematics_node_jacobian(all->m, all->s, body, 6, index, of_body),
+              count =
+                  kinematics_node_jacobian(all->m, all->s, what->vertex, KINEMATICS_MOST, index, T);
+    for (int k = 0; k < count; k++) {
+        load_motion *to = &out[k];
+        to->coordinate = index[k];
+        to->own = k >= from_body;
+        for (int i = 0; i < 3; i++) {
+            to->turn[i] = T[(3 + i) * count + k];
+            to->axis[i] = to->own ? to->turn[i] : of_body[(3 + i) * from_body + k];
+        }
+        vec3_cross(to->turn, what->arm, to->shift);
+        for (int i = 0; i < 3; i++)
+            to->shift[i] = T[i * count + k] + (what->offset ? to->shift[i] : 0);
+        to->chart =
+            vec3_norm(to->axis) > 0 && (to->own ? r->turns == 3 : all->m->vertex[body].angles == 0);
+    }
+    return count;
+}
+
+/* Does the turn e come before l and move what l moves along? 1/2: both in no order. */
+static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
+{
+    if (r->turns == 3 && e->own != l->own)
+        return 0;
+    return e->chart && l->chart && e->own == l->own ? 0.5 : e < l;
+}
+
+/* a . (b x c) */
+static double triple(const double a[3], const double b[3], const double c[3])
+{
+    double cross[3];
+    vec3_cross(b, c, cross);
+    return vec3_dot(a, cross);
+}
+
+/* Derivative of the generalised load of coordinate i by coordinate j. */
+static double release_entry(const mesh_release *r, const applied *what, const load_motion *i,
+                            const load_motion *j)
+{
+    const double *F = what->F, *M = F + 3, before = carries(r, j, i);
+    double value = i == j ? triple(F, i->axis, i->shift)
+                          : before * triple(F, j->axis, i->shift) +
+                                carries(r, i, j) * triple(F, i->axis, j->shift);
+    value += i == j ? 0 : before * triple(M, j->axis, i->turn);
+    if (what->follower)
+        value += triple(i->shift, j->turn, F) + triple(i->turn, j->turn, M);
+    return value;
+}
+
+static void add_stiffness_at_release(const entries *all, const applied *what)
+{
+    load_motion motion[KINEMATICS_MOST];
+    const int count = motions_at_release(all, what, motion);
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            all->take(
+                all->to, motion[i].coordinate, motion[j].coordinate,
+                release_entry(release_of(all->m, what->vertex), what, &motion[i], &motion[j]));
+}
+
+/* Derivative of the generalised load of a force F at offset rho and a spatial moment on one
+ * body's rotations. */
+static void add_stiffness(void *context, const applied *what)
+{
+    const entries *all = context;
+    const double *F = what->F;
+    if (release_of(all->m, what->vertex) != NULL) {
+        add_stiffness_at_release(all, what);
+        return;
+    }
+    const mesh_vertex *v = &all->m->vertex[what->vertex], *body = &all->m->vertex[v->body];
+    double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (v->body == what->vertex && !what->offset && !what->follower && F[3] == 0 && F[4] == 0 &&
+        F[5] == 0)
+        return;
+    kinematics_offset(all->m, all->s, what->vertex, rho);
+    if (what->offset)
+        for (int i = 0; i < 3; i++)
+            rho[i] += what->arm[i];
+    const double dot = vec3_dot(F, rho);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            D[3 * i + j] = (F[i] * rho[j] + rho[i] * F[j]) / 2 - (i == j ? dot : 0);
+    if (body->angles > 0) {
+        kinematics_axes(all->m, all->s, v->body, b);
+        vec3_cross(rho, F, moment);
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double Db[3], cross[3];
+            mat3_mul_vec(D, b[j], Db);
+            vec3_cross(b[j], b[i], cross);
+            double value = vec3_dot(b[i], Db);
+            if (body->angles >
+                0) /* conservative part symmetric, dead moment only through earlier axes */
+                value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
+                         (j < i ? vec3_dot(F + 3, cross) : 0);
+            else
+                value += vec3_dot(F + 3, cross) / 2;
+            all->take(all->to, body->coordinate[3 + i], body->coordinate[3 + j], value);
+        }
+    if (what->follower)
+        for (int j = 0; j < 3; j++)
+            add_following(all, body, F, rho, b, j);
+}
+
+void applied_stiffness(const model *m, const model_state *s, const scene_load *load, double scale,
+                       loads_entry take, void *to)
+{
+    entries all = {m, s, take, to};
+    applied_each(m, s, load, scale, add_stiffness, &all);
+}

@@ -1,0 +1,257 @@
+#include "harness/newton/chunk.h"
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/real.h"
+#include "harness/newton/ahead.h"
+
+/* Fewer elements than these cost less one by one; without AVX2 any number does: there four lanes
+ * are two vectors (measured on sheets and collocation). */
+enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
+
+int chunk_size(const model *m)
+{
+    const element_type *t = m->type;
+    if (t->lanes < 2 || t->strain_many == NULL)
+        return 1;
+    return t->lanes < CHUNK_MOST ? t->lanes : CHUNK_MOST;
+}
+
+int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST])
+{
+    const int most = chunk_size(m);
+    int count = 0, i = first;
+    while (i < end && done[i - first])
+        i++;
+    for (int k = i; k < end && count < most; k++)
+        if (!done[k - first] && m->element[k].kind == m->element[i].kind) {
+            done[k - first] = 1;
+            index[count++] = k;
+        }
+    return count;
+}
+
+static double *of_strains(const model *m, double *all, int element)
+{
+    return all + (size_t)element * (size_t)m->strains;
+}
+
+static const double *inner_of(const model *m, const model_state *s, int element)
+{
+    return &s->inner[(size_t)element * (size_t)m->inner];
+}
+
+/* Their functions of one element, or what was evaluated ahead. */
+static void strains_one_by_one(const model *m, const model_state *s, int count,
+                               chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
+{
+    for (int k = 0; k < count; k++) {
+        chunk_element *c = &element[k];
+        const model_slot w = linearise_slot(m, c->index);
+        ahead_strain(m, c->index, c->x,
+                     &(strain_output){.e = deformed[k],
+                                      .J = w.J,
+                                      .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
+                                      .H = c->K});
+    }
+}
+
+static void stresses_one_by_one(const model *m, const model_state *s, int count,
+                                chunk_element element[])
+{
+    for (int k = 0; k < count; k++) {
+        const int i = element[k].index;
+        const model_slot w = linearise_slot(m, i);
+        if (element[k].along.acts)
+            continue;
+        element[k].outcome = ahead_stress(
+            m, i, of_strains(m, s->e, i), inner_of(m, s, i),
+            &(stress_output){
+                .sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL});
+    }
+}
+
+/* Their functions of many elements. */
+static void strains_together(const model *m, const model_state *s, int count,
+                             chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
+{
+    const element_data *data[CHUNK_MOST];
+    node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
+    strain_output out[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        const chunk_element *c = &element[k];
+        data[k] = m->kind[m->element[c->index].kind].data;
+        memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
+        out[k] = (strain_output){.e = deformed[k],
+                                 .J = linearise_slot(m, c->index).J,
+                                 .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
+                                 .H = c->K};
+    }
+    m->type->strain_many(count, data, x, out);
+}
+
+static void stresses_together(const model *m, const model_state *s, int count,
+                              chunk_element element[])
+{
+    const element_data *data[CHUNK_MOST];
+    const double *e[CHUNK_MOST], *inner[CHUNK_MOST];
+    stress_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    int own[CHUNK_MOST], owned = 0;
+    for (int k = 0; k < count; k++) {
+        const int i = element[k].index;
+        const model_slot w = linearise_slot(m, i);
+        if (element[k].along.acts)
+            continue;
+        data[owned] = m->kind[m->element[i].kind].data;
+        e[owned] = of_strains(m, s->e, i);
+        inner[owned] = inner_of(m, s, i);
+        out[owned] =
+            (stress_output){.sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL};
+        own[owned++] = k;
+    }
+    if (owned > 0)
+        m->type->stress_many(owned, data, e, inner, out, outcome);
+    for (int k = 0; k < owned; k++)
+        element[own[k]].outcome = outcome[k];
+}
+
+/* Of elements that take loads along them. */
+static void stresses_under_loads(const model *m, const model_state *s, int count,
+                                 chunk_element element[])
+{
+    const element_data *data[CHUNK_MOST];
+    node_state x[2 * CHUNK_MOST];
+    along_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    int own[CHUNK_MOST], owned = 0;
+    for (int k = 0; k < count; k++) {
+        chunk_element *c = &element[k];
+        const model_slot w = linearise_slot(m, c->index);
+        if (!c->along.acts)
+            continue;
+        data[owned] = m->kind[m->element[c->index].kind].data;
+        memcpy(x + (ptrdiff_t)2 * owned, c->x, 2 * sizeof *x);
+        out[owned] = c->along.out;
+        out[owned].e = of_strains(m, s->e, c->index);
+        out[owned].inner = inner_of(m, s, c->index);
+        out[owned].sigma = w.sigma;
+        out[owned].C = w.C;
+        out[owned].memory = w.memory;
+        out[owned].mixed = w.along + SLOT_MIXED;
+        out[owned].followed = w.along + slot_followed(m);
+        out[owned].H = c->K != NULL ? c->along.H : NULL;
+        own[owned++] = k;
+    }
+    if (owned == 0)
+        return;
+    m->type->along(owned, data, x, out, outcome);
+    for (int k = 0; k < owned; k++) {
+        element[own[k]].along.out = out[k];
+        memcpy(linearise_slot(m, element[own[k]].index).along + SLOT_TURN, out[k].turn,
+               sizeof out[k].turn);
+        element[own[k]].outcome = outcome[k];
+    }
+}
+
+/* Their equations, in one go. */
+static void equations_together(const model *m, const model_state *s, int count,
+                               chunk_element element[])
+{
+    const element_data *data[CHUNK_MOST];
+    const double *e[CHUNK_MOST], *inner[CHUNK_MOST], *sigma[CHUNK_MOST];
+    node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
+    equations_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        chunk_element *c = &element[k];
+        const model_slot w = linearise_slot(m, c->index);
+        data[k] = m->kind[m->element[c->index].kind].data;
+        memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
+        e[k] = of_strains(m, s->e, c->index);
+        sigma[k] = of_strains(m, s->sigma, c->index);
+        inner[k] = inner_of(m, s, c->index);
+        out[k] = (equations_output){.J = w.J,
+                                    .C = w.C,
+                                    .memory = w.memory,
+                                    .incompatibility = w.incompatibility,
+                                    .sigma = w.sigma,
+                                    .force = c->force,
+                                    .present = c->present,
+                                    .K = c->K};
+        c->complete = 1;
+    }
+    m->type->equations_many(count, data, x, e, inner, sigma, out, outcome);
+    for (int k = 0; k < count; k++)
+        element[k].outcome = outcome[k];
+}
+
+/* sigma = stress(e) + C (D(x) - e), from the strains D(x). */
+static void mix(const model *m, const model_state *s, int index, const double deformed[])
+{
+    const model_slot w = linearise_slot(m, index);
+    const double *e = of_strains(m, s->e, index);
+    double more[ELEMENT_MAX_STRAINS];
+    for (int i = 0; i < m->strains; i++)
+        w.incompatibility[i] = deformed[i] - e[i];
+    dense_mul_vec(m->strains, m->strains, w.C, w.incompatibility, more);
+    for (int i = 0; i < m->strains; i++)
+        w.sigma[i] += more[i];
+}
+
+/* The strains' rates, of those that the linearised equations have without a motion. */
+static void damp(const model *m, const model_state *s, int index)
+{
+    const mesh_damping *d = m->damping;
+    const double eta = m->scene->member[m->element[index].member].damping;
+    const size_t n = (size_t)m->strains, first = (size_t)index * n;
+    const double *S = d->stiffness + (size_t)m->element[index].kind * n * n;
+    const model_slot w = linearise_slot(m, index);
+    double rate[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
+    if (eta == 0)
+        return;
+    for (size_t k = 0; k < n; k++)
+        rate[k] = d->known[first + k] +
+                  d->g * (s->e[first + k] + w.incompatibility[k] - d->from[first + k]);
+    dense_mul_vec(m->strains, m->strains, S, rate, more);
+    for (size_t k = 0; k < n; k++)
+        w.sigma[k] += eta * more[k];
+    for (size_t k = 0; k < n * n; k++)
+        w.C[k] += eta * d->g * S[k];
+}
+
+void chunk_evaluate(const model *m, const model_state *s, double path, int count,
+                    chunk_element element[])
+{
+    double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
+    const int together = count >= REAL_CHOSEN(together_from) && chunk_size(m) > 1;
+    for (int k = 0; k < count; k++) {
+        kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
+        element[k].complete = 0;
+        element[k].along.acts = 0;
+        if (m->takes)
+            distributed_take(m, element[k].index, path, &element[k].along);
+        if (m->takes)
+            linearise_slot(m, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
+    }
+    if (together && m->type->equations_many != NULL && !m->rotates && m->damping == NULL &&
+        !m->takes) {
+        equations_together(m, s, count, element);
+        return;
+    }
+    if (together)
+        strains_together(m, s, count, element, deformed);
+    else
+        strains_one_by_one(m, s, count, element, deformed);
+    if (together && m->type->stress_many != NULL)
+        stresses_together(m, s, count, element);
+    else
+        stresses_one_by_one(m, s, count, element);
+    if (m->takes)
+        stresses_under_loads(m, s, count, element);
+    for (int k = 0; k < count; k++)
+        mix(m, s, element[k].index, deformed[k]);
+    for (int k = 0; k < count && m->damping != NULL; k++)
+        damp(m, s, element[k].index);
+}

@@ -1,0 +1,285 @@
+#include "harness/newton/condensation.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/assemble.h"
+#include "harness/model/discrete.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/release.h"
+#include "harness/newton/ahead.h"
+#include "harness/newton/condensation_impl.h"
+#include "harness/newton/distributed.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/newton/link.h"
+#include "harness/numerics/memory.h"
+
+/* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
+ * them free? */
+static int applies(const model *m, int from)
+{
+    int longest = 0;
+    if (m->rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
+        return 0;
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (scene_load_along(load) &&
+            (scene_load_unsymmetric(load) || (load->lumped && vec3_norm(load->at) > 0)))
+            return 0;
+    }
+    for (int i = 0; i < m->scene->members; i++) {
+        const int count = m->first_element[i + 1] - m->first_element[i];
+        longest = count > longest ? count : longest;
+    }
+    return longest >= from;
+}
+
+static void append_released(const model *m, const mesh_element *from, int vertex, int begin,
+                            mesh_element *to)
+{
+    const mesh_release *r = release_of(m, vertex);
+    for (int k = 0; r != NULL && k < r->turns + r->slides; k++)
+        to->index[to->columns++] = from->index[begin + k];
+}
+
+static int released_columns(const model *m, int vertex)
+{
+    const mesh_release *r = release_of(m, vertex);
+    return r != NULL ? r->turns + r->slides : 0;
+}
+
+static status member_of(const model *m, int index, member *out, fault *f)
+{
+    const int nodes = m->nodes, last = m->first_element[index + 1] - 1;
+    out->first = m->first_element[index];
+    out->links = last + 1 - out->first;
+    const mesh_element *p = &m->element[out->first], *q = &m->element[last];
+    mesh_element *e = &out->ends;
+    *e = *p;
+    e->nodes = 2;
+    e->columns = 2 * NODE_COORDINATES;
+    e->plain = p->plain && q->plain;
+    e->vertex[1] = q->vertex[nodes - 1];
+    e->warp[1] = q->warp[nodes - 1];
+    memcpy(out->triad[0], p->triad[0], sizeof(mesh_triad));
+    memcpy(out->triad[1], q->triad[nodes - 1], sizeof(mesh_triad));
+    e->triad = out->triad;
+    memcpy(&e->index[NODE_COORDINATES], &q->index[NODE_COORDINATES * (nodes - 1)],
+           NODE_COORDINATES * sizeof e->index[0]);
+    append_released(m, p, e->vertex[0], NODE_COORDINATES * nodes, e);
+    append_released(m, q, e->vertex[1], q->columns - released_columns(m, e->vertex[1]), e);
+    const int warps = p->warp[0] != NONE || p->warp[1] != NONE || q->warp[nodes - 1] != NONE;
+    out->joint = warps ? NODE_COORDINATES : NODE_COORDINATES - 1;
+    out->y = out->joint * (nodes - 1);
+    return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
+}
+
+/* Members and their loads: its own, or those of `of`. */
+static status find_members(condensation *s, const condensation *of, fault *f)
+{
+    const model *m = s->m;
+    size_t longest = 0;
+    s->members = m->scene->members;
+    s->member = calloc((size_t)s->members, sizeof *s->member);
+    if (s->member == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+    s->lent = of != NULL;
+    if (s->lent) {
+        memcpy(s->member, of->member, (size_t)s->members * sizeof *s->member);
+        s->r = of->r;
+        return STATUS_OK;
+    }
+    for (int i = 0; i < s->members; i++) {
+        TRY(member_of(m, i, &s->member[i], f));
+        const size_t size = (size_t)s->member[i].links * (size_t)s->member[i].y;
+        longest = size > longest ? size : longest;
+    }
+    s->r = malloc(longest * sizeof *s->r);
+    return s->r != NULL ? STATUS_OK
+                        : fault_set(f, STATUS_FAULT, "out of memory for the loads of members");
+}
+
+static status build(condensation *s, const condensation *of, int count, const int released[],
+                    int *few, fault *f)
+{
+    const model *m = s->m;
+    TRY(find_members(s, of, f));
+    s->number = malloc(((size_t)s->all + 1) * sizeof *s->number);
+    s->end = calloc((size_t)s->members * MEMBER_COLUMNS, sizeof *s->end);
+    if (s->number == NULL || s->end == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+    const int ends = condensation_number(s, count, released);
+    *few = ends <= MOST_ENDS;
+    if (!*few)
+        return STATUS_OK;
+    s->small = malloc(((size_t)s->unknowns + 1) * sizeof *s->small);
+    s->driven = malloc(((size_t)m->driven + 1) * sizeof *s->driven);
+    if (s->driven == NULL || s->unknown == NULL || s->small == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+    s->K.symmetric = s->inside.symmetric = assemble_symmetric(m);
+    s->inside.by_numbers = !s->inside.symmetric;
+    TRY(condensation_patterns(s, ends, f));
+    return factor_alloc(&s->inside, &s->factor, f);
+}
+
+static status allocate(model *m, const condensation *of, int count, const int released[],
+                       condensation **out, fault *f)
+{
+    int few = 0;
+    condensation *s = calloc(1, sizeof *s);
+    if (s == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+    s->m = m;
+    s->all = m->free + m->driven;
+    const status outcome = build(s, of, count, released, &few, f);
+    if (outcome == STATUS_OK && few)
+        *out = s;
+    else
+        condensation_free(s);
+    return outcome;
+}
+
+status condensation_alloc(model *m, int from, int count, const int released[], condensation **out,
+                          fault *f)
+{
+    *out = NULL;
+    return applies(m, from) ? allocate(m, NULL, count, released, out, f) : STATUS_OK;
+}
+
+status condensation_alloc_like(const condensation *of, int count, const int released[],
+                               condensation **out, fault *f)
+{
+    *out = NULL;
+    return allocate(of->m, of, count, released, out, f);
+}
+
+static void free_sparse(sparse *a)
+{
+    free(a->column);
+    free(a->row);
+    free(a->value);
+}
+
+void condensation_free(condensation *s)
+{
+    if (s == NULL)
+        return;
+    for (int i = 0; i < s->members && s->member != NULL && !s->lent; i++)
+        chain_free(s->member[i].chain);
+    if (!s->lent)
+        free(s->r);
+    free_sparse(&s->K);
+    free_sparse(&s->inside);
+    factor_free(s->factor);
+    void *const all[] = {s->member, s->number, s->unknown, s->from, s->small, s->driven, s->end};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        free(all[i]);
+    free(s);
+}
+
+/* One element as a link; force[7 nodes]: internal, in the state. */
+static status link_element_of(model *m, const model_state *s, const member *of, int i, double path,
+                              chain_link *link, double force[], fault *f)
+{
+    const model_slot w = linearise_slot(m, i);
+    const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    node_state x[ELEMENT_MAX_NODES];
+    double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
+        along[ELEMENT_MAX_COORDINATES] = {0};
+    kinematics_gather(m, s, &m->element[i], x);
+    ahead_strain(m, i, x, &(strain_output){.s = sigma, .H = H});
+    for (int k = 0; k < m->nodes; k++)
+        memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
+    memset(force, 0, (size_t)m->coordinates * sizeof *force);
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
+    distributed_add(m, s, x, i, path, along, H);
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= along[k];
+    const link_element el = {m->nodes, m->strains, of->joint, w.J, w.C, H, r};
+    return link_of(&el, link, f);
+}
+
+/* The chain of a member; force[14]: internal forces of its ends. */
+static status fill_chain(model *m, const model_state *s, member *of, double path, double force[],
+                         fault *f)
+{
+    double own[ELEMENT_MAX_COORDINATES];
+    chain_begin(of->chain);
+    for (int i = of->first; i < of->first + of->links; i++) {
+        chain_link link;
+        TRY(link_element_of(m, s, of, i, path, &link, own, f));
+        TRY(chain_add(of->chain, &link, f));
+        if (i == of->first)
+            memcpy(force, own, NODE_COORDINATES * sizeof *force);
+    }
+    memcpy(force + NODE_COORDINATES, own + NODE_COORDINATES * (m->nodes - 1),
+           NODE_COORDINATES * sizeof *force);
+    return STATUS_OK;
+}
+
+/* K of the member's ends, in coordinates of the model. */
+static status member_matrix(condensation *s, member *of, double path, double K[], fault *f)
+{
+    const int c = of->joint, n = 2 * NODE_COORDINATES;
+    double small[CHAIN_LINK * CHAIN_LINK], force[2 * NODE_COORDINATES];
+    TRY(fill_chain(s->m, s->at, of, path, force, f));
+    TRY(chain_stiffness(of->chain, small, f));
+    s->negative += chain_negative(of->chain);
+    memset(K, 0, (size_t)(n * n) * sizeof *K);
+    for (int i = 0; i < 2 * c; i++)
+        for (int j = 0; j < 2 * c; j++)
+            K[(NODE_COORDINATES * (i / c) + i % c) * n + NODE_COORDINATES * (j / c) + j % c] =
+                small[i * 2 * c + j];
+    eliminate_matrix(s->m, s->at, &of->ends, force, K);
+    return STATUS_OK;
+}
+
+static status members(condensation *s, double path, fault *f)
+{
+    double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+    for (int i = 0; i < s->members; i++) {
+        TRY(member_matrix(s, &s->member[i], path, K, f));
+        assemble_discrete(&s->member[i].ends, K, &s->K);
+    }
+    return STATUS_OK;
+}
+
+status condensation_at(condensation *s, const model_state *at, double path, fault *f)
+{
+    s->at = at;
+    s->negative = 0;
+    sparse_zero(&s->K);
+    ahead_strains(s->m, at, AHEAD_H, at->sigma);
+    const status outcome = members(s, path, f);
+    ahead_end(s->m);
+    TRY(outcome);
+    for (int i = 0; i < s->m->discretes; i++) {
+        element_part part = {.incompatibility = 0};
+        discrete_equations(s->m, at, &s->m->discrete[i], path, part.force, part.K);
+        assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
+    }
+    loads_subtract_at_vertices(s->m, at, path, &s->K);
+    linearise_add_held_moments(s->m, at, path, &s->K);
+    return STATUS_OK;
+}
+
+void condensation_take(condensation *s, const condensation *of, const model_state *at)
+{
+    s->at = at;
+    s->negative = of->negative;
+    memcpy(s->K.value, of->K.value, (size_t)s->K.column[s->K.n] * sizeof *s->K.value);
+}
+
+sparse *condensation_ends(condensation *s)
+{
+    return &s->K;
+}
+
+status condensation_factor(condensation *s, fault *f)
+{
+    for (int k = 0; k < s->inside.column[s->inside.n]; k++)
+        s->inside.value[k] = s->K.value[s->from[k]];
+    s->factorisations++;
+    return factor_numeric(s->factor, &s->inside, f);
+}

@@ -1,0 +1,412 @@
+#include "harness/newton/distributed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
+#include "elements/math/rotation.h"
+#include "elements/section/matrices.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/newton/loads.h"
+
+int distributed_spreads(const model *m, const scene_load *load)
+{
+    const int lumped = load->lumped || m->lumps == LUMPS_LOADS ||
+                       (m->lumps == LUMPS_WEIGHTS && load->kind == SCENE_GRAVITY);
+    return scene_load_along(load) && !lumped;
+}
+
+int distributed_acts(const distributed *of)
+{
+    double part[2];
+    if (of->m->rotates)
+        return 1;
+    for (int i = 0; i < of->m->scene->loads; i++)
+        if (applied_part(of->m, of->element, &of->m->scene->load[i], part))
+            return 1;
+    return 0;
+}
+
+int distributed_jumps(const distributed *of)
+{
+    double part[2];
+    for (int i = 0; i < of->m->scene->loads; i++)
+        if (applied_part(of->m, of->element, &of->m->scene->load[i], part) &&
+            (applied_inside(part[0]) || applied_inside(part[1])))
+            return i;
+    return SCENE_NONE;
+}
+
+/* The triad of the undeformed element at x. */
+static void undeformed(const distributed *of, double x, double R[9])
+{
+    const mesh_element *el = &of->m->element[of->element];
+    const mesh_kind *kind = &of->m->kind[el->kind];
+    double turn[3], q[4], by[9];
+    for (int i = 0; i < 3; i++)
+        turn[i] = x * kind->length * kind->curvature[i];
+    rotation_exp(turn, q);
+    rotation_matrix(q, by);
+    mat3_mul(el->triad[0], by, R);
+}
+
+/* What the load is at x times `scale`, with the undeformed triad there: per length, of gravity on
+ * the mass there. */
+static void load_at(const distributed *of, const scene_load *load, double scale, double x,
+                    const double before[9], field_load *out)
+{
+    const section *c = &of->m->section[of->m->kind[of->m->element[of->element].kind].section];
+    const double size = scale * (load->kind == SCENE_GRAVITY ? c->density * c->A : 1);
+    double vector[3], at[3], v[3], axes[9];
+    applied_vector(of->m, of->element, load, x, vector);
+    for (int i = 0; i < 3; i++)
+        v[i] = vector[i] = size * vector[i];
+    memcpy(at, load->at, sizeof at);
+    if (load->axes == SCENE_AXES_MEMBER) {
+        applied_member_axes(before, c, axes);
+        mat3_mul_vec(axes, vector, v);
+        mat3_mul_vec(axes, load->at, at);
+    }
+    memset(out, 0, sizeof *out);
+    mat3_transpose_mul_vec(before, at, out->arm);
+    if (load->kind == SCENE_GRAVITY && c->matrices)
+        section_matrices_centre(c, out->arm);
+    out->follower = load->follower;
+    double *of_kind = scene_load_turns(load) ? out->moment : out->force;
+    if (load->follower)
+        mat3_transpose_mul_vec(before, v, of_kind);
+    else
+        memcpy(of_kind, v, sizeof v);
+}
+
+enum { MOST = FIELD_MOST_POINTS };
+
+/* Is a load along an element, which is `one` at a point of it, the same at all of them? */
+static int same(const distributed *of, const scene_load *load, const field_load *one)
+{
+    return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
+           (load->axes == SCENE_AXES_FIXED ||
+            vec3_norm(of->m->kind[of->m->element[of->element].kind].curvature) == 0);
+}
+
+/* What acts of one load at the points of an element; returns how many. */
+static int points_of(const distributed *of, const scene_load *load, double scale,
+                     const double part[2], field_rows rows[MOST], field_load acting[MOST])
+{
+    const mesh_kind *kind = &of->m->kind[of->m->element[of->element].kind];
+    double x[MOST], weight[MOST], before[9];
+    int count = 1;
+    undeformed(of, part[0], before);
+    load_at(of, load, scale, part[0], before, acting);
+    memset(rows, 0, sizeof *rows);
+    if (scene_load_within(load)) {
+        field_at(&kind->field, part[0], rows);
+        return 1;
+    }
+    if (same(of, load, acting) && part[0] == 0 && part[1] == 1) {
+        field_gather(kind->length, &kind->field.whole, rows);
+        return 1;
+    }
+    count = field_points(&kind->field, part[0], part[1], x, weight);
+    for (int k = 0; k < count; k++) {
+        const double size = scale * weight[k] * kind->length;
+        undeformed(of, x[k], before);
+        load_at(of, load, size, x[k], before, &acting[k]);
+        field_at(&kind->field, x[k], &rows[k]);
+    }
+    return count;
+}
+
+static int taken(const model *m, int element, const scene_load *load, const double part[2])
+{
+    const section *c = &m->section[m->kind[m->element[element].kind].section];
+    double centre[3] = {0};
+    if (!m->takes || !distributed_spreads(m, load) || scene_load_within(load) ||
+        scene_load_turns(load) || load->follower)
+        return 0;
+    if (load->kind == SCENE_GRAVITY && c->matrices)
+        section_matrices_centre(c, centre);
+    return vec3_norm(load->at) + vec3_norm(centre) == 0 && !applied_inside(part[0]) &&
+           !applied_inside(part[1]);
+}
+
+int distributed_takes(const model *m, int element, const scene_load *load)
+{
+    double part[2];
+    return applied_part(m, element, load, part) && taken(m, element, load, part);
+}
+
+/* force[] += one of them times `scale`. */
+static void gather(const model *m, int element, const scene_load *load, double scale,
+                   double force[3 * ELEMENT_ALONG_POINTS])
+{
+    const distributed of = {m, element, 0};
+    double x[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS], before[9];
+    quadrature_points(ELEMENT_ALONG_POINTS, x, weight);
+    for (int k = 0; k < ELEMENT_ALONG_POINTS; k++) {
+        field_load one;
+        undeformed(&of, x[k], before);
+        load_at(&of, load, scale, x[k], before, &one);
+        for (int i = 0; i < 3; i++)
+            force[3 * k + i] += one.force[i];
+    }
+}
+
+void distributed_take(const model *m, int element, double path, distributed_taken *out)
+{
+    out->acts = 0;
+    for (int i = 0; i < m->scene->loads && m->takes; i++) {
+        const scene_load *load = &m->scene->load[i];
+        double part[2];
+        if (!applied_part(m, element, load, part) || !taken(m, element, load, part))
+            continue;
+        const double scale = applied_factor(m, load, path);
+        if (scale == 0)
+            continue;
+        if (!out->acts)
+            memset(out->force, 0, sizeof out->force);
+        out->acts = 1;
+        gather(m, element, load, scale, out->force);
+    }
+    out->out = (along_output){.force = out->force, .mixed = out->mixed};
+}
+
+void distributed_add_taken(const model *m, const along_output *out, const double J[],
+                           const double gap[], double forces[], double K[])
+{
+    enum { X = ELEMENT_ALONG_COORDINATES };
+    double moment[3], work[ELEMENT_MAX_STRAINS * X], of[X * X] = {0}, both[X * X] = {0};
+    memcpy(moment, out->moment, sizeof moment);
+    if (gap != NULL)
+        dense_add_transpose_mul(3, m->strains, 1, out->mixed, gap, moment);
+    for (int j = 0; j < X; j++) {
+        forces[j] += out->ends[j];
+        for (int i = 0; i < 3; i++)
+            forces[j] -= out->turn[i * X + j] * moment[i];
+    }
+    if (K == NULL)
+        return;
+    dense_mul(m->strains, 3, X, out->mixed, out->turn, work);
+    dense_add_transpose_mul(X, m->strains, X, J, work, both);
+    dense_add_congruence(3, X, out->turn, out->second, of, work);
+    for (int i = 0; i < X; i++)
+        for (int j = 0; j < X; j++)
+            K[i * X + j] += out->H[i * X + j] + of[i * X + j] + both[i * X + j] + both[j * X + i];
+}
+
+int distributed_add_own(const model *m, const model_state *s, const node_state x[], int element,
+                        double path, double forces[], double K[])
+{
+    enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
+    const size_t first = (size_t)element * (size_t)m->strains;
+    const element_data *data = m->kind[m->element[element].kind].data;
+    const int linear = s == m->rest;
+    distributed_taken of;
+    double J[S * X], D[S], sigma[S], C[S * S], H[X * X], work[S * X];
+    status outcome;
+    distributed_take(m, element, path, &of);
+    if (!of.acts)
+        return 0;
+    m->type->strain(data, x, &(strain_output){.e = D, .J = J});
+    of.out.sigma = sigma;
+    of.out.C = K != NULL || !linear ? C : NULL;
+    of.out.H = K != NULL ? of.H : NULL;
+    if (!linear) {
+        of.out.e = &s->e[first];
+        of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+    }
+    m->type->along(1, &data, x, &of.out, &outcome); /* a state that has been evaluated */
+    for (int k = 0; k < m->strains && !linear; k++)
+        D[k] -= s->e[first + (size_t)k];
+    distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
+    if (!linear)
+        return 1;
+    dense_mul_vec(m->strains, 1, sigma, (const double[]){-1}, D);
+    dense_add_transpose_mul(X, m->strains, 1, J, D, forces);
+    if (K == NULL)
+        return 1;
+    m->type->strain(data, x, &(strain_output){.s = sigma, .H = H});
+    dense_add_congruence(m->strains, X, J, C, K, work);
+    for (int k = 0; k < X * X; k++)
+        K[k] += H[k];
+    return 1;
+}
+
+int distributed_stress(const model *m, const model_state *s, const node_state x[], int element,
+                       double path, const stress_output *out, status *outcome)
+{
+    const element_data *data = m->kind[m->element[element].kind].data;
+    distributed_taken of;
+    distributed_take(m, element, path, &of);
+    if (!of.acts)
+        return 0;
+    of.out.sigma = out->sigma;
+    of.out.C = out->C;
+    of.out.e = &s->e[(size_t)element * (size_t)m->strains];
+    of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+    m->type->along(1, &data, x, &of.out, outcome);
+    return 1;
+}
+
+/* Derivative of the forces by the size of one load. */
+static void add_rate(const model *m, const model_state *s, const node_state x[], int element,
+                     const scene_load *load, double scale, double forces[])
+{
+    enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
+    const element_data *data = m->kind[m->element[element].kind].data;
+    distributed_taken of;
+    double rate[3 * ELEMENT_ALONG_POINTS] = {0}, J[S * X], sigma[S], work[X] = {0};
+    status outcome;
+    distributed_take(m, element, s->path, &of);
+    if (!of.acts)
+        memset(of.force, 0, sizeof of.force);
+    gather(m, element, load, scale, rate);
+    of.out.sigma = sigma;
+    of.out.rate = rate;
+    if (s == m->rest) {
+        of.out.rate = NULL;
+        of.out.force = rate;
+    } else {
+        of.out.e = &s->e[(size_t)element * (size_t)m->strains];
+        of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+    }
+    m->type->strain(data, x, &(strain_output){.J = J});
+    m->type->along(1, &data, x, &of.out, &outcome);
+    dense_add_transpose_mul(X, m->strains, 1, J, sigma, work);
+    for (int k = 0; k < X; k++)
+        forces[k] -= work[k];
+    distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
+}
+
+static int add_field(const model *m, const node_state x[], int element, const scene_load *load,
+                     double scale, const double part[2], double forces[], double K[])
+{
+    const distributed of = {m, element, 0};
+    field_rows rows[MOST];
+    field_load acting[MOST];
+    const int count = points_of(&of, load, scale, part, rows, acting);
+    field_add_loads(&m->kind[m->element[element].kind].field, x, count, rows, acting, forces, K);
+    return 1;
+}
+
+int distributed_add_one(const model *m, const model_state *s, const node_state x[], int element,
+                        const scene_load *load, double scale, double forces[], double K[])
+{
+    double part[2];
+    if (!applied_part(m, element, load, part) || scale == 0)
+        return 0;
+    if (!taken(m, element, load, part))
+        return add_field(m, x, element, load, scale, part, forces, K);
+    add_rate(m, s, x, element, load, scale, forces);
+    return 1;
+}
+
+int distributed_add_field(const model *m, const node_state x[], int element, double path,
+                          double forces[], double K[])
+{
+    int acting = 0;
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        double part[2];
+        if (!distributed_spreads(m, load) || !applied_part(m, element, load, part) ||
+            taken(m, element, load, part))
+            continue;
+        const double scale = applied_factor(m, load, path);
+        acting |= scale != 0 && add_field(m, x, element, load, scale, part, forces, K);
+    }
+    return acting;
+}
+
+int distributed_add(const model *m, const model_state *s, const node_state x[], int element,
+                    double path, double forces[], double K[])
+{
+    const int acting = distributed_add_field(m, x, element, path, forces, K);
+    return distributed_add_own(m, s, x, element, path, forces, K) || acting;
+}
+
+/* Its vectors, in fixed axes, of the section with the triad R. */
+static void add_load(const distributed *of, const scene_load *load, double x,
+                     const double before[9], const double R[9], span_load *out)
+{
+    field_load one;
+    double at[3], v[3], moment[3], turning[3];
+    load_at(of, load, applied_factor(of->m, load, of->path), x, before, &one);
+    mat3_mul_vec(R, one.arm, at);
+    memcpy(v, one.force, sizeof v);
+    memcpy(moment, one.moment, sizeof moment);
+    if (one.follower) {
+        mat3_mul_vec(R, one.force, v);
+        mat3_mul_vec(R, one.moment, moment);
+    }
+    vec3_cross(at, v, turning);
+    for (int i = 0; i < 3; i++) {
+        out->force[i] += v[i];
+        out->moment[i] += moment[i] + turning[i];
+    }
+}
+
+/* The same of a section by its matrices: momentum p and h of the velocity v of the line and of
+ * omega, -omega x p and -omega x h - v x p on the line. */
+static void add_rotating_matrices(const section *c, const double omega[3], const double speed[3],
+                                  const double R[9], span_load *out)
+{
+    double v[6], p[6], force[3], momentum[3], turning[3], moving[3];
+    mat3_transpose_mul_vec(R, speed, v);
+    mat3_transpose_mul_vec(R, omega, v + 3);
+    dense_mul_vec(6, 6, c->mass, v, p);
+    mat3_mul_vec(R, p, momentum);
+    vec3_cross(omega, momentum, force);
+    vec3_cross(speed, momentum, moving);
+    mat3_mul_vec(R, p + 3, momentum);
+    vec3_cross(omega, momentum, turning);
+    for (int i = 0; i < 3; i++) {
+        out->force[i] -= force[i];
+        out->moment[i] -= turning[i] + moving[i];
+    }
+}
+
+/* Centrifugal force on the mass at the centroid, and moment on the section's inertia. */
+static void add_rotating(const distributed *of, const span_frame *at, span_load *out)
+{
+    const model *m = of->m;
+    const section *c = &m->section[m->kind[m->element[of->element].kind].section];
+    const element_rotating_frame frame = model_rotating_frame(m, of->path);
+    double arm[3], speed[3], force[3], inside[3], moment[3];
+    const double inertia[3] = {c->Iy + c->Iz, c->Iy, c->Iz};
+    for (int i = 0; i < 3; i++)
+        arm[i] = at->r[i] - frame.centre[i];
+    vec3_cross(frame.omega, arm, speed);
+    if (c->matrices) {
+        add_rotating_matrices(c, frame.omega, speed, at->R, out);
+        return;
+    }
+    vec3_cross(frame.omega, speed, force);
+    for (int i = 0; i < 3; i++)
+        out->force[i] -= c->density * c->A * force[i];
+    if (!(m->features & m->type->offers & FEATURE_ROTARY_INERTIA))
+        return;
+    mat3_transpose_mul_vec(at->R, frame.omega, inside);
+    for (int i = 0; i < 3; i++)
+        inside[i] *= c->density * inertia[i];
+    mat3_mul_vec(at->R, inside, speed);
+    vec3_cross(frame.omega, speed, moment);
+    for (int i = 0; i < 3; i++)
+        out->moment[i] -= moment[i];
+}
+
+void distributed_at(void *context, double x, const span_frame *at, span_load *out)
+{
+    const distributed *of = context;
+    double before[9];
+    memset(out, 0, sizeof *out);
+    undeformed(of, x, before);
+    for (int i = 0; i < of->m->scene->loads; i++) {
+        const scene_load *load = &of->m->scene->load[i];
+        double part[2];
+        if (applied_part(of->m, of->element, load, part) && !scene_load_within(load))
+            add_load(of, load, x, before, at->R, out);
+    }
+    if (of->m->rotates)
+        add_rotating(of, at, out);
+}

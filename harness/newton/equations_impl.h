@@ -1,0 +1,56 @@
+/* What the files of harness/newton share. */
+#ifndef BEAMWORK_EQUATIONS_IMPL_H
+#define BEAMWORK_EQUATIONS_IMPL_H
+
+#include "harness/model/model_impl.h"
+#include "harness/newton/applied.h"
+
+/* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
+ * coordinates; nothing where no frame turns. */
+status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
+                          double K[], fault *f);
+
+/* Of linearise.c and chunk.c: one element's part of model.work between linearise_state and
+ * advance_state. */
+typedef struct model_slot {
+    double *J, *C, *sigma, *incompatibility, *along, /* SLOT_* */
+        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
+} model_slot;
+static inline model_slot linearise_slot(const model *m, int element)
+{
+    model_slot w;
+    const int n = m->strains;
+    w.J = m->work + (size_t)element * (size_t)m->work_size;
+    w.C = w.J + n * m->coordinates;
+    w.sigma = w.C + n * n;
+    w.incompatibility = w.sigma + n;
+    w.memory = w.incompatibility + n;
+    w.along = w.memory + m->memory;
+    return w;
+}
+
+/* loads.c: out[free + driven] += all of them, or those on vertices alone, not along elements. */
+void loads_add(const model *m, const model_state *s, double path, double out[]);
+void loads_add_at_vertices(const model *m, const model_state *s, double path, double out[]);
+/* What those on vertices add to K. */
+void loads_stiffness_at_vertices(const model *m, const model_state *s, double path, loads_entry,
+                                 void *context);
+void loads_subtract_at_vertices(const model *m, const model_state *s, double path, sparse *K);
+/* And all of them, on a pattern of assemble.h. */
+void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
+/* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
+status loads_have_potential(const model *m, const model_state *s, double path, fault *f);
+
+/* linearise_node.c: the moment [N m] about its axis that a node held about one axis alone takes
+ * from its support in a state (sigma: as internal.h has it); 0: rounding. */
+double linearise_held_moment(model *m, const model_state *s, const double sigma[], double path,
+                             int node, int axis);
+/* Elements and loads give the derivatives of work in the exponential chart of a node's turn. Where
+ * a node is held about one axis, equilibrium is that of the moments about the two others, which
+ * that moment R about the axis h makes differ: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
+ * order. */
+void linearise_add_held_moments(model *m, const model_state *s, double path, sparse *K);
+/* REFUSED: such a moment, which has no potential either. */
+status linearise_held_have_potential(model *m, const double sigma[], double path, fault *f);
+
+#endif

@@ -1,0 +1,201 @@
+/* A first guess of the next state of a path: the polynomial through the last ones. */
+#include "harness/newton/extrapolate.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/release.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/newton/loads.h"
+
+/* Longest step to extrapolate over, relative to the last one; largest error of what is prescribed,
+ * relative to the longest of its own steps. */
+static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
+
+/* Weights of the states in the polynomial through them, at `path`. */
+static void lagrange(int count, const model_state *const at[], double path, double weight[])
+{
+    for (int i = 0; i < count; i++) {
+        weight[i] = 1;
+        for (int k = 0; k < count; k++)
+            if (k != i)
+                weight[i] *= (path - at[k]->path) / (at[i]->path - at[k]->path);
+    }
+}
+
+/* Is the next value of something prescribed, value[count], near what the extrapolation takes it
+ * to? */
+static int continues(int count, const double weight[], const double value[])
+{
+    const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
+    double step = 0;
+    for (int i = 0; i < count; i++)
+        step = fmax(step, fabs(value[i + 1] - value[i]));
+    return fabs(dense_dot(count, weight, value) - value[count]) <= bent * step + rounding;
+}
+
+/* Guesses from the last k = 2 ... most of states at[most], for one at `path`. */
+typedef struct guesses {
+    int most, good[MODEL_EXTRAPOLATED + 1]; /* good[k]: there is one */
+    double weight[MODEL_EXTRAPOLATED + 1][MODEL_EXTRAPOLATED];
+} guesses;
+
+static void keep_continuing(const double value[], guesses *g)
+{
+    for (int k = 2; k <= g->most; k++)
+        g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
+}
+
+/* Drivers and loads at the states' paths and at the next one. */
+static void keep_smooth(const model *m, const model_state *const at[], double path, guesses *g)
+{
+    double value[MODEL_EXTRAPOLATED + 1];
+    for (int d = 0; d < m->scene->drivers; d++) {
+        const scene_driver *driver = &m->scene->driver[d];
+        if (driver->value == NULL)
+            continue;
+        for (int i = 0; i <= g->most; i++)
+            value[i] = loads_driver_value(m, driver, i < g->most ? at[i]->path : path);
+        keep_continuing(value, g);
+    }
+    for (int l = 0; l < m->scene->loads; l++) {
+        for (int i = 0; i <= g->most; i++)
+            value[i] = applied_factor(m, &m->scene->load[l], i < g->most ? at[i]->path : path);
+        keep_continuing(value, g);
+    }
+}
+
+/* Prescribed components of a spatial increment are those of their drivers: only so do they and the
+ * frame stay together. */
+static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
+                      const model_state *out, double turn[3])
+{
+    for (int c = 0; c < 3; c++) {
+        const int coordinate = v->coordinate[3 + c];
+        if (coordinate < m->free || v->vector_driver[0] != NONE)
+            continue;
+        turn[c] = 0;
+        for (int d = 0; d < m->scene->drivers; d++)
+            if (m->driver_coordinate[d] == coordinate)
+                turn[c] = out->driver[d] - last->driver[d];
+    }
+}
+
+/* From the last orientation along the rotation vector that the others lie on. */
+static void extrapolate_rotation(const model *m, int vertex, int count, const double weight[],
+                                 const model_state *const at[], model_state *out)
+{
+    const model_state *last = at[count - 1];
+    double turn[3] = {0}, step[4];
+    for (int i = 0; i + 1 < count; i++) {
+        double back[3];
+        rotation_between(&last->q[4 * vertex], &at[i]->q[4 * vertex], back);
+        for (int c = 0; c < 3; c++)
+            turn[c] += weight[i] * back[c];
+    }
+    prescribe(m, &m->vertex[vertex], last, out, turn);
+    rotation_exp(turn, step);
+    rotation_compose(step, &last->q[4 * vertex], &out->q[4 * vertex]);
+    rotation_normalise(&out->q[4 * vertex]);
+}
+
+/* Has it an orientation of its own, that no angles give? */
+static int turns_by_itself(const model *m, int vertex)
+{
+    const mesh_release *r = release_of(m, vertex);
+    return r != NULL ? r->turns == 3
+                     : m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
+}
+
+/* From `least` to `most` states. */
+static void weigh(const model *m, int least, int most, const model_state *const at[], double path,
+                  guesses *g)
+{
+    g->most = most;
+    for (int k = 2; k <= most; k++) {
+        const double step = path - at[most - 1]->path;
+        g->good[k] = k >= least && step <= far * (at[most - 1]->path - at[most - 2]->path);
+        if (g->good[k])
+            lagrange(k, at + most - k, path, g->weight[k]);
+    }
+    keep_smooth(m, at, path, g);
+}
+
+/* sum += weight x, one state after the other so that several coordinates go at once. */
+static void add_weighted(double weight, size_t size, const double x[], double sum[])
+{
+    for (size_t k = 0; k < size; k++)
+        sum[k] += weight * x[k];
+}
+
+enum { PART = 8 };
+
+/* Largest of |sum_i weight[i] x_i - x_count|, x_i = at[i]->block + from, in `size` numbers, and of
+ * `largest`; few at a time, whose sums stay in registers. */
+static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
+                                                               const model_state *const at[],
+                                                               ptrdiff_t from, size_t size,
+                                                               double largest)
+{
+    double sum[PART];
+    for (size_t k = 0; k < size; k++)
+        sum[k] = -at[count]->block[from + (ptrdiff_t)k];
+    for (int i = 0; i < count; i++) {
+        const double *x = at[i]->block + from;
+        for (size_t k = 0; k < size; k++)
+            sum[k] += weight[i] * x[k];
+    }
+    for (size_t k = 0; k < size; k++)
+        largest = fabs(sum[k]) > largest ? fabs(sum[k]) : largest;
+    return largest;
+}
+
+static double largest_error(int count, const double weight[], const model_state *const at[],
+                            const double *first, size_t size)
+{
+    ptrdiff_t from = first - at[0]->block;
+    double largest = 0;
+    for (; size >= PART; size -= PART, from += PART)
+        largest = largest_of(count, weight, at, from, PART, largest);
+    return size > 0 ? largest_of(count, weight, at, from, size, largest) : largest;
+}
+
+void extrapolate_errors(const model *m, int most, const model_state *const at[], double error[])
+{
+    guesses g;
+    weigh(m, 2, most, at, at[most]->path, &g);
+    g.good[1] = 1;
+    g.weight[1][0] = 1;
+    for (int k = 1; k <= most; k++) {
+        const model_state *const *last = at + most - k;
+        error[k] = INFINITY;
+        if (g.good[k])
+            error[k] =
+                fmax(largest_error(k, g.weight[k], last, last[0]->u, 3 * (size_t)m->vertices),
+                     largest_error(k, g.weight[k], last, last[0]->e,
+                                   (size_t)m->elements * (size_t)m->strains));
+    }
+}
+
+int extrapolate_state(const model *m, int count, const model_state *const at[], double path,
+                      model_state *out)
+{
+    guesses g;
+    if (count < 2)
+        return 0;
+    weigh(m, count, count, at, path, &g);
+    if (!g.good[count])
+        return 0;
+    const double *weight = g.weight[count];
+    memset(out->block, 0, out->size * sizeof *out->block);
+    for (int i = 0; i < count; i++)
+        add_weighted(weight[i], out->size, at[i]->block, out->block);
+    for (int v = 0; v < m->vertices; v++)
+        if (turns_by_itself(m, v))
+            extrapolate_rotation(m, v, count, weight, at, out);
+    memcpy(out->turn, at[count - 1]->turn, 3 * (size_t)m->turns * sizeof *out->turn);
+    kinematics_follow(m, out);
+    return 1;
+}

@@ -1,0 +1,73 @@
+#include "harness/newton/identity.h"
+
+#include <string.h>
+
+#include "harness/model/model_impl.h"
+
+identity identity_begin(void)
+{
+    return (identity){{14695981039346656037ull, 0x9e3779b97f4a7c15ull}};
+}
+
+/* FNV-1a, and beside it a product of another kind. */
+void identity_add(identity *out, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        out->part[0] = (out->part[0] ^ at[i]) * 1099511628211ull;
+        out->part[1] = (out->part[1] + at[i] + 1) * 0xd6e8feb86659fd93ull;
+        out->part[1] ^= out->part[1] >> 32;
+    }
+}
+
+static void add_number(identity *out, long number)
+{
+    identity_add(out, &number, sizeof number);
+}
+
+/* All of a type but its words, and what has done its work when the data are there. */
+static void add_type(identity *out, const element_type *type)
+{
+    element_type t;
+    memcpy(&t, type, sizeof t);
+    t.name = t.summary = t.source = t.family = t.lacks_by = t.own_theory = NULL;
+    t.offers = t.lacks = t.shear_theories = 0;
+    t.data_size = NULL;
+    t.prepare = NULL;
+    t.order = NULL;
+    t.judged = NULL;
+    memset(t.options, 0, sizeof t.options);
+    identity_add(out, &t, sizeof t);
+}
+
+static void add_elements(identity *out, const model *m)
+{
+    for (int i = 0; i < m->kinds; i++) {
+        identity_add(out, &m->kind[i].length, sizeof m->kind[i].length);
+        identity_add(out, m->kind[i].data, m->kind[i].data_size);
+    }
+    for (int i = 0; i < m->elements; i++) {
+        add_number(out, m->element[i].kind);
+        identity_add(out, m->element[i].warp, sizeof m->element[i].warp);
+        identity_add(out, m->element[i].triad, (size_t)m->nodes * sizeof(mesh_triad));
+    }
+}
+
+int identity_add_model(identity *out, const model *m)
+{
+    if (m->type->trouble != NULL)
+        return 0;
+    add_type(out, m->type);
+    add_number(out, m->features);
+    add_number(out, m->features & m->type->offers);
+    add_number(out, m->keep_all);
+    add_number(out, m->elements);
+    add_number(out, m->free);
+    add_number(out, m->driven);
+    for (int i = 0; i < ELEMENT_MAX_OPTIONS; i++)
+        identity_add(out, &m->options[i], sizeof m->options[i]);
+    for (int i = 0; i < m->lines; i++)
+        identity_add(out, m->line[i], strlen(m->line[i]) + 1);
+    add_elements(out, m);
+    return 1;
+}

@@ -1,0 +1,296 @@
+#include "harness/newton/internal.h"
+#include "cases/scene/names.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/section/taper.h"
+#include "harness/model/kinematics.h"
+#include "harness/newton/distributed.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/newton/loads.h"
+
+/* Loads along the member that a vertex of it takes are taken off. */
+typedef struct share {
+    int vertex;
+    double *force; /* [6] */
+} share;
+
+static void take_off(void *context, const applied *what)
+{
+    const share *of = context;
+    double moment[3];
+    if (what->vertex != of->vertex)
+        return;
+    for (int i = 0; i < 6; i++)
+        of->force[i] -= what->F[i];
+    if (!what->offset)
+        return;
+    vec3_cross(what->arm, what->F, moment);
+    for (int i = 0; i < 3; i++)
+        of->force[3 + i] -= moment[i];
+}
+
+/* Does it act between the ends of an element? What acts at an end acts on the node there. */
+static int lies_along(const model *m, int element, const scene_load *load)
+{
+    double part[2];
+    return applied_part(m, element, load, part) &&
+           (!scene_load_within(load) || applied_inside(part[0]));
+}
+
+/* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
+ * along it, in fixed axes: ends[2][7]; and its nodes. */
+static void ends_of(model *m, const internal_state *s, int i, node_state x[], double ends[2][7])
+{
+    const mesh_element *el = &m->element[i];
+    double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
+                                                             along[ELEMENT_MAX_COORDINATES] = {0};
+    const size_t first = (size_t)i * (size_t)m->strains;
+    kinematics_gather(m, s->s, el, x);
+    m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                            s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
+    rotating_frame_add(m, x, i, s->path, force, NULL,
+                       NULL); /* never fails in a state that is reached */
+    for (int l = 0; l < m->scene->loads; l++) {
+        const scene_load *load = &m->scene->load[l];
+        if (lies_along(m, i, load) && distributed_spreads(m, load) &&
+            !distributed_takes(m, i, load))
+            distributed_add_one(m, s->s, x, i, load, applied_factor(m, load, s->path), along, NULL);
+    }
+    distributed_add_own(m, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= along[k];
+    for (int end = 0; end < 2; end++) {
+        const int k = end ? m->nodes - 1 : 0;
+        const share of = {el->vertex[k], force + NODE_COORDINATES * k};
+        for (int l = 0; l < m->scene->loads; l++) {
+            const scene_load *load = &m->scene->load[l];
+            if (lies_along(m, i, load) && !distributed_spreads(m, load))
+                applied_element(m, s->s, load, applied_factor(m, load, s->path), i, take_off,
+                                (void *)&of);
+        }
+        memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
+    }
+    if (s->moving != NULL)
+        s->moving->ends(s->moving->context, i, ends);
+}
+
+/* The element has a section of its own where it changes along the member, whose axes are not those
+ * at the place: the angle between them [rad]. */
+static double axes_turned(const model *m, int member, double place, const mesh_element *el)
+{
+    const scene *s = m->scene;
+    const scene_member *sm = &s->member[member];
+    section_spec spec;
+    section c;
+    if (!scene_member_tapers(sm))
+        return 0;
+    section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
+    const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* as those beside it are */
+    return known ? c.axes_angle - m->section[m->kind[el->kind].section].axes_angle : 0;
+}
+
+/* To axes that are turned by an angle about x. */
+static void turn_components(double angle, double v[3])
+{
+    const double c = cos(angle), d = sin(angle), y = v[1];
+    if (angle != 0) {
+        v[1] = c * y + d * v[2];
+        v[2] = c * v[2] - d * y;
+    }
+}
+
+void internal_at_end(model *m, const internal_state *s, int member, int end, double out[7])
+{
+    const int i = end ? m->first_element[member + 1] - 1 : m->first_element[member],
+              k = end ? m->nodes - 1 : 0;
+    node_state x[ELEMENT_MAX_NODES];
+    double force[2][7];
+    ends_of(m, s, i, x, force);
+    const double angle = axes_turned(m, member, end, &m->element[i]);
+    mat3_transpose_mul_vec(x[k].R, force[end], out);
+    mat3_transpose_mul_vec(x[k].R, force[end] + 3, out + 3);
+    turn_components(angle, out);
+    turn_components(angle, out + 3);
+    out[6] = force[end][6];
+    for (int c = 0; c < 7 && !end; c++)
+        out[c] *= -1;
+}
+
+/* The ends of an element as span.h wants them. */
+static void take_ends(model *m, const internal_state *s, int i, span_end end[2])
+{
+    const mesh_element *el = &m->element[i];
+    node_state x[ELEMENT_MAX_NODES];
+    double force[2][7], moved[ELEMENT_MAX_COORDINATES] = {0};
+    ends_of(m, s, i, x, force);
+    if (s->x != NULL)
+        kinematics_local(m, s->s, el, s->x, moved);
+    for (int e = 0; e < 2; e++) {
+        const int k = e ? m->nodes - 1 : 0;
+        const double sign = e ? 1 : -1;
+        memcpy(end[e].frame.r, x[k].r, sizeof end[e].frame.r);
+        memcpy(end[e].frame.R, x[k].R, sizeof end[e].frame.R);
+        for (int c = 0; c < 3; c++) {
+            end[e].force[c] = sign * force[e][c];
+            end[e].moment[c] = sign * force[e][3 + c];
+        }
+        end[e].bimoment = sign * force[e][6];
+        end[e].amplitude = x[k].a + moved[NODE_COORDINATES * k + 6];
+    }
+}
+
+/* What acts along an element. */
+typedef struct between {
+    distributed loads;
+    int acts, nodes; /* 0 nodes: nothing moves */
+    double density[ELEMENT_MAX_NODES][6];
+} between;
+
+/* Shares of the nodes, evenly along the element, at x in [0, 1]. */
+static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
+{
+    for (int k = 0; k < nodes; k++) {
+        part[k] = 1;
+        for (int j = 0; j < nodes; j++)
+            part[k] *= j == k ? 1 : (x * (nodes - 1) - j) / (k - j);
+    }
+}
+
+static void between_at(void *context, double x, const span_frame *at, span_load *out)
+{
+    between *of = context;
+    double part[ELEMENT_MAX_NODES];
+    memset(out, 0, sizeof *out);
+    if (of->acts)
+        distributed_at(&of->loads, x, at, out);
+    interpolate(of->nodes, x, part);
+    for (int k = 0; k < of->nodes; k++)
+        for (int i = 0; i < 3; i++) {
+            out->force[i] -= part[k] * of->density[k][i];
+            out->moment[i] -= part[k] * of->density[k][3 + i];
+        }
+}
+
+static status recover(model *m, const internal_state *s, int i, const span_grid *g,
+                      span_fields *out, fault *f)
+{
+    const mesh_kind *kind = &m->kind[m->element[i].kind];
+    between loads = {.loads = {m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
+    element_request request = {
+        .section = &m->section[kind->section], .length = kind->length, .options = m->options};
+    span_problem problem = {
+        .request = &request, .linear = s->x != NULL, .context = &loads, .load = NULL};
+    TRY(features_of_section(m, kind->section, &request.features, f));
+    memcpy(request.curvature, kind->curvature, sizeof request.curvature);
+    memcpy(request.strain, kind->strain, sizeof request.strain);
+    const int jump = distributed_jumps(&loads.loads);
+    if (jump != SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: %s begins, ends or acts inside an element of it, where resultants "
+                         "have a kink: it is within %g of its length of an end, or of another such "
+                         "place; put it there, or put a node of the scene at one of them",
+                         scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
+                         scene_called(m->scene, SCENE_LOADS, jump).text, DIVISION_LEAST);
+    loads.acts = distributed_acts(&loads.loads);
+    if (loads.nodes > 0)
+        s->moving->along(s->moving->context, i, loads.density);
+    if (loads.acts || loads.nodes > 0)
+        problem.load = between_at;
+    take_ends(m, s, i, problem.end);
+    return span_recover(g, &problem, out, f);
+}
+
+status internal_at(model *m, const internal_state *s, const internal_place *at, double out[],
+                   fault *f)
+{
+    const int member = at->member;
+    double x;
+    const int i =
+        m->first_element[member] + division_at(&m->division, member, at->place, at->before, &x);
+    span_grid g;
+    span_fields fields;
+    span_grid_make(&g);
+    TRY(recover(m, s, i, &g, &fields, f));
+    span_at(&g, &fields, x, out);
+    const double angle = axes_turned(m, member, at->place, &m->element[i]);
+    turn_components(angle, &out[SPAN_N]);
+    turn_components(angle, &out[SPAN_MX]);
+    return STATUS_OK;
+}
+
+/* One element's fields and what is measured of them. */
+typedef struct measured {
+    const span_grid *g;
+    const span_fields *fields;
+    int element; /* counted along the member */
+    internal_measure of;
+    void *context;
+} measured;
+
+static double measure_at(const measured *what, double x)
+{
+    double v[SPAN_VALUES];
+    span_at(what->g, what->fields, x, v);
+    return what->of(what->context, what->element, x, v);
+}
+
+/* Between a and b, where one point of the grid is larger than its neighbours: golden section. */
+static double refined(const measured *what, double a, double b)
+{
+    const double golden = (sqrt(5) - 1) / 2;
+    double c = b - golden * (b - a), d = a + golden * (b - a), at_c = measure_at(what, c),
+           at_d = measure_at(what, d);
+    for (int i = 0; i < 40; i++)
+        if (at_c > at_d) {
+            b = d;
+            d = c;
+            at_d = at_c;
+            c = b - golden * (b - a);
+            at_c = measure_at(what, c);
+        } else {
+            a = c;
+            c = d;
+            at_c = at_d;
+            d = a + golden * (b - a);
+            at_d = measure_at(what, d);
+        }
+    return fmax(at_c, at_d);
+}
+
+/* *largest: the greater of it and what the element has. */
+static void take_largest(const measured *what, double *largest)
+{
+    double value[SPAN_GRID_POINTS];
+    for (int j = 0; j < SPAN_GRID_POINTS; j++) {
+        value[j] = what->of(what->context, what->element, what->g->x[j], what->fields->value[j]);
+        *largest = fmax(*largest, value[j]);
+    }
+    for (int j = 1; j + 1 < SPAN_GRID_POINTS; j++) {
+        const double before = value[j] - value[j - 1], behind = value[j] - value[j + 1];
+        if (before >= 0 && behind >= 0 && value[j] + before + behind > *largest)
+            *largest = fmax(*largest, refined(what, what->g->x[j - 1], what->g->x[j + 1]));
+    }
+}
+
+status internal_largest(model *m, const internal_state *s, int member, internal_measure of,
+                        void *context, double *out, fault *f)
+{
+    span_grid g;
+    if (axes_turned(m, member, 0, &m->element[m->first_element[member]]) != 0 ||
+        axes_turned(m, member, 1, &m->element[m->first_element[member + 1] - 1]) != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the axes of its sections turn along it; ask at places of it",
+                         scene_called(m->scene, SCENE_MEMBERS, member).text);
+    span_grid_make(&g);
+    *out = -INFINITY;
+    for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {
+        span_fields fields;
+        TRY(recover(m, s, i, &g, &fields, f));
+        take_largest(&(measured){&g, &fields, i - m->first_element[member], of, context}, out);
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,301 @@
+/* Mixed linearisation (N section 4): with J = de/dx and the independent e and sigma,
+ *   de = D(x) - e + J dx,   sigma + dsigma = P'(e) + P''(e) de,
+ * condensed element by element, so that stiff modes make no huge false stresses on the way. */
+#include "harness/newton/linearise.h"
+#include "cases/scene/names.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/discrete.h"
+#include "harness/newton/ahead.h"
+#include "harness/newton/chunk.h"
+#include "harness/newton/distributed.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/newton/loads.h"
+
+/* e, sigma of an element from D(x): displacement-only Newton. */
+static status compatible_element(model *m, model_state *s, int i)
+{
+    const mesh_element *el = &m->element[i];
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    double *e = &s->e[(size_t)i * (size_t)m->strains],
+           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    ahead_strain(m, i, x, &(strain_output){.e = e});
+    m->counters.strain_evaluations++;
+    m->counters.stress_evaluations++;
+    status outcome;
+    if (m->takes &&
+        distributed_stress(m, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
+        return outcome;
+    return ahead_stress(m, i, e, &s->inner[(size_t)i * (size_t)m->inner],
+                        &(stress_output){.sigma = sigma});
+}
+
+status linearise_make_compatible(model *m, model_state *s, fault *f)
+{
+    status outcome = STATUS_OK;
+    ahead_strains(m, s, AHEAD_E, NULL);
+    ahead_stresses(m, NULL, s->inner);
+    for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
+        outcome = compatible_element(m, s, i);
+        if (outcome != STATUS_OK)
+            fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
+                      scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
+                      m->type->name);
+    }
+    ahead_end(m);
+    return outcome;
+}
+
+static double incompatibility_of(const model *m, const model_slot *w, double length)
+{
+    double largest = 0;
+    for (int k = 0; k < m->strains; k++)
+        largest = fmax(largest, fabs(w->incompatibility[k]) / length);
+    return largest;
+}
+
+/* force and K (which has H) of an element that was evaluated, less centrifugal forces; present:
+ * conjugate to the stresses of the state, which H belongs to. */
+static status add_material(model *m, const model_state *s, const chunk_element *of, int tangent,
+                           double path, double present[], element_part *part)
+{
+    const int i = of->index;
+    const model_slot w = linearise_slot(m, i);
+    const size_t size = (size_t)m->coordinates * sizeof *present;
+    double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    memset(part->force, 0, size);
+    if (m->rotates)
+        TRY(rotating_frame_add(m, of->x, i, path, part->force, tangent ? part->K : NULL,
+                               &part->why));
+    memcpy(present, part->force, size);
+    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, part->force);
+    if (tangent)
+        dense_add_congruence(m->strains, m->coordinates, w.J, w.C, part->K, work);
+    if (tangent && !m->element[i].plain)
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J,
+                                &s->sigma[(size_t)i * (size_t)m->strains], present);
+    return STATUS_OK;
+}
+
+/* What acts along the element. */
+static void subtract_loads(const model *m, chunk_element *of, int tangent, double path,
+                           element_part *part)
+{
+    const model_slot w = linearise_slot(m, of->index);
+    double forces[ELEMENT_MAX_COORDINATES] = {0}, *K = tangent ? part->K : NULL;
+    const int acts = distributed_add_field(m, of->x, of->index, path, forces, K);
+    if (of->along.acts)
+        distributed_add_taken(m, &of->along.out, w.J, w.incompatibility, forces, K);
+    else if (!acts)
+        return;
+    for (int k = 0; k < m->coordinates; k++) {
+        part->force[k] -= forces[k];
+        of->present[k] -= tangent ? forces[k] : 0;
+    }
+}
+
+/* Internal forces of an element that was evaluated, less centrifugal ones and loads along it, and,
+ * where wanted, their tangent; both in model coordinates. */
+static status element_equations(model *m, const model_state *s, chunk_element *of, int tangent,
+                                double path, element_part *part)
+{
+    const mesh_element *el = &m->element[of->index];
+    const model_slot w = linearise_slot(m, of->index);
+    if (of->outcome != STATUS_OK)
+        return fault_set(&part->why, of->outcome, "element %d of %s: outside what %s can evaluate",
+                         of->index, scene_called(m->scene, SCENE_MEMBERS, el->member).text,
+                         m->type->name);
+    if (!of->complete)
+        TRY(add_material(m, s, of, tangent, path, of->present, part));
+    subtract_loads(m, of, tangent, path, part);
+    if (tangent)
+        eliminate_matrix(m, s, el, of->present, part->K);
+    eliminate_forces(m, s, el, part->force);
+    part->incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
+    return STATUS_OK;
+}
+
+/* force += K drive for the element's prescribed coordinates. */
+static void add_driven(const model *m, const mesh_element *el, const double drive[],
+                       const double K[], double force[])
+{
+    const int n = el->columns;
+    for (int j = 0; j < n; j++) {
+        const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
+        if (step == 0)
+            continue;
+        for (int i = 0; i < n; i++)
+            force[i] += K[i * n + j] * step;
+    }
+}
+
+/* Columns of the unknowns of conditions. */
+static void add_columns(const model *m, const mesh_element *el, const double K[],
+                        model_linearisation *lin)
+{
+    const int n = el->columns;
+    for (int c = 0; c < lin->conditions; c++) {
+        double *column = lin->column + c * (m->free + m->driven);
+        for (int j = 0; j < n; j++) {
+            if (el->index[j] != lin->condition[c].unknown)
+                continue;
+            for (int i = 0; i < n; i++)
+                if (el->index[i] != NONE)
+                    column[el->index[i]] += K[i * n + j];
+        }
+    }
+}
+
+/* What the threads of a team share: elements in pieces of `window`, whose parts are added up in
+ * order. */
+typedef struct shared_loop {
+    model *m;
+    const model_state *s;
+    model_linearisation *lin;
+    const mesh_pattern *pattern; /* NULL: no K is wanted */
+    int tangent, window;
+    element_part *part; /* [slots of the team x window] */
+    status outcome;
+    fault *f;
+} shared_loop;
+
+/* The parts of elements [first, end), at most CHUNK_WINDOW, into part[0], ... */
+static void fill_window(const shared_loop *loop, int first, int end, element_part part[])
+{
+    unsigned char done[CHUNK_WINDOW] = {0};
+    int index[CHUNK_MOST], count;
+    while ((count = chunk_next(loop->m, first, end, done, index)) > 0) {
+        chunk_element element[CHUNK_MOST];
+        for (int k = 0; k < count; k++) {
+            element[k].index = index[k];
+            element[k].force = part[index[k] - first].force;
+            element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
+        }
+        chunk_evaluate(loop->m, loop->s, loop->lin->path, count, element);
+        for (int k = 0; k < count; k++) {
+            element_part *p = &part[index[k] - first];
+            p->outcome =
+                element_equations(loop->m, loop->s, &element[k], loop->tangent, loop->lin->path, p);
+        }
+    }
+}
+
+static int end_of(const shared_loop *loop, int piece)
+{
+    const int end = (piece + 1) * loop->window;
+    return end < loop->m->elements ? end : loop->m->elements;
+}
+
+static void fill_piece(void *context, int piece, int slot)
+{
+    const shared_loop *loop = context;
+    fill_window(loop, piece * loop->window, end_of(loop, piece),
+                loop->part + (size_t)slot * (size_t)loop->window);
+}
+
+/* Parts that are kept at a time, in m->part; 0: one at a time, as there is no memory or no need. */
+static int window_of(model *m)
+{
+    const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW,
+              slots = m->team != NULL ? TEAM_SLOTS : 1;
+    if (m->team == NULL && chunk_size(m) == 1)
+        return 0;
+    if (m->part == NULL)
+        m->part = malloc((size_t)(wanted * slots) * sizeof *m->part);
+    return m->part != NULL ? wanted : 0;
+}
+
+/* The element's equations into those of the model, but for K. */
+static void add_part(model *m, const mesh_element *el, element_part *part, model_linearisation *lin)
+{
+    if (lin->drive != NULL)
+        add_driven(m, el, lin->drive, part->K, part->force);
+    add_columns(m, el, part->K, lin);
+    phases_lap(&m->phases, PHASE_ELEMENTS);
+    for (int k = 0; k < el->columns; k++)
+        part->force[k] = -part->force[k];
+    assemble_vector(el, part->force, lin->residual);
+    lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
+}
+
+static void add_discrete(model *m, const model_state *s, model_linearisation *lin)
+{
+    for (int i = 0; i < m->discretes; i++) {
+        element_part part = {.incompatibility = 0};
+        discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K);
+        add_part(m, &m->discrete[i].el, &part, lin);
+        if (lin->K != NULL)
+            assemble_discrete(&m->discrete[i].el, part.K, lin->K);
+    }
+}
+
+/* Adds up what a slot holds; 0: an element cannot be evaluated. */
+static int take_piece(void *context, int piece, int slot)
+{
+    shared_loop *loop = context;
+    model *m = loop->m;
+    element_part *part = loop->part + (size_t)slot * (size_t)loop->window;
+    for (int i = piece * loop->window; i < end_of(loop, piece); i++, part++) {
+        m->counters.strain_evaluations++;
+        m->counters.stress_evaluations++;
+        loop->outcome = part->outcome;
+        if (part->outcome != STATUS_OK) {
+            fault_set(loop->f, part->outcome, "%s", part->why.text);
+            return 0;
+        }
+        add_part(m, &m->element[i], part, loop->lin);
+        if (loop->pattern != NULL)
+            assemble_matrix(loop->pattern, i, part->K, loop->lin->K);
+        phases_lap(&m->phases, PHASE_ASSEMBLY);
+    }
+    return 1;
+}
+
+static status linearise_elements(model *m, const model_state *s, model_linearisation *lin, fault *f)
+{
+    element_part own;
+    const int window = window_of(m);
+    shared_loop loop = {.m = m,
+                        .s = s,
+                        .lin = lin,
+                        .pattern = lin->K == NULL ? NULL : assemble_of(m, lin->K),
+                        .tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
+                        .window = window > 0 ? window : 1,
+                        .part = window > 0 ? m->part : &own,
+                        .f = f};
+    /* inertia counts its evaluations */
+    team *together = window > 0 && !m->rotates ? m->team : NULL;
+    memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
+    lin->incompatibility = 0;
+    if (lin->conditions > 0)
+        memset(lin->column, 0,
+               (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
+    if (lin->K != NULL)
+        sparse_zero(lin->K);
+    team_relay(together, (m->elements + loop.window - 1) / loop.window, fill_piece, take_piece,
+               &loop);
+    TRY(loop.outcome);
+    add_discrete(m, s, lin);
+    loads_add_at_vertices(m, s, lin->path, lin->residual);
+    if (lin->K != NULL) {
+        loads_subtract_at_vertices(m, s, lin->path, lin->K);
+        linearise_add_held_moments(m, s, lin->path, lin->K);
+    }
+    phases_lap(&m->phases, PHASE_ASSEMBLY);
+    return STATUS_OK;
+}
+
+status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
+{
+    const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
+    ahead_strains(m, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
+    ahead_stresses(m, s->e, s->inner);
+    const status outcome = linearise_elements(m, s, lin, f);
+    ahead_end(m);
+    return outcome;
+}

@@ -1,0 +1,110 @@
+/* Forces of some of the elements: on a node, on coordinates. */
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/names.h"
+#include "elements/math/dense.h"
+#include "elements/math/vec3.h"
+#include "harness/model/discrete.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/newton/linear_springs.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+
+void linearise_node_force(model *m, const model_state *s, const double sigma[], int node,
+                          double F[6])
+{
+    const double *stress = sigma != NULL ? sigma : s->sigma;
+    memset(F, 0, 6 * sizeof(double));
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        for (int k = 0; k < m->nodes; k++) {
+            if (m->vertex[el->vertex[k]].body != node)
+                continue;
+            node_state x[ELEMENT_MAX_NODES];
+            double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
+                force[ELEMENT_MAX_COORDINATES] = {0}, rho[3], moment[3];
+            kinematics_gather(m, s, el, x);
+            m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+            dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                    &stress[(size_t)i * (size_t)m->strains], force);
+            rotating_frame_add(m, x, i, s->path, force, NULL,
+                               NULL); /* never fails in a state that has been reached */
+            kinematics_offset(m, s, el->vertex[k], rho);
+            vec3_cross(rho, force + NODE_COORDINATES * k, moment);
+            for (int c = 0; c < 3; c++) {
+                F[c] += force[NODE_COORDINATES * k + c];
+                F[3 + c] +=
+                    force[NODE_COORDINATES * k + 3 + c] + (el->vertex[k] == node ? 0 : moment[c]);
+            }
+        }
+    }
+    discrete_node_force(m, s, node, F);
+    if (sigma != NULL)
+        linear_springs_node_force(m, &sigma[(size_t)m->elements * (size_t)m->strains], node, F);
+}
+
+/* Of what the moments at a node are made of; less is rounding. */
+static const double least_moment = 1e-12;
+
+double linearise_held_moment(model *m, const model_state *s, const double sigma[], double path,
+                             int node, int axis)
+{
+    double F[6], load[6];
+    linearise_node_force(m, s, sigma, node, F);
+    loads_at_node(m, s, path, node, load);
+    const double moment = F[3 + axis] - load[3 + axis],
+                 size = vec3_norm(F + 3) + vec3_norm(load + 3) +
+                        m->size * (vec3_norm(F) + vec3_norm(load));
+    return fabs(moment) > least_moment * size ? moment : 0;
+}
+
+void linearise_add_held_moments(model *m, const model_state *s, double path, sparse *K)
+{
+    for (int node = 0; node < m->scene->nodes; node++) {
+        const int h = coordinates_held_turn(m, node);
+        if (h == NONE)
+            continue;
+        const int *coordinate = m->vertex[node].coordinate + SCENE_RX, i = coordinate[(h + 1) % 3],
+                  j = coordinate[(h + 2) % 3];
+        const double half = linearise_held_moment(m, s, NULL, path, node, h) / 2;
+        assemble_subtract(K, i, j, -half);
+        assemble_subtract(K, j, i, half);
+    }
+}
+
+status linearise_held_have_potential(model *m, const double sigma[], double path, fault *f)
+{
+    static const char *const turn[] = {"rx", "ry", "rz"};
+    for (int node = 0; node < m->scene->nodes; node++) {
+        const int h = coordinates_held_turn(m, node);
+        if (h != NONE && linearise_held_moment(m, m->rest, sigma, path, node, h) != 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "the moment that holds %s of %s, which turns freely about two axes "
+                             "across it, has no potential: hold one of them, or follow a path",
+                             turn[h], scene_called(m->scene, SCENE_NODES, node).text);
+    }
+    return STATUS_OK;
+}
+
+void linearise_add_internal(model *m, const model_state *s, int elements, const int element[],
+                            double out[])
+{
+    for (int k = 0; k < elements; k++) {
+        const mesh_element *el = &m->element[element[k]];
+        node_state x[ELEMENT_MAX_NODES];
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, el, x);
+        m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+        dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+                                &s->sigma[(size_t)element[k] * (size_t)m->strains], force);
+        eliminate_forces(m, s, el, force);
+        assemble_vector(el, force, out);
+    }
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        double force[MODEL_MAX_COORDINATES] = {0},
+               K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+        discrete_equations(m, s, &m->discrete[i], s->path, force, K);
+        assemble_vector(&m->discrete[i].el, force, out);
+    }
+}

@@ -1,0 +1,372 @@
+/* Loads and drivers along the path. */
+#include "harness/newton/loads.h"
+#include "cases/scene/names.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/along_path.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/kinematics.h"
+#include "harness/newton/applied.h"
+#include "harness/newton/distributed.h"
+#include "harness/newton/equations_impl.h"
+
+/* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
+static const double potential = 1e-12;
+
+/* What of the loads along members goes to the ends of elements: weights where mass is lumped there,
+ * all where a motion has to conserve energy; in states that motions start from, too. */
+static int lumps_of(const model *m, int analysis)
+{
+    const scene *s = m->scene;
+    const scene_analysis *a = &s->analysis[analysis];
+    int lumps = LUMPS_NOTHING;
+    if (a->kind == SCENE_MOTION && !model_spreads(m, analysis))
+        lumps = a->of.motion.scheme == SCENE_CONSERVING ? LUMPS_LOADS : LUMPS_WEIGHTS;
+    for (int later = analysis + 1; later < s->analyses; later++) {
+        const int then =
+            s->analysis[later].follows == analysis ? lumps_of(m, later) : LUMPS_NOTHING;
+        lumps = then > lumps ? then : lumps;
+    }
+    return lumps;
+}
+
+void loads_of(model *m, int analysis)
+{
+    const scene_analysis *a = &m->scene->analysis[analysis];
+    m->unloaded = 0;
+    m->in_time = a->kind == SCENE_MOTION;
+    m->lumps = lumps_of(m, analysis);
+    m->held_path = 1;
+}
+
+void loads_hold(model *m, double path)
+{
+    m->held_path = path;
+}
+
+void loads_none(model *m)
+{
+    m->unloaded = 1;
+}
+
+double loads_driver_value(const model *m, const scene_driver *d, double path)
+{
+    double at[3];
+    loads_driver_rates(m, d, path, at);
+    return at[0];
+}
+
+void loads_driver_rates(const model *m, const scene_driver *d, double path, double out[3])
+{
+    out[0] = out[1] = out[2] = 0;
+    if (m->unloaded)
+        return;
+    if (!m->in_time)
+        out[0] = along_path_value(d, path);
+    else if (d->function.pieces > 0)
+        function_at(&d->function, path, out);
+    else
+        out[0] = along_path_value(d, m->held_path);
+}
+
+/* What one load puts on vertices is added up. */
+typedef struct sum_of_loads {
+    const model *m;
+    const model_state *s;
+    double *out; /* [free + driven] */
+} sum_of_loads;
+
+static void add_applied(void *context, const applied *what)
+{
+    const sum_of_loads *sum = context;
+    int index[KINEMATICS_MOST];
+    double T[6 * KINEMATICS_MOST], F[6], moment[3];
+    const int n = kinematics_node_jacobian(sum->m, sum->s, what->vertex, KINEMATICS_MOST, index, T);
+    memcpy(F, what->F, sizeof F);
+    if (what->offset) {
+        vec3_cross(what->arm, F, moment);
+        for (int i = 0; i < 3; i++)
+            F[3 + i] += moment[i];
+    }
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < 6; i++)
+            sum->out[index[k]] += T[i * n + k] * F[i];
+}
+
+static void add_at_vertices(const model *m, const model_state *s, const scene_load *load,
+                            double scale, double out[])
+{
+    sum_of_loads sum = {m, s, out};
+    applied_each(m, s, load, scale, add_applied, &sum);
+}
+
+static void add_within(const model *m, const model_state *s, const scene_load *load, double scale,
+                       double out[])
+{
+    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        double forces[MODEL_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, &m->element[i], x);
+        if (!distributed_add_one(m, s, x, i, load, scale, forces, NULL))
+            continue;
+        eliminate_forces(m, s, &m->element[i], forces);
+        assemble_vector(&m->element[i], forces, out);
+    }
+}
+
+void loads_add_one(const model *m, const model_state *s, const scene_load *load, double scale,
+                   double out[])
+{
+    if (distributed_spreads(m, load))
+        add_within(m, s, load, scale, out);
+    else
+        add_at_vertices(m, s, load, scale, out);
+}
+
+void loads_add_at_vertices(const model *m, const model_state *s, double path, double out[])
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (!distributed_spreads(m, load))
+            add_at_vertices(m, s, load, applied_factor(m, load, path), out);
+    }
+}
+
+void loads_add(const model *m, const model_state *s, double path, double out[])
+{
+    for (int i = 0; i < m->scene->loads; i++)
+        loads_add_one(m, s, &m->scene->load[i], applied_factor(m, &m->scene->load[i], path), out);
+}
+
+void loads_rate(const model *m, const model_state *s, double path, double out[])
+{
+    memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
+    for (int i = 0; i < m->scene->loads; i++)
+        loads_add_one(m, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
+}
+
+void loads_stiffness_at_vertices(const model *m, const model_state *s, double path,
+                                 loads_entry take, void *context)
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (!distributed_spreads(m, load))
+            applied_stiffness(m, s, load, applied_factor(m, load, path), take, context);
+    }
+}
+
+static void into_sparse(void *K, int row, int column, double value)
+{
+    assemble_subtract(K, row, column, value);
+}
+
+void loads_subtract_at_vertices(const model *m, const model_state *s, double path, sparse *K)
+{
+    loads_stiffness_at_vertices(m, s, path, into_sparse, K);
+}
+
+void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K)
+{
+    loads_subtract_at_vertices(m, s, path, K);
+    for (int i = 0; i < m->elements; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        double forces[ELEMENT_MAX_COORDINATES] = {0},
+               part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        kinematics_gather(m, s, &m->element[i], x);
+        if (!distributed_add(m, s, x, i, path, forces, part))
+            continue;
+        for (int k = 0; k < m->coordinates; k++)
+            forces[k] = -forces[k];
+        eliminate_matrix(m, s, &m->element[i], forces, part);
+        assemble_matrix(assemble_of(m, K), i, part, K);
+    }
+}
+
+/* Entries of one load's stiffness at free coordinates: of one body, so few. */
+enum { MOST_ENTRIES = 64 };
+typedef struct entries_of_load {
+    int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];
+    double value[MOST_ENTRIES];
+} entries_of_load;
+
+static void into_list(void *context, int row, int column, double value)
+{
+    entries_of_load *e = context;
+    if (row < 0 || column < 0 || row >= e->free || column >= e->free || e->count == MOST_ENTRIES)
+        return;
+    e->row[e->count] = row;
+    e->column[e->count] = column;
+    e->value[e->count++] = value;
+}
+
+/* Largest |K_ij - K_ji|. */
+static double skew_of(const entries_of_load *e)
+{
+    double largest = 0;
+    for (int i = 0; i < e->count; i++) {
+        double sum = 0;
+        for (int k = 0; k < e->count; k++) {
+            const int same = e->row[k] == e->row[i] && e->column[k] == e->column[i],
+                      turned = e->row[k] == e->column[i] && e->column[k] == e->row[i];
+            sum += (same - turned) * e->value[k];
+        }
+        largest = fmax(largest, fabs(sum));
+    }
+    return largest;
+}
+
+status loads_have_potential(const model *m, const model_state *s, double path, fault *f)
+{
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        entries_of_load e = {.free = m->free};
+        if (load->kind != SCENE_MOMENT)
+            continue;
+        applied_stiffness(m, s, load, applied_factor(m, load, path), into_list, &e);
+        if (skew_of(&e) > potential * vec3_norm(load->vector))
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s, a moment about fixed axes, has no potential at %s, which turns freely about "
+                "two axes across it: hold one of them, or follow a static path",
+                scene_called(m->scene, SCENE_LOADS, i).text,
+                scene_called(m->scene, SCENE_NODES, load->where).text);
+    }
+    return STATUS_OK;
+}
+
+void loads_release_moment(const model *m, const model_state *s, int node, const double M[3],
+                          sparse *K)
+{
+    const mesh_vertex *v = &m->vertex[node];
+    double b[3][3];
+    if (v->angles == 0)
+        return;
+    kinematics_axes(m, s, node, b);
+    for (int i = 0; i < v->angles; i++)
+        for (int j = i + 1; j < v->angles; j++) {
+            double cross[3];
+            vec3_cross(b[i], b[j], cross);
+            assemble_subtract(K, v->coordinate[3 + i], v->coordinate[3 + j],
+                              vec3_dot(M, cross) / 2);
+            assemble_subtract(K, v->coordinate[3 + j], v->coordinate[3 + i],
+                              vec3_dot(M, cross) / 2);
+        }
+}
+
+/* What acts on the frame of one node is added up. */
+typedef struct sum_at_node {
+    const model *m;
+    const model_state *s;
+    int node;
+    double *F; /* [6] */
+} sum_at_node;
+
+static void add_at_node(void *context, const applied *what)
+{
+    const sum_at_node *sum = context;
+    double rho[3], moment[3];
+    if (sum->m->vertex[what->vertex].body != sum->node)
+        return;
+    kinematics_offset(sum->m, sum->s, what->vertex, rho);
+    if (what->offset)
+        for (int k = 0; k < 3; k++)
+            rho[k] += what->arm[k];
+    vec3_cross(rho, what->F, moment);
+    const int away = what->vertex != sum->node || what->offset;
+    for (int k = 0; k < 6; k++)
+        sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
+}
+
+/* What acts along an element. */
+static void add_element_at_node(sum_at_node *sum, int element, double path)
+{
+    const model *m = sum->m;
+    const mesh_element *el = &m->element[element];
+    double forces[ELEMENT_MAX_COORDINATES] = {0};
+    node_state x[ELEMENT_MAX_NODES];
+    int meets = 0;
+    for (int k = 0; k < m->nodes; k++)
+        meets |= m->vertex[el->vertex[k]].body == sum->node;
+    if (!meets)
+        return;
+    kinematics_gather(m, sum->s, el, x);
+    if (!distributed_add(m, sum->s, x, element, path, forces, NULL))
+        return;
+    for (int k = 0; k < m->nodes; k++) {
+        if (m->vertex[el->vertex[k]].body != sum->node)
+            continue;
+        applied one = {.vertex = el->vertex[k]};
+        memcpy(one.F, forces + NODE_COORDINATES * k, sizeof one.F);
+        add_at_node((void *)sum, &one);
+    }
+}
+
+void loads_at_node(const model *m, const model_state *s, double path, int node, double F[6])
+{
+    sum_at_node sum = {m, s, node, F};
+    memset(F, 0, 6 * sizeof(double));
+    for (int i = 0; i < m->scene->loads; i++) {
+        const scene_load *load = &m->scene->load[i];
+        if (!distributed_spreads(m, load))
+            applied_each(m, s, load, applied_factor(m, load, path), add_at_node, &sum);
+    }
+    for (int i = 0; i < m->elements; i++)
+        add_element_at_node(&sum, i, path);
+}
+
+void loads_drive(const model *m, const model_state *s, double path, double dx[])
+{
+    for (int d = 0; d < m->scene->drivers; d++)
+        if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
+            dx[m->driver_coordinate[d]] =
+                loads_driver_value(m, &m->scene->driver[d], path) - s->driver[d];
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const mesh_vertex *v = &m->vertex[i];
+        if (v->vector_driver[0] == NONE || v->body != i)
+            continue;
+        double target[3], q[4], turn[3];
+        for (int k = 0; k < 3; k++)
+            target[k] = loads_driver_value(m, &m->scene->driver[v->vector_driver[k]], path);
+        rotation_exp(target, q);
+        rotation_between(&s->q[4 * i], q, turn);
+        for (int k = 0; k < 3; k++)
+            dx[v->coordinate[3 + k]] = turn[k];
+    }
+}
+
+int loads_conditions(const model *m, const model_state *s, double path,
+                     model_condition out[MODEL_MAX_CONDITIONS])
+{
+    int count = 0;
+    for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
+        const scene_driver *u = &m->scene->driver[d];
+        if (u->value != NULL || m->driver_coordinate[d] == NONE)
+            continue;
+        out[count].unknown = m->driver_coordinate[d];
+        out[count].coordinate = m->driver_coordinate[u->condition_driver];
+        out[count++].increment =
+            loads_driver_value(m, &m->scene->driver[u->condition_driver], path) -
+            s->driver[u->condition_driver];
+    }
+    return count;
+}
+
+void loads_reference(const model *m, double path, double f[])
+{
+    memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
+    loads_add(m, m->rest, path, f);
+}
+
+int loads_begin(const model *m)
+{
+    int begin = 0;
+    for (int i = 0; i < m->scene->loads; i++)
+        begin |= applied_factor(m, &m->scene->load[i], 0) != 0;
+    for (int d = 0; d < m->scene->drivers; d++)
+        begin |= m->scene->driver[d].value != NULL &&
+                 loads_driver_value(m, &m->scene->driver[d], 0) != 0;
+    return begin;
+}

@@ -1,0 +1,258 @@
+/* Family of a mode by the share of its kinetic-like measure: translations along the member, across
+ * it, and twist times the radius of gyration; half-waves by the sign changes of the leading
+ * component along the first member. */
+#include "harness/newton/modes.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/rotation.h"
+#include "harness/newton/context.h"
+
+enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
+
+/* Components of vertex motion in the member's axes: x, y, z and twist times r. */
+static void components(const double R[9], double radius, const double u[7], double out[MEASURES])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = R[k] * u[0] + R[3 + k] * u[1] + R[6 + k] * u[2];
+    out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
+}
+
+/* Where the vertices stay in place: turns of the section about z and y times r, and warping times
+ * r^2. */
+static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
+{
+    out[AXIAL] = 0;
+    out[ALONG_Y] = radius * (R[2] * u[3] + R[5] * u[4] + R[8] * u[5]);
+    out[ALONG_Z] = -radius * (R[1] * u[3] + R[4] * u[4] + R[7] * u[5]);
+    out[TWIST] = radius * radius * u[6];
+}
+
+/* value[MEASURES i] at vertex i. */
+static int count_half_waves(int vertices, const double *value)
+{
+    double largest = 0, last = 0;
+    int waves = 0;
+    for (int i = 0; i < vertices; i++)
+        largest = fmax(largest, fabs(value[MEASURES * i]));
+    for (int i = 0; i < vertices; i++) {
+        if (fabs(value[MEASURES * i]) <= 1e-6 * largest)
+            continue;
+        if (waves == 0 || value[MEASURES * i] * last < 0)
+            waves++;
+        last = value[MEASURES * i];
+    }
+    return waves;
+}
+
+/* Components of a mode at the vertices of all members, one after the other. */
+typedef struct motion {
+    int points, first_member; /* points of all members, and of the first */
+    double *part;             /* [points x MEASURES] */
+    double *turn;             /* the same of what the sections do in place */
+} motion;
+
+static int points_of(const model *m, const scene *s)
+{
+    int points = 0;
+    for (int member = 0; member < s->members; member++)
+        points += model_member_vertices(m, member, NULL);
+    return points;
+}
+
+/* u[vertices x 7]: the mode at the vertices; index[vertices] is work space. */
+static void fill_motion(const model *m, const scene *s, const double *u, int *index, motion *out)
+{
+    for (int member = 0; member < s->members; member++) {
+        const scene_member *sm = &s->member[member];
+        const section *p = model_section(m, sm->section), *q = model_section(m, sm->section_q);
+        const double radius = (sqrt(p->Ip / p->A) + sqrt(q->Ip / q->A)) / 2;
+        double d[3], R[9];
+        for (int i = 0; i < 3; i++)
+            d[i] = s->node[sm->q].position[i] - s->node[sm->p].position[i];
+        rotation_triad(d, sm->y_axis, R);
+        const int count = model_member_vertices(m, member, index);
+        for (int i = 0; i < count; i++, out->points++) {
+            components(R, radius, &u[NODE_COORDINATES * index[i]],
+                       &out->part[MEASURES * out->points]);
+            turns(R, radius, &u[NODE_COORDINATES * index[i]], &out->turn[MEASURES * out->points]);
+        }
+    }
+}
+
+static status motion_alloc(const model *m, const scene *s, const double mode[], motion *out,
+                           fault *f)
+{
+    const size_t vertices = (size_t)model_shape(m, NULL, NULL, NULL),
+                 points = (size_t)points_of(m, s);
+    double *u = malloc((vertices * NODE_COORDINATES + 1) * sizeof *u);
+    int *index = malloc((vertices + 1) * sizeof *index);
+    out->points = 0;
+    out->first_member = s->members > 0 ? model_member_vertices(m, 0, NULL) : 0;
+    out->part = malloc((2 * points * MEASURES + 1) * sizeof *out->part);
+    out->turn = out->part + points * MEASURES;
+    const int good = u != NULL && index != NULL && out->part != NULL;
+    if (good) {
+        model_shape(m, mode, u, NULL);
+        fill_motion(m, s, u, index, out);
+    }
+    free(u);
+    free(index);
+    if (good)
+        return STATUS_OK;
+    free(out->part);
+    out->part = NULL;
+    return fault_set(f, STATUS_FAULT, "out of memory for a mode");
+}
+
+/* Sums of squares over the points. */
+static void squares(int points, const double *part, double sum[MEASURES])
+{
+    memset(sum, 0, MEASURES * sizeof *sum);
+    for (int i = 0; i < points; i++)
+        for (int k = 0; k < MEASURES; k++)
+            sum[k] += part[MEASURES * i + k] * part[MEASURES * i + k];
+}
+
+static int largest_of(const double sum[MEASURES])
+{
+    int leading = 0;
+    for (int k = 1; k < MEASURES; k++)
+        leading = sum[k] > sum[leading] ? k : leading;
+    return leading;
+}
+
+/* Motion of the vertices below this part of that of the sections in place, in squares, is
+ * round-off. */
+static const double in_place_part = 1e-16;
+
+status modes_identify(const model *m, const scene *s, const double mode[], mode_shape *out,
+                      fault *f)
+{
+    static const scene_family family[MEASURES] = {SCENE_AXIAL, SCENE_BENDING_Y, SCENE_BENDING_Z,
+                                                  SCENE_TORSION};
+    motion shape;
+    TRY(motion_alloc(m, s, mode, &shape, f));
+    double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0;
+    squares(shape.points, shape.part, moved);
+    squares(shape.points, shape.turn, turned);
+    for (int k = 0; k < MEASURES; k++) {
+        all += moved[k];
+        in_place += turned[k];
+    }
+    const int stays = !(all > in_place_part * in_place),
+              leading = largest_of(stays ? turned : moved);
+    out->family = family[leading];
+    out->half_waves =
+        count_half_waves(shape.first_member, (stays ? shape.turn : shape.part) + leading);
+    free(shape.part);
+    return STATUS_OK;
+}
+
+int modes_in_family(const scene_mode *wanted, const mode_shape *shape)
+{
+    const int family = wanted->family == SCENE_ANY ||
+                       (wanted->family == SCENE_NOT_AXIAL ? shape->family != SCENE_AXIAL
+                                                          : shape->family == wanted->family);
+    return family && (wanted->half_waves == 0 || shape->half_waves == wanted->half_waves);
+}
+
+const char *modes_family_name(scene_family family)
+{
+    switch (family) {
+    case SCENE_AXIAL:
+        return "axial";
+    case SCENE_BENDING_Y:
+        return "bending along y";
+    case SCENE_BENDING_Z:
+        return "bending along z";
+    case SCENE_TORSION:
+        return "torsion";
+    case SCENE_ANY:
+    case SCENE_NOT_AXIAL:
+        break;
+    }
+    return "any";
+}
+
+enum { MOST = 8 }; /* modes of one cluster that are told apart */
+
+static status motions_alloc(const model *m, const scene *s, int count, size_t n, const double *mode,
+                            motion shape[], fault *f)
+{
+    for (int i = 0; i < count; i++)
+        TRY(motion_alloc(m, s, mode + (size_t)i * n, &shape[i], f));
+    return STATUS_OK;
+}
+
+/* Products of the motions [count x count]: along z, and in all. */
+static void products(int count, const motion shape[], double along_z[], double all[])
+{
+    memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
+    memset(all, 0, (size_t)(count * count) * sizeof *all);
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            for (int k = 0; k < shape[i].points * MEASURES; k++) {
+                const double product = shape[i].part[k] * shape[j].part[k];
+                all[i * count + j] += product;
+                along_z[i * count + j] += k % MEASURES == ALONG_Z ? product : 0;
+            }
+}
+
+/* mode[count x n] <- C mode, C[count x count] by rows. */
+static void combine(int count, size_t n, const double C[], double *mode)
+{
+    for (size_t k = 0; k < n; k++) {
+        double old[MOST] = {0};
+        for (int i = 0; i < count; i++)
+            old[i] = mode[(size_t)i * n + k];
+        for (int i = 0; i < count; i++) {
+            mode[(size_t)i * n + k] = 0;
+            for (int j = 0; j < count; j++)
+                mode[(size_t)i * n + k] += C[i * count + j] * old[j];
+        }
+    }
+}
+
+/* mode <- combinations that make the part along z as small or as large as it can be beside the
+ * whole; modes that look alike at the vertices stay as they are. */
+static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
+                               fault *f)
+{
+    double along_z[MOST * MOST], all[MOST * MOST], w[MOST];
+    motion shape[MOST] = {{0}};
+    const int size = count < MOST ? count : MOST;
+    const status outcome = motions_alloc(m, s, size, n, mode, shape, f);
+    if (outcome == STATUS_OK)
+        products(size, shape, along_z, all);
+    for (int i = 0; i < size; i++)
+        free(shape[i].part);
+    TRY(outcome);
+    if (LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'V', 'U', size, along_z, size, all, size, w) == 0)
+        combine(size, n, along_z, mode);
+    return STATUS_OK;
+}
+
+/* One behind the last of the values that are equal to the first. */
+static int cluster_end(int first, int count, const double value[])
+{
+    const double equal = 1e-8; /* relative */
+    int end = first + 1;
+    while (end < count && fabs(value[end] - value[first]) <= equal * fabs(value[first]))
+        end++;
+    return end;
+}
+
+status modes_separate(const model *m, const scene *s, int count, const double value[], size_t n,
+                      double *mode, fault *f)
+{
+    for (int first = 0, end; first < count; first = end) {
+        end = cluster_end(first, count, value);
+        if (end - first > 1)
+            TRY(separate_cluster(m, s, end - first, n, mode + (size_t)first * n, f));
+    }
+    return STATUS_OK;
+}

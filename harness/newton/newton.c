@@ -1,0 +1,276 @@
+/* One Newton iteration: assemble, factor, solve, take the increments; condensed element by element
+ * or, for comparison, dense. */
+#include "harness/newton/newton.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/context.h"
+#include "harness/newton/history.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/singular.h"
+#include "harness/newton/uncondensed.h"
+#include "harness/numerics/clock.h"
+#include "harness/numerics/memory.h"
+
+enum { MAX_ITERATIONS = 30 };
+
+/* What solves, and its matrix unless members are condensed. */
+static status allocate_tangent(newton *n, int condense, fault *f)
+{
+    const sparse *pattern;
+    if (condense && n->c->options->newton != NEWTON_DENSE)
+        TRY(context_condensation(n->c, 0, NULL, &n->condensed, f));
+    if (n->condensed != NULL)
+        return condensation_as_factor(n->condensed, &n->factor, f);
+    TRY(assemble_pattern_of_states(n->c->model, 0, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &n->K, f));
+    return factor_alloc(pattern, &n->factor, f);
+}
+
+static status allocate(newton *n, int condense, fault *f)
+{
+    const model *m = n->c->model;
+    const size_t all = (size_t)n->all + 1;
+    n->residual = calloc(all, sizeof *n->residual);
+    n->dx = calloc((1 + MODEL_MAX_CONDITIONS) * all, sizeof *n->dx);
+    n->weight = calloc(all, sizeof *n->weight);
+    if (n->residual == NULL || n->dx == NULL || n->weight == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a static solution");
+    n->column = n->dx + n->all;
+    metric_of(m, n->weight);
+    TRY(allocate_tangent(n, condense, f));
+    TRY(kinematics_state_alloc(m, &n->state, f));
+    return kinematics_state_alloc(m, &n->backup, f);
+}
+
+status newton_alloc(analysis_context *c, int condense, newton *n, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    const double start = clock_processor_seconds();
+    memset(n, 0, sizeof *n);
+    n->c = c;
+    n->free = size.free;
+    n->all = size.free + size.driven;
+    arrival_start(c->options->criterion, model_leaves(c->model) != 0, size.elements, &n->arrival);
+    n->max_iterations =
+        c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
+    const status outcome = allocate(n, condense, f);
+    c->setup += clock_processor_seconds() - start;
+    return outcome;
+}
+
+status newton_keep_driven(newton *n, fault *f)
+{
+    const sparse *pattern;
+    if (n->whole.value != NULL)
+        return STATUS_OK;
+    TRY(assemble_pattern_of_states(n->c->model, 1, &pattern, f));
+    return sparse_alloc_like(pattern, &n->whole, f);
+}
+
+void newton_free(newton *n)
+{
+    free(n->residual);
+    free(n->dx);
+    free(n->weight);
+    free(n->dense);
+    free(n->unknown);
+    free(n->pivot);
+    const int used = n->factor != NULL && factor_count(n->factor).factorisations > 0;
+    if (used && n->K.value != NULL && n->K.symmetric)
+        context_leave_factor(n->c, n->factor);
+    else
+        factor_free(n->factor);
+    sparse_free_values(&n->K);
+    sparse_free_values(&n->whole);
+    kinematics_state_free(n->state);
+    kinematics_state_free(n->backup);
+}
+
+/* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it
+ * moves. */
+static int drives(const newton *n, int count, const model_condition condition[],
+                  const double column[])
+{
+    const double round_off = 1e-12;
+    double conditioned = 0, all = 0;
+    for (int k = 0; k < n->free; k++)
+        all = fmax(all, n->weight[k] * column[k] * column[k]);
+    for (int r = 0; r < count; r++)
+        conditioned =
+            fmax(conditioned, n->weight[condition[r].coordinate] * column[condition[r].coordinate] *
+                                  column[condition[r].coordinate]);
+    return conditioned > round_off * round_off * all;
+}
+
+/* Unknown drivers: their increments, of which the columns are solved for, make the conditions hold;
+ * dx of the free coordinates follows. */
+static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
+{
+    double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
+    int pivot[MODEL_MAX_CONDITIONS];
+    int moved = 1;
+    for (int c = 0; c < count; c++)
+        moved &= drives(n, count, condition, n->column + c * n->all);
+    for (int r = 0; r < count; r++) {
+        b[r] = n->dx[condition[r].coordinate] - condition[r].increment;
+        for (int c = 0; c < count; c++)
+            A[r * count + c] = n->column[c * n->all + condition[r].coordinate];
+    }
+    if (!moved || dense_lu_regular(count, A, pivot) != 0)
+        return fault_set(f, STATUS_SINGULAR,
+                         "an unknown driver does not move the coordinate of its condition");
+    dense_lu_solve(count, 1, A, pivot, b);
+    for (int c = 0; c < count; c++) {
+        for (int k = 0; k < n->free; k++)
+            n->dx[k] -= n->column[c * n->all + k] * b[c];
+        n->dx[condition[c].unknown] = b[c];
+    }
+    model_counters(n->c->model)->solutions += count;
+    return STATUS_OK;
+}
+
+/* The tangent of the state and its factors. */
+static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
+{
+    if (n->whole.value != NULL)
+        lin->K = &n->whole;
+    if (n->condensed != NULL)
+        lin->K = NULL;
+    TRY(linearise_state(n->c->model, n->state, lin, f));
+    if (n->whole.value != NULL)
+        sparse_copy_leading(&n->whole, &n->K);
+    if (n->condensed == NULL)
+        return context_factor(n->c, n->factor, &n->K, f);
+    TRY(condensation_at(n->condensed, n->state, lin->path, f));
+    return context_factor_condensed(n->c, n->condensed, f);
+}
+
+/* dx of the condensed system. */
+static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
+{
+    phases *p = model_phases(n->c->model);
+    const status factored = factor_tangent(n, lin, f);
+    phases_lap(p, PHASE_FACTORISATION);
+    TRY(factored);
+    memcpy(n->dx, n->residual, (size_t)n->free * sizeof *n->dx);
+    factor_solve_many(n->factor, 1 + lin->conditions, n->all, n->dx);
+    n->energy = fabs(dense_dot(n->free, n->residual, n->dx));
+    const status met = meet_conditions(n, lin->conditions, lin->condition, f);
+    phases_lap(p, PHASE_SOLUTION);
+    return met;
+}
+
+/* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
+static status solve_dense(newton *n, model_linearisation *lin, fault *f)
+{
+    model *m = n->c->model;
+    const size_t size = (size_t)uncondensed_size(m) + (size_t)lin->conditions;
+    TRY(memory_check((double)size * (double)size * sizeof *n->dense,
+                     "dense matrices of all unknowns at once", "give newton=mixed", f));
+    if (n->dense == NULL) {
+        n->dense = malloc(size * size * sizeof *n->dense);
+        n->unknown = malloc(size * sizeof *n->unknown);
+        n->pivot = malloc(size * sizeof *n->pivot);
+    }
+    if (n->dense == NULL || n->unknown == NULL || n->pivot == NULL)
+        return fault_set(f, STATUS_FAULT,
+                         "out of memory for a dense matrix of %zu unknowns; give newton=mixed",
+                         size);
+    model_linearisation parts = *lin;
+    parts.K = NULL;
+    parts.drive = NULL;
+    parts.conditions = 0;
+    TRY(linearise_state(m, n->state, &parts, f)); /* what advance_state needs */
+    lin->incompatibility = parts.incompatibility;
+    TRY(uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense,
+                           n->unknown, n->residual, f));
+    phases_lap(model_phases(m), PHASE_ASSEMBLY);
+    const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
+                                       n->pivot, n->unknown, (int)size) != 0;
+    phases_lap(model_phases(m), PHASE_FACTORISATION);
+    n->c->singular = singular;
+    if (singular)
+        return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
+    memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);
+    for (int c = 0; c < lin->conditions; c++)
+        n->dx[lin->condition[c].unknown] = n->unknown[size - (size_t)(lin->conditions - c)];
+    return STATUS_OK;
+}
+
+static status direction(newton *n, double path, step_record *record, fault *f)
+{
+    model *m = n->c->model;
+    counters *count = model_counters(m);
+    n->energy = NAN;
+    memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
+    loads_drive(m, n->state, path, n->dx);
+    if (n->c->options->newton == NEWTON_DISPLACEMENT) {
+        TRY(linearise_make_compatible(m, n->state, f));
+    }
+    model_condition condition[MODEL_MAX_CONDITIONS];
+    const int conditions = loads_conditions(m, n->state, path, condition);
+    model_linearisation lin = {.path = path,
+                               .drive = n->dx,
+                               .K = &n->K,
+                               .residual = n->residual,
+                               .conditions = conditions,
+                               .condition = condition,
+                               .column = n->column};
+    TRY(n->c->options->newton == NEWTON_DENSE ? solve_dense(n, &lin, f)
+                                              : solve_condensed(n, &lin, f));
+    const factor_counts counts = factor_count(n->factor);
+    count->factorisations +=
+        n->c->options->newton == NEWTON_DENSE ? 1 : counts.factorisations - n->counted;
+    n->counted = counts.factorisations;
+    count->solutions++;
+    count->factor_entries = counts.entries;
+    count->factor_flops += counts.flops;
+    record->negative_pivots = counts.negative_pivots;
+    record->incompatibility = lin.incompatibility;
+    return STATUS_OK;
+}
+
+status newton_direction(newton *n, double path, step_record *record, fault *f)
+{
+    phases *p = model_phases(n->c->model);
+    phases_start(p);
+    const status outcome = direction(n, path, record, f);
+    phases_stop(p);
+    return outcome;
+}
+
+void newton_advance(newton *n, double path, newton_correction *out)
+{
+    phases_start(model_phases(n->c->model));
+    out->size = advance_state(n->c->model, n->state, n->dx, path, &out->stress);
+    phases_stop(model_phases(n->c->model));
+    out->at = path;
+    out->energy = n->energy;
+}
+
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
+{
+    (void)iteration;
+    newton *n = of;
+    TRY(newton_direction(n, n->path, record, f));
+    newton_advance(n, n->path, out);
+    return STATUS_OK;
+}
+
+status newton_to(newton *n, double path, step_record *record, fault *f)
+{
+    newton_use use = newton_on_path(n, n, correct);
+    n->path = path;
+    return newton_iterate(n->c, &use, &n->arrival, record, f);
+}

@@ -1,0 +1,274 @@
+/* Whether a step has ended, goes on or leads nowhere; whether the state it ends in is one that the
+ * formulation follows. */
+#include <math.h>
+#include <stdio.h>
+
+#include "cases/scene/names.h"
+#include "elements/math/dense.h"
+#include "elements/math/pi.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/model/release.h"
+#include "harness/model/turns.h"
+#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
+
+static status judge_twist(const model *m, const model_state *s, fault *f)
+{
+    int index;
+    const double twist = kinematics_largest_twist(m, s, &index);
+    if (twist < PI / 4)
+        return STATUS_OK;
+    const int member = m->element[index].member, first = m->first_element[member];
+    return fault_set(
+        f, STATUS_NOT_CONVERGED,
+        "element %d of %d of %s is twisted by %.3g rad, more than the eighth of a turn "
+        "up to which the torque of %s grows, at path %g: use more elements or smaller "
+        "steps",
+        index - first + 1, m->first_element[member + 1] - first,
+        scene_called(m->scene, SCENE_MEMBERS, member).text, twist, m->type->name, s->path);
+}
+
+/* The element's own turn [rad]: between neighbouring nodes, and for sines against the chord. */
+static status judge_elements(const model *m, const model_state *s, fault *f)
+{
+    const int quarter = (m->type->limits & LIMIT_QUARTER_TURN) != 0;
+    int index;
+    const double turn = kinematics_largest_turn(m, s, quarter, &index);
+    if (turn < (quarter ? PI / 2 : PI))
+        return STATUS_OK;
+    const int member = m->element[index].member, first = m->first_element[member];
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "element %d of %d of %s is turned by %.3g rad, more than the %s turn that %s "
+                     "follows, at path %g: use more elements or smaller steps",
+                     index - first + 1, m->first_element[member + 1] - first,
+                     scene_called(m->scene, SCENE_MEMBERS, member).text, turn,
+                     quarter ? "quarter" : "half", m->type->name, s->path);
+}
+
+/* Does this end of a member turn freely about all axes across it? */
+static int swings(const model *m, const mesh_element *el, int node)
+{
+    const mesh_release *r = release_of(m, el->vertex[node]);
+    const double *triad = el->triad[node], x[3] = {triad[0], triad[3], triad[6]};
+    const double across = 1e-6;
+    if (r == NULL || r->turns < 2)
+        return 0;
+    return r->turns == 3 ||
+           (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
+}
+
+/* Elements longer than the axial force in them allows; bars that nothing bends are never. */
+static status judge_tension(const model *m, const model_state *s, fault *f)
+{
+    int worst = 0;
+    double most = 0;
+    for (int i = 0; i < m->elements; i++) {
+        const double by = m->type->tension(m->kind[m->element[i].kind].data,
+                                           s->sigma + (size_t)i * (size_t)m->strains);
+        const mesh_element *el = &m->element[i];
+        if (by <= most || (swings(m, el, 0) && swings(m, el, el->nodes - 1)))
+            continue;
+        worst = i;
+        most = by;
+    }
+    if (most < 1)
+        return STATUS_OK;
+    const int member = m->element[worst].member, first = m->first_element[member],
+              count = m->first_element[member + 1] - first;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "element %d of %d of %s is too long for the axial force in it, by a factor of "
+                     "%.4g, at path %g: %s loses its stiffness across it; use %.0f elements (for "
+                     "four times the force twice as many) or another formulation",
+                     worst - first + 1, count, scene_called(m->scene, SCENE_MEMBERS, member).text,
+                     most, s->path, m->type->name, floor(count * most) + 1);
+}
+
+status newton_judge_rest(const model *m, fault *f)
+{
+    const double most = 2;
+    int index;
+    if (!(m->type->limits & LIMIT_FLAT_ARC))
+        return STATUS_OK;
+    const double rise = kinematics_largest_rise(m, &index);
+    if (rise < most)
+        return STATUS_OK;
+    const int member = m->element[index].member, first = m->first_element[member],
+              count = m->first_element[member + 1] - first;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "the arc of element %d of %d of %s rises by %.3g radii of gyration of its "
+                     "section, and %s is right below %g: use %.0f elements or another formulation",
+                     index - first + 1, count, scene_called(m->scene, SCENE_MEMBERS, member).text,
+                     rise, m->type->name, most, floor(count * sqrt(rise / most)) + 1);
+}
+
+/* Near a full turn, with a moment across the turn: that knows no bounds there. */
+static int across(const mesh_discrete *d, const double turn[3])
+{
+    const double near = 1e-3, size = vec3_norm(turn);
+    double moment[3] = {0}, aside[3];
+    if (!turns_full(size, near))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            moment[i] += d->spring->stiffness[6 * (3 + i) + 3 + k] * turn[k];
+    vec3_cross(turn, moment, aside);
+    return vec3_norm(aside) > 1e-6 * size * vec3_norm(moment);
+}
+
+static status judge_springs(const model *m, const model_state *from, const model_state *s, fault *f)
+{
+    for (int i = 0; i < m->springs; i++) {
+        const double *turn = turns_of_spring(m, s, i);
+        if (turns_swung(turns_of_spring(m, from, i), turn) ||
+            across(&m->discrete[m->discretes - m->springs + i], turn))
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "%s is turned by %.4g rad at path %g: on a full turn about a changing "
+                             "axis, or with a moment across its turn, its rotation vector has no "
+                             "direction; hold its other turns, use smaller steps, or put two in "
+                             "series",
+                             scene_called(m->scene, SCENE_SPRINGS, i).text, vec3_norm(turn),
+                             s->path);
+    }
+    return STATUS_OK;
+}
+
+/* Largest change of what turns a node by prescribed angles [rad]. */
+static double driven_by(const model *m, const model_state *from, const model_state *s, int node)
+{
+    const mesh_vertex *v = &m->vertex[node];
+    double largest = 0;
+    for (int k = 0; k < 3; k++) {
+        const int driver =
+            v->vector_driver[0] != NONE ? v->vector_driver[k] : m->scene->node[node].angle[k];
+        if (driver >= 0)
+            largest = fmax(largest, fabs(s->driver[driver] - from->driver[driver]));
+    }
+    return largest;
+}
+
+static status judge_steps(const model *m, const model_state *from, const model_state *s, fault *f)
+{
+    for (int i = 0; i < m->scene->nodes; i++) {
+        const double most = m->vertex[i].vector_driver[0] != NONE ? PI : 2 * PI,
+                     step = driven_by(m, from, s, i);
+        if (!(step < most * (1 + 1e-9)))
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "%s is driven by %.3g rad in one step at path %g: use smaller steps",
+                             scene_called(m->scene, SCENE_NODES, i).text, step, s->path);
+    }
+    return STATUS_OK;
+}
+
+status newton_accept(const model *m, const model_state *from, model_state *s, fault *f)
+{
+    TRY(judge_elements(m, s, f));
+    if (m->type->limits & LIMIT_EIGHTH_TWIST)
+        TRY(judge_twist(m, s, f));
+    if (m->type->limits & LIMIT_TENSION)
+        TRY(judge_tension(m, s, f));
+    TRY(judge_springs(m, from, s, f));
+    TRY(judge_steps(m, from, s, f));
+    turns_lose(m, from, s);
+    return STATUS_OK;
+}
+
+/* Of the corrections of one step. */
+typedef struct watch {
+    double last, first, largest; /* the largest behind the first */
+    int growing;                 /* so many after another */
+} watch;
+
+/* Limits of all iterations: a correction of several radians or lengths leads nowhere, nor do those
+ * that grow again and again. */
+static const double wild = 4, wild_at_first = 16;
+enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
+
+static status give_up(const newton_use *use, const newton_correction *one, const char *why,
+                      int iteration, fault *f)
+{
+    char at[40];
+    snprintf(at, sizeof at, use->on == NULL ? "%g s" : "path %g", one->at);
+    return fault_set(f, STATUS_NOT_CONVERGED, "Newton %s at %s: correction %.1e in iteration %d",
+                     why, at, one->size, iteration);
+}
+
+static void take(watch *w, double correction, int iteration)
+{
+    if (iteration == 1)
+        w->first = correction;
+    else
+        w->largest = fmax(w->largest, correction);
+    w->growing = correction > w->last && iteration > 2 ? w->growing + 1 : 0;
+    w->last = correction;
+}
+
+static status judge(const newton_use *use, const watch *w, const newton_correction *one,
+                    int iteration, fault *f)
+{
+    if (!isfinite(w->last))
+        return fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
+    if (w->last > wild_at_first || (iteration > AT_FIRST && w->last > wild) ||
+        w->growing >= GROWING)
+        return give_up(use, one, "diverged", iteration, f);
+    return iteration == use->most ? give_up(use, one, "did not converge", iteration, f) : STATUS_OK;
+}
+
+static status judge_strayed(const newton_use *use, const watch *w, double path, fault *f)
+{
+    const double astray = 0.5, behind_first = 2;
+    if (use->on == NULL || w->largest <= astray || w->largest <= behind_first * w->first)
+        return STATUS_OK;
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "at path %g Newton strayed by %.2g rad or lengths and may have found another "
+                     "equilibrium: use smaller steps, or follow a continuation",
+                     path, w->largest);
+}
+
+static status accept(const newton_use *use, fault *f)
+{
+    if (use->on != NULL)
+        TRY(newton_accept(use->on->c->model, use->on->backup, use->on->state, f));
+    return use->accept != NULL ? use->accept(use->of, f) : STATUS_OK;
+}
+
+newton_use newton_on_path(newton *n, void *of,
+                          status (*correct)(void *, int, newton_correction *, step_record *,
+                                            fault *))
+{
+    return (newton_use){.of = of, .on = n, .most = n->max_iterations, .correct = correct};
+}
+
+newton_use newton_in_time(const analysis_context *c, void *of,
+                          status (*correct)(void *, int, newton_correction *, step_record *,
+                                            fault *),
+                          void (*prepare)(void *, int, double))
+{
+    const int asked = c->options->max_iterations;
+    return (newton_use){
+        .of = of, .most = asked > 0 ? asked : MOST_IN_TIME, .correct = correct, .prepare = prepare};
+}
+
+status newton_iterate(analysis_context *c, const newton_use *use, arrival *a, step_record *record,
+                      fault *f)
+{
+    watch w = {INFINITY, INFINITY, 0, 0};
+    for (int iteration = 1;; iteration++) {
+        newton_correction one = {.energy = NAN};
+        TRY(use->correct(use->of, iteration, &one, record, f));
+        model_counters(c->model)->iterations++;
+        arrival_take(one.size, &one.stress, iteration == 1, a);
+        record->remaining = a->remaining;
+        const iteration_record kept = {.correction = one.size,
+                                       .incompatibility = record->incompatibility};
+        TRY(history_add_iteration(c->result, record, &kept, one.energy, f));
+        take(&w, one.size, iteration);
+        if (arrival_reached(a) && iteration >= use->least) {
+            TRY(accept(use, f));
+            return judge_strayed(use, &w, one.at, f);
+        }
+        TRY(judge(use, &w, &one, iteration, f));
+        if (use->prepare != NULL)
+            use->prepare(use->of, iteration, one.size);
+    }
+}

@@ -1,0 +1,153 @@
+/* A frame that turns steadily: what it does to elements, and the matrices of small motions in it (J
+ * Eq. 76). */
+#include "harness/newton/rotating_frame.h"
+#include "cases/scene/names.h"
+
+#include <string.h>
+
+#include "elements/field/field_mass.h"
+#include "elements/math/dense.h"
+#include "harness/model/discrete.h"
+#include "harness/newton/equations_impl.h"
+
+void rotating_frame_set(model *m, const double omega[3], const double centre[3], int follows_path)
+{
+    memcpy(m->frame.omega, omega, sizeof m->frame.omega);
+    memcpy(m->frame.centre, centre, sizeof m->frame.centre);
+    m->rotation_follows_path = follows_path;
+    m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
+}
+
+static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out,
+                         fault *f)
+{
+    const element_rotating_frame frame = model_rotating_frame(m, path);
+    const mesh_kind *kind = &m->kind[m->element[i].kind];
+    const element_rotating_frame *turning = m->rotates ? &frame : NULL;
+    status outcome;
+    if (m->scene->lumped || m->lumps != LUMPS_NOTHING) { /* as a motion that starts there does */
+        const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
+        outcome = lumped_element(&whole, m->nodes, m->element[i].share, x, turning, out);
+    } else {
+        outcome = m->type->inertia(kind->data, x, turning, out);
+    }
+    m->counters.inertia_evaluations++;
+    if (outcome != STATUS_OK)
+        return fault_set(f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
+                         scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text);
+    return STATUS_OK;
+}
+
+status rotating_frame_add(model *m, const node_state x[], int i, double path, double force[],
+                          double K[], fault *f)
+{
+    double centrifugal[ELEMENT_MAX_COORDINATES],
+        N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+    if (!m->rotates)
+        return STATUS_OK;
+    TRY(inertia_at(m, x, i, path,
+                   &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
+    for (int k = 0; k < m->coordinates; k++)
+        force[k] -= centrifugal[k];
+    if (K != NULL)
+        for (int k = 0; k < m->coordinates * m->coordinates; k++)
+            K[k] += N[k];
+    return STATUS_OK;
+}
+
+status rotating_frame_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
+                              fault *f)
+{
+    const model_state *s = state != NULL ? state : m->rest;
+    const mesh_pattern *p = assemble_of(m, M);
+    double mass[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
+        gyroscopic[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+    sparse_zero(M);
+    if (G != NULL)
+        sparse_zero(G);
+    for (int i = 0; i < m->elements; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s, &m->element[i], x);
+        TRY(inertia_at(m, x, i, path,
+                       &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f));
+        eliminate_matrix(m, s, &m->element[i], NULL, mass);
+        assemble_matrix(p, i, mass, M);
+        if (G == NULL)
+            continue;
+        eliminate_matrix(m, s, &m->element[i], NULL, gyroscopic);
+        assemble_matrix(p, i, gyroscopic, G);
+    }
+    discrete_inertia(m, s, path, M, G);
+    return STATUS_OK;
+}
+
+/* Of a vector in fixed axes, in those of an element between its ends. */
+static void in_axes(const mesh_element *el, const double v[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = 0;
+        for (int i = 0; i < 3; i++)
+            out[k] += (el->triad[0][3 * i + k] + el->triad[1][3 * i + k]) / 2 * v[i];
+    }
+}
+
+double rotating_frame_inner(const model *m, const double x[])
+{
+    double sum = 0;
+    for (int e = 0; e < m->elements; e++) {
+        const mesh_element *el = &m->element[e];
+        const double *B = m->kind[el->kind].inner;
+        double local[ELEMENT_MAX_COORDINATES], own[FIELD_INNER];
+        if (B == NULL)
+            continue;
+        kinematics_local(m, m->rest, el, x, local);
+        for (int node = 0; node < 2; node++) {
+            const int at = NODE_COORDINATES * node;
+            in_axes(el, local + at, own + at);
+            in_axes(el, local + at + 3, own + at + 3);
+            own[at + 6] = local[at + 6];
+        }
+        sum += dense_quadratic(FIELD_INNER, B, own);
+    }
+    return sum;
+}
+
+/* B in fixed axes. */
+static void turn_inner(const mesh_element *el, const double B[], double out[])
+{
+    double T[FIELD_INNER * FIELD_INNER] = {0}, half[FIELD_INNER * FIELD_INNER];
+    for (int at = 0; at < FIELD_INNER; at += NODE_COORDINATES) {
+        for (int block = 0; block < 6; block += 3)
+            for (int i = 0; i < 3; i++)
+                for (int k = 0; k < 3; k++)
+                    T[FIELD_INNER * (at + block + k) + at + block + i] =
+                        (el->triad[0][3 * i + k] + el->triad[1][3 * i + k]) / 2;
+        T[(FIELD_INNER + 1) * (at + 6)] = 1;
+    }
+    dense_mul(FIELD_INNER, FIELD_INNER, FIELD_INNER, B, T, half);
+    dense_add_transpose_mul(FIELD_INNER, FIELD_INNER, FIELD_INNER, T, half, out);
+}
+
+int rotating_frame_inner_matrix(model *m, sparse *out)
+{
+    const mesh_pattern *p = assemble_of(m, out);
+    int any = 0;
+    sparse_zero(out);
+    for (int e = 0; e < m->elements; e++) {
+        const double *B = m->kind[m->element[e].kind].inner;
+        double E[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        if (B == NULL)
+            continue;
+        turn_inner(&m->element[e], B, E);
+        eliminate_matrix(m, m->rest, &m->element[e], NULL, E);
+        assemble_matrix(p, e, E, out);
+        any = 1;
+    }
+    return any;
+}
+
+void rotating_frame_load_stiffness(const model *m, const model_state *s, double path, sparse *out)
+{
+    sparse_zero(out);
+    loads_subtract_stiffness(m, s, path, out);
+}

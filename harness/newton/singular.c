@@ -1,0 +1,158 @@
+#include "harness/newton/singular.h"
+#include "cases/scene/names.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/metric.h"
+#include "harness/model/supports.h"
+#include "harness/newton/context.h"
+#include "harness/newton/linear_system.h"
+#include "harness/newton/linkage.h"
+
+/* Beyond this condition no digit is sure: what fails then fails by round-off. */
+static const double no_digits = 1e15;
+
+/* A rigid motion that the supports allow, in words. */
+static void name_motion(const scene *s, int node, const double motion[6], double length, fault *f)
+{
+    const double *at = s->node[node].position;
+    const double *shift = motion, *turn = motion + 3;
+    const int turns = vec3_norm(turn) * length > 1e-6 * vec3_norm(shift);
+    const double *v = turns ? turn : shift, size = vec3_norm(v);
+    fault_set(f, STATUS_SINGULAR,
+              "%s at (%.4g, %.4g, %.4g) is not held, nor what it is joined to: it can %s (%.3g, "
+              "%.3g, %.3g); hold it against that",
+              scene_called(s, SCENE_NODES, node).text, at[0], at[1], at[2],
+              turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
+}
+
+status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
+{
+    int node, member;
+    double motion[6];
+    if (!linkage_mechanism(c->model, &node, &member, motion))
+        return otherwise;
+    const double *shift = motion, *turn = motion + 3,
+                 turned = vec3_norm(turn) * model_length(c->model);
+    const int turns = turned > 1e-6 * vec3_norm(shift);
+    const double *v = turns ? turn : shift, size = vec3_norm(v);
+    double axis[3];
+    for (int i = 0; i < 3; i++)
+        axis[i] = fabs(v[i]) > 1e-9 * size ? v[i] / size : 0;
+    return fault_set(f, STATUS_SINGULAR,
+                     "%s can %s (%.3g, %.3g, %.3g) while nothing deforms: the released ends "
+                     "make a mechanism; join one of them, hold it against that, or drive it",
+                     node >= 0 ? scene_called(c->scene, SCENE_NODES, node).text
+                               : scene_called(c->scene, SCENE_MEMBERS, member).text,
+                     turns ? "turn about" : "move along", axis[0], axis[1], axis[2]);
+}
+
+/* How far apart the stiffnesses of K's coordinates are, displacements in units of the structure's
+ * length: a structure that turns mixes them.  1 when memory ran out. */
+static double spread(const model *m, const sparse *K)
+{
+    const model_size size = model_sizes(m);
+    double *weight = malloc(((size_t)(size.free + size.driven) + 1) * sizeof *weight), largest = 0,
+           least = INFINITY;
+    if (weight == NULL)
+        return 1;
+    metric_of(m, weight);
+    for (int j = 0; j < K->n; j++)
+        for (int k = K->column[j]; k < K->column[j + 1]; k++)
+            if (K->row[k] == j && weight[j] > 0) {
+                largest = fmax(largest, fabs(K->value[k]) / weight[j]);
+                least = fmin(least, fabs(K->value[k]) / weight[j]);
+            }
+    free(weight);
+    return largest > 0 ? largest / least : 1;
+}
+
+enum { LOST = 1, NO_NUMBER };
+
+static int has_no_number(const sparse *K)
+{
+    int found = 0;
+    for (int k = 0; K->value != NULL && k < K->column[K->n]; k++)
+        found |= !isfinite(K->value[k]);
+    return found;
+}
+
+/* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: LOST
+ * where it has no digits to spare, NO_NUMBER where entries are none. */
+static double condition_at_rest(const analysis_context *c, model *m, int *lost)
+{
+    const counters work = *model_counters(m);
+    analysis_context one = {.scene = c->scene, .model = m, .options = c->options};
+    linear_system s;
+    double condition = 1;
+    const status outcome = linear_system_alloc(&one, &s, NULL);
+    if (outcome == STATUS_OK)
+        condition = factor_condition(s.factor, &s.K);
+    else if (outcome == STATUS_SINGULAR)
+        condition = INFINITY;
+    *lost = outcome == STATUS_SINGULAR ||
+            (outcome == STATUS_OK && !(condition * spread(m, &s.K) <= no_digits));
+    if (outcome != STATUS_OK && has_no_number(&s.K))
+        *lost = NO_NUMBER;
+    linear_system_free(&s);
+    *model_counters(m) = work;
+    return condition;
+}
+
+/* Of the same scene with one element per member, how many there are, and whether it is lost too. */
+static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
+{
+    model *coarse = NULL;
+    double condition = 1;
+    *elements = model_sizes(c->model).elements;
+    *lost = 0;
+    if (model_coarse(c->model, &coarse, NULL) == STATUS_OK) {
+        condition = condition_at_rest(c, coarse, lost);
+        *elements = model_sizes(coarse).elements;
+    }
+    model_free(coarse);
+    return condition;
+}
+
+/* Lost in round-off: by the mesh, whose condition grows with the fourth power of the number of
+ * elements, or without it. */
+static void explain_loss(const analysis_context *c, fault *f)
+{
+    const int elements = model_sizes(c->model).elements;
+    int few, lost;
+    const double coarse = condition_when_coarse(c, &few, &lost);
+    if (lost)
+        fault_set(f, STATUS_SINGULAR,
+                  "the stiffness matrix is lost in round-off, whatever the mesh: its stiffnesses "
+                  "are too far apart, or one of a "
+                  "section is zero");
+    else
+        fault_set(f, STATUS_SINGULAR,
+                  "the stiffness matrix of %d elements is lost in round-off: everything is held, "
+                  "but its condition of about %.0e leaves none of 16 digits; use fewer elements",
+                  elements, coarse * pow((double)elements / few, 4));
+}
+
+void singular_explain(analysis_context *c, fault *f)
+{
+    double motion[6];
+    int node, lost;
+    if (supports_loose_part(c->model, &node, motion)) {
+        name_motion(c->scene, node, motion, model_length(c->model), f);
+        return;
+    }
+    if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)
+        return;
+    condition_at_rest(c, c->model, &lost);
+    if (lost == NO_NUMBER)
+        fault_set(f, STATUS_SINGULAR,
+                  "the formulation returned what is no number: look at its energy, stresses or "
+                  "derivatives at rest");
+    else if (lost)
+        explain_loss(c, f);
+    else
+        fault_set(f, STATUS_SINGULAR,
+                  "the stiffness matrix is singular: the structure is at a critical point");
+}

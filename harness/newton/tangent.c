@@ -1,0 +1,284 @@
+/* The tangent of the free coordinates is factored once; what is released borders it:
+ *   [ K  U ] [x]   [f]
+ *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
+#include "harness/newton/tangent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/newton/border.h"
+#include "harness/newton/bordered.h"
+#include "harness/newton/context.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/singular.h"
+#include "harness/newton/stiffness_parts.h"
+#include "harness/numerics/clock.h"
+
+/* Solutions are refined where round-off would leave less than eight digits. */
+static const double harmless_condition = 1e8;
+/* A condition that was this many times away from it is not estimated again while largest and
+ * smallest pivot are apart by what they were then, within a factor. */
+static const double clear = 30, alike = 2;
+
+/* The free block out of the whole. */
+static void copy_inside(tangent *t)
+{
+    if (t->inside.value != t->K.value)
+        sparse_copy_leading(&t->K, &t->inside);
+}
+
+static status allocate(const analysis_context *c, const scene_compliance *a,
+                       const condensation *members, tangent *t, fault *f)
+{
+    const sparse *inside, *whole;
+    const model_size size = model_sizes(c->model);
+    t->free = size.free;
+    t->all = size.free + size.driven;
+    TRY(border_alloc(c, a, &t->border, f));
+    t->residual = calloc((size_t)t->all + 1, sizeof *t->residual);
+    if (t->residual == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    const int with_driven = t->border.count > 0;
+    const border *b = &t->border;
+    if (members != NULL)
+        TRY(condensation_alloc_like(members, b->count, b->coordinate, &t->condensed, f));
+    else
+        TRY(context_condensation(c, b->count, b->coordinate, &t->condensed, f));
+    TRY(assemble_pattern_of_states(c->model, with_driven, &whole, f));
+    TRY(sparse_alloc_like(whole, &t->geometric, f));
+    if (t->condensed != NULL)
+        return condensation_as_factor(t->condensed, &t->own, f);
+    TRY(assemble_pattern_of_states(c->model, 0, &inside, f));
+    TRY(sparse_alloc_like(whole, &t->K, f));
+    if (with_driven)
+        TRY(sparse_alloc_like(inside, &t->inside, f));
+    else
+        t->inside = t->K;
+    return STATUS_OK;
+}
+
+status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
+                     tangent *t, fault *f)
+{
+    const double start = clock_processor_seconds();
+    memset(t, 0, sizeof *t);
+    const status outcome = allocate(c, a, members, t, f);
+    c->setup += clock_processor_seconds() - start;
+    return outcome;
+}
+
+void tangent_free(tangent *t)
+{
+    if (t->inside.value != t->K.value)
+        sparse_free_values(&t->inside);
+    sparse_free_values(&t->K);
+    sparse_free_values(&t->geometric);
+    factor_free(t->own);
+    border_free(&t->border);
+    free(t->residual);
+}
+
+/* Factors of the free block. */
+static status factor_inside(analysis_context *c, tangent *t, fault *f)
+{
+    counters *n = model_counters(c->model);
+    if (t->own == NULL && t->inside.symmetric)
+        t->own = context_take_factor(c);
+    if (t->own == NULL) {
+        const double start = clock_processor_seconds();
+        const status allocated = factor_alloc(&t->inside, &t->own, f);
+        c->setup += clock_processor_seconds() - start;
+        TRY(allocated);
+    }
+    t->factor = t->own;
+    const status outcome = t->condensed != NULL ? context_factor_condensed(c, t->condensed, f)
+                                                : context_factor(c, t->factor, &t->inside, f);
+    const factor_counts counts = factor_count(t->factor);
+    n->factorisations++;
+    n->factor_flops += counts.flops;
+    n->negative_pivots =
+        counts.negative_pivots > n->negative_pivots ? counts.negative_pivots : n->negative_pivots;
+    return outcome;
+}
+
+/* Is the condition above what is harmless? */
+static int asks_refinement(tangent *t)
+{
+    const double apart = factor_count(t->factor).condition;
+    const int clearly = t->condition > clear * harmless_condition ||
+                        t->condition * clear < harmless_condition,
+              same = apart < alike * t->apart && t->apart < alike * apart;
+    if (t->condition == 0 || !clearly || !same) {
+        t->condition = factor_condition(t->factor, &t->inside);
+        t->apart = apart;
+    }
+    return t->condition > harmless_condition;
+}
+
+/* What follows from K and the factors of its free block. */
+static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
+                       const double reaction[6], tangent *t, fault *f)
+{
+    t->state = s;
+    t->refined = t->condensed != NULL || asks_refinement(t);
+    if (t->refined) {
+        TRY(stiffness_parts_geometric(c->model, s, &t->geometric, f));
+        loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
+    }
+    if (t->condensed == NULL)
+        border_fill(&t->border, t->free, &t->K);
+    t->coordinates =
+        kinematics_node_jacobian(c->model, s, a->node, TANGENT_COMPONENTS, t->index, t->T);
+    return STATUS_OK;
+}
+
+status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f)
+{
+    const int condensed = t->condensed != NULL;
+    model_linearisation lin = {
+        .path = kinematics_state_path(s), .K = condensed ? NULL : &t->K, .residual = t->residual};
+    TRY(linearise_state(c->model, s, &lin, f));
+    if (condensed)
+        TRY(condensation_at(t->condensed, s, lin.path, f));
+    loads_release_moment(c->model, s, a->node, reaction + 3,
+                         condensed ? condensation_ends(t->condensed) : &t->K);
+    if (!condensed)
+        copy_inside(t);
+    TRY(factor_inside(c, t, f));
+    return complete(c, a, s, reaction, t, f);
+}
+
+status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
+                    const double reaction[6], const sparse *K, const sparse *inside, factor *fa,
+                    tangent *t, fault *f)
+{
+    const size_t size = (size_t)inside->column[inside->n] * sizeof *inside->value;
+    memcpy(t->K.value, K->value, (size_t)K->column[K->n] * sizeof *K->value);
+    loads_release_moment(c->model, s, a->node, reaction + 3, &t->K);
+    copy_inside(t);
+    t->factor = fa;
+    if (memcmp(t->inside.value, inside->value, size) != 0)
+        TRY(factor_inside(c, t, f));
+    return complete(c, a, s, reaction, t, f);
+}
+
+status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
+                              const double reaction[6], const condensation *members, tangent *t,
+                              fault *f)
+{
+    condensation_take(t->condensed, members, s);
+    loads_release_moment(c->model, s, a->node, reaction + 3, condensation_ends(t->condensed));
+    TRY(factor_inside(c, t, f));
+    return complete(c, a, s, reaction, t, f);
+}
+
+/* Coordinates of the node that move: free or released. */
+static int moves(const tangent *t, int k)
+{
+    return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
+}
+
+/* Loads on the moving coordinates, or their motions: x[index] = column of T, or sum = T x. */
+static void load_of(const tangent *t, const int moving[], int component, double x[])
+{
+    memset(x, 0, (size_t)t->all * sizeof *x);
+    for (int k = 0; k < t->coordinates; k++)
+        if (moving[k])
+            x[t->index[k]] = t->T[component * t->coordinates + k];
+}
+
+static double motion_of(const tangent *t, const int moving[], int component, const double x[])
+{
+    double sum = 0;
+    for (int k = 0; k < t->coordinates; k++)
+        sum += moving[k] ? t->T[component * t->coordinates + k] * x[t->index[k]] : 0;
+    return sum;
+}
+
+static status refine(const model *m, tangent *t, counters *n, const bordered *s, const int moving[],
+                     int component, double x[], fault *f)
+{
+    load_of(t, moving, component, s->load);
+    memcpy(s->x, x, (size_t)t->all * sizeof *x);
+    TRY(bordered_refine(m, t, n, s, f));
+    memcpy(x, s->x, (size_t)t->all * sizeof *x);
+    return STATUS_OK;
+}
+
+/* Columns of C for unit loads on the components that are wanted and can move; with what
+ * tangent_compliance frees. */
+static status respond_all(const model *m, tangent *t, counters *n, bordered *s, unsigned wanted,
+                          unsigned components, double C[36], fault *f)
+{
+    int moving[TANGENT_COMPONENTS], component[TANGENT_COMPONENTS], count = 0;
+    TRY(bordered_alloc(t, n, s, f));
+    for (int k = 0; k < t->coordinates; k++)
+        moving[k] = moves(t, k);
+    for (int j = 0; j < TANGENT_COMPONENTS; j++)
+        if (wanted & components & 1u << j) {
+            load_of(t, moving, j, s->solution + count * t->all);
+            component[count++] = j;
+        }
+    bordered_solve(t, n, s, count, s->solution);
+    for (int c = 0; c < count; c++) {
+        double *x = s->solution + c * t->all;
+        if (t->refined)
+            TRY(refine(m, t, n, s, moving, component[c], x, f));
+        for (int i = 0; i < TANGENT_COMPONENTS; i++)
+            if (components >> i & 1u)
+                C[6 * i + component[c]] = motion_of(t, moving, i, x);
+    }
+    return STATUS_OK;
+}
+
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
+                          double C[36], fault *f)
+{
+    counters *n = model_counters(c->model);
+    bordered s = {0};
+    memset(C, 0, 36 * sizeof *C);
+    const status outcome = respond_all(c->model, t, n, &s, wanted, components, C, f);
+    bordered_free(&s);
+    return outcome;
+}
+
+/* The columns of T of coordinates that `wanted` says: [6 x n], and n. */
+static int columns_of(const tangent *t, int (*wanted)(const tangent *, int), double out[])
+{
+    int n = 0;
+    for (int k = 0; k < t->coordinates; k++)
+        n += wanted(t, k);
+    for (int k = 0, at = 0; k < t->coordinates; k++)
+        if (wanted(t, k)) {
+            for (int i = 0; i < TANGENT_COMPONENTS; i++)
+                out[i * n + at] = t->T[i * t->coordinates + k];
+            at++;
+        }
+    return n;
+}
+
+static int is_free(const tangent *t, int k)
+{
+    return t->index[k] < t->free;
+}
+
+void tangent_prescribed(const tangent *t, double moment[3])
+{
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS], rest[3];
+    const int n = columns_of(t, is_free, T);
+    movable_prescribed(n, T, moment, rest);
+    memcpy(moment, rest, sizeof rest);
+}
+
+void tangent_movable(const model *m, const tangent *t, movable *out)
+{
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
+    const int n = columns_of(t, moves, T);
+    movable_of(n, T, model_length(m), out);
+}

@@ -1,0 +1,54 @@
+/* Tangent of a structure in a deformed state about one node, where some of the node's prescribed
+ * motion is released: its reaction has become a load. */
+#ifndef BEAMWORK_TANGENT_H
+#define BEAMWORK_TANGENT_H
+
+#include "harness/model/movable.h"
+#include "harness/newton/border.h"
+
+typedef struct tangent {
+    condensation *condensed; /* NULL: no member is condensed; else K is not assembled, and what is
+                                released is unknown with the rest */
+    sparse K;         /* of all coordinates when something is released, else of the free ones */
+    sparse inside;    /* free x free */
+    sparse geometric; /* like K, where solutions are refined: see stiffness_parts_geometric */
+    int refined;      /* 1: the condition asks for it */
+    /* Of `inside`, as it was estimated last (0: never), and how far its pivots were apart then. */
+    double condition, apart;
+    factor *own;    /* NULL: not needed so far */
+    factor *factor; /* of `inside`: own, or that of the iteration that it was taken from */
+    border border;
+    int free, all;
+    double *residual;
+    const model_state *state;                   /* of K */
+    int index[TANGENT_COMPONENTS], coordinates; /* the node's */
+    double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
+} tangent;
+
+/* members: whose chains it shares, to be taken from an iteration; NULL: none. */
+status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
+                     tangent *t, fault *f);
+void tangent_free(tangent *t);
+/* reaction[6]: force and moment of the prescription on the node [N, N m]. */
+status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
+                  const double reaction[6], tangent *t, fault *f);
+/* The same from K [the pattern of all coordinates when something is released, else of the free
+ * ones] of an iteration that ended at the state, and its factors. */
+status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
+                    const double reaction[6], const sparse *K, const sparse *inside, factor *,
+                    tangent *t, fault *f);
+/* The same from the condensed members of the iteration. */
+status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
+                              const double reaction[6], const condensation *members, tangent *t,
+                              fault *f);
+/* Takes out of the reaction's moment what acts along free turns: there is no prescription that
+ * exerts it. */
+void tangent_prescribed(const tangent *t, double moment[3]);
+/* Motions that the node can make at all. */
+void tangent_movable(const model *m, const tangent *t, movable *out);
+/* C[6 x 6] of the node with the reaction's moment as convention.h has it; columns outside `wanted`,
+ * and rows and columns of what is not among the `components` that can move, stay zero. */
+status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
+                          double C[36], fault *f);
+
+#endif

@@ -1,0 +1,219 @@
+/* Links and chains against dense matrices of all coordinates, and a long chain against the beam
+ * that it is. */
+#include <gsl/gsl_test.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/element.h"
+#include "elements/math/dense.h"
+#include "elements/test/random.h"
+#include "harness/newton/link.h"
+
+enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
+
+/* Elements of random numbers; indefinite: H makes some of their eigenvalues negative. */
+typedef struct row {
+    int nodes, joint, joints, all; /* of the whole: joints x joint coordinates */
+    double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
+        H[LINKS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[LINKS][9];
+} row;
+
+static void fill(int nodes, int joint, double indefinite, uint64_t *seed, row *out)
+{
+    const int n = NODE_COORDINATES * nodes;
+    *out = (row){.nodes = nodes, .joint = joint, .joints = (nodes - 1) * LINKS + 1};
+    out->all = out->joints * joint;
+    for (int e = 0; e < LINKS; e++) {
+        for (int i = 0; i < STRAINS * n; i++)
+            out->J[e][i] = random_number(seed);
+        for (int i = 0; i < STRAINS; i++)
+            out->C[e][i * STRAINS + i] = 2 + random_number(seed);
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j <= i; j++)
+                out->H[e][i * n + j] = out->H[e][j * n + i] = indefinite * random_number(seed);
+        for (int i = 0; i < 3 * nodes; i++)
+            out->r[e][i] = random_number(seed);
+    }
+}
+
+/* K[all x all] */
+static void assemble(const row *of, double K[])
+{
+    const int n = NODE_COORDINATES * of->nodes, c = of->joint;
+    double work[STRAINS * ELEMENT_MAX_COORDINATES];
+    memset(K, 0, (size_t)(of->all * of->all) * sizeof *K);
+    for (int e = 0; e < LINKS; e++) {
+        double own[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
+        memcpy(own, of->H[e], sizeof own);
+        dense_add_congruence(STRAINS, n, of->J[e], of->C[e], own, work);
+        for (int i = 0; i < c * of->nodes; i++)
+            for (int j = 0; j < c * of->nodes; j++) {
+                const int at = NODE_COORDINATES * (i / c) + i % c,
+                          other = NODE_COORDINATES * (j / c) + j % c,
+                          first = e * (of->nodes - 1) * c;
+                K[(first + i) * of->all + first + j] += own[at * n + other];
+            }
+    }
+}
+
+static status chain_of(const row *of, chain **out)
+{
+    fault f;
+    TRY(chain_alloc(LINKS, of->joint, of->joint * (of->nodes - 1), out, &f));
+    chain_begin(*out);
+    for (int e = 0; e < LINKS; e++) {
+        const link_element el = {of->nodes, STRAINS,  of->joint, of->J[e],
+                                 of->C[e],  of->H[e], of->r[e]};
+        chain_link link;
+        TRY(link_of(&el, &link, &f));
+        TRY(chain_add(*out, &link, &f));
+    }
+    return STATUS_OK;
+}
+
+static int negative_of(int n, double A[])
+{
+    double value[MOST];
+    int negative = 0;
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', n, A, n, value);
+    for (int i = 0; i < n; i++)
+        negative += value[i] < 0;
+    return negative;
+}
+
+static double largest(int n, const double a[], const double b[])
+{
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, fabs(a[i] - (b != NULL ? b[i] : 0)));
+    return most;
+}
+
+/* The ends come first and last: what is inside, of the dense matrix and of the chain. */
+static int held_inside(const row *of, const double K[], const chain *s)
+{
+    const int inside = of->all - 2 * of->joint;
+    double A[MOST * MOST];
+    for (int i = 0; i < inside; i++)
+        for (int j = 0; j < inside; j++)
+            A[i * inside + j] = K[(of->joint + i) * of->all + of->joint + j];
+    const int negative = negative_of(inside, A);
+    gsl_test_int(chain_negative(s), negative,
+                 "negative eigenvalues inside, %d nodes, %d coordinates", of->nodes, of->joint);
+    return negative;
+}
+
+/* Loads on all coordinates, both ends on springs: solved densely, and by way of the ends. */
+static void solutions(const row *of, double K[], chain *s, uint64_t *seed)
+{
+    const int c = of->joint, n = of->all;
+    double b[MOST], x[MOST], whole[4 * CHAIN_JOINT * CHAIN_JOINT], ends[2 * CHAIN_JOINT];
+    int pivot[MOST];
+    fault f;
+    for (int i = 0; i < n; i++)
+        x[i] = b[i] = random_number(seed);
+    gsl_test(chain_stiffness(s, whole, &f) != STATUS_OK, "the stiffness of the ends");
+    chain_reduce(s, b + c, ends);
+    for (int i = 0; i < 2 * c; i++) {
+        const int at = i < c ? i : n - 2 * c + i;
+        K[at * n + at] += 5;
+        whole[i * 2 * c + i] += 5;
+        ends[i] += b[at];
+    }
+    LAPACKE_dgesv(LAPACK_ROW_MAJOR, n, 1, K, n, pivot, x, 1);
+    LAPACKE_dgesv(LAPACK_ROW_MAJOR, 2 * c, 1, whole, 2 * c, pivot, ends, 1);
+    chain_expand(s, b + c, ends, b + c);
+    memcpy(b, ends, (size_t)c * sizeof *b);
+    const double error = largest(n, b, x) / largest(n, x, NULL),
+                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4; /* near critical states digits go */
+    gsl_test(!(error < most), "%d nodes, %d coordinates: solution by way of the ends, off by %.1e",
+             of->nodes, c, error);
+}
+
+static int against_dense(int nodes, int joint, double indefinite, uint64_t *seed)
+{
+    static double K[MOST * MOST];
+    row of;
+    chain *s = NULL;
+    int negative = 0;
+    fill(nodes, joint, indefinite, seed, &of);
+    assemble(&of, K);
+    const status made = chain_of(&of, &s);
+    gsl_test(made != STATUS_OK, "a chain of %d links", LINKS);
+    if (made == STATUS_OK) {
+        negative = held_inside(&of, K, s);
+        solutions(&of, K, s, seed);
+    }
+    chain_free(s);
+    return negative;
+}
+
+static void random_rows(void)
+{
+    uint64_t seed = 5;
+    int negative = 0;
+    for (int trial = 0; trial < 12; trial++)
+        for (int nodes = 2; nodes <= 3; nodes++)
+            for (int joint = 6; joint <= 7; joint++)
+                negative += against_dense(nodes, joint, trial < 3 ? 0 : 2.0 * trial, &seed);
+    gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
+}
+
+/* Links of a clamped beam of unit length and stiffnesses: by the motion of the far joint beside the
+ * near one. */
+static void uniform_link(double l, double J[], double C[], double H[], double r[])
+{
+    const int n = 2 * NODE_COORDINATES;
+    memset(J, 0, 6 * (size_t)n * sizeof *J);
+    memset(C, 0, 36 * sizeof *C);
+    memset(H, 0, (size_t)(n * n) * sizeof *H);
+    memset(r, 0, 6 * sizeof *r);
+    r[3] = l;
+    for (int i = 0; i < 6; i++) {
+        J[i * n + NODE_COORDINATES + i] = 1;
+        J[i * n + i] = -1;
+        C[i * 6 + i] = i == 0 || i == 3 ? 1 / l : i < 3 ? 12 / (l * l * l) : 4 / l;
+    }
+    J[1 * n + 5] = -l;
+    J[2 * n + 4] = l;
+    C[1 * 6 + 5] = C[5 * 6 + 1] = -6 / (l * l);
+    C[2 * 6 + 4] = C[4 * 6 + 2] = 6 / (l * l);
+}
+
+/* 12, 6, 4 and 2: of stiffnesses that are 1e15 times as large. */
+static void long_chain(void)
+{
+    enum { MANY = 100000 };
+    double J[6 * 2 * NODE_COORDINATES], C[36], H[4 * NODE_COORDINATES * NODE_COORDINATES], r[6],
+        K[144];
+    chain *s = NULL;
+    chain_link link;
+    fault f;
+    uniform_link(1.0 / MANY, J, C, H, r);
+    int good = chain_alloc(MANY, 6, 6, &s, &f) == STATUS_OK &&
+               link_of(&(link_element){2, 6, 6, J, C, H, r}, &link, &f) == STATUS_OK;
+    if (good)
+        chain_begin(s);
+    for (int i = 0; i < MANY && good; i++)
+        good = chain_add(s, &link, &f) == STATUS_OK;
+    good = good && chain_stiffness(s, K, &f) == STATUS_OK;
+    gsl_test(!good, "a chain of %d links", MANY);
+    if (good) {
+        gsl_test_rel(K[0], 1, 1e-8, "elongation of %d links", MANY);
+        gsl_test_rel(K[1 * 12 + 1], 12, 1e-8, "shift of %d links", MANY);
+        gsl_test_rel(K[5 * 12 + 1], 6, 1e-8, "moment of a shift of %d links", MANY);
+        gsl_test_rel(K[5 * 12 + 5], 4, 1e-8, "turn of %d links", MANY);
+        gsl_test_rel(K[5 * 12 + 11], 2, 1e-8, "turn of the other end of %d links", MANY);
+        gsl_test_int(chain_negative(s), 0, "it is stable");
+    }
+    chain_free(s);
+}
+
+int main(void)
+{
+    random_rows();
+    long_chain();
+    return gsl_test_summary();
+}

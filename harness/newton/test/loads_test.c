@@ -1,0 +1,150 @@
+/* Loads on nodes of a rigid body in a turned state, against the work they do, and along the path.
+ */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/test/sections.h"
+#include "harness/formulations/formulation.h"
+#include "harness/newton/loads.h"
+#include "harness/newton/test/turned_body.h"
+#include "harness/test/scenes.h"
+
+/* Five points: the error is of the fourth order. */
+static double slope(const turned_body *s, int k)
+{
+    return (8 * (turned_body_work_at(s, k, turned_body_step, -1, 0) -
+                 turned_body_work_at(s, k, -turned_body_step, -1, 0)) -
+            (turned_body_work_at(s, k, 2 * turned_body_step, -1, 0) -
+             turned_body_work_at(s, k, -2 * turned_body_step, -1, 0))) /
+           (12 * turned_body_step);
+}
+
+static void conjugate(int body, scene_load_kind kind)
+{
+    turned_body s;
+    double load[MOST], F[6], at[3], edge[3], q[4], arm[3], moment[3];
+    turned_body_prepare(body, kind, &s);
+    turned_body_loads(&s, load);
+    for (int k = 0; k < s.n; k++)
+        gsl_test(!(fabs(load[k] - slope(&s, k)) <= 1e-9),
+                 "%s, %s: load %d is %.12g, its work rises by %.12g", turned_body_name[body],
+                 kind == SCENE_FORCE ? "force" : "moment", k, load[k], slope(&s, k));
+    kinematics_frame(s.m, s.turned, 1, at, q);
+    kinematics_frame(s.m, s.turned, 2, edge, q);
+    for (int i = 0; i < 3; i++)
+        arm[i] = edge[i] - at[i];
+    vec3_cross(arm, s.scene.load[0].vector, moment);
+    loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
+    for (int i = 0; i < 3; i++) {
+        const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0,
+                     m = kind == SCENE_FORCE ? moment[i] : v;
+        gsl_test(!(fabs(F[i] - force) <= 1e-14) || !(fabs(F[3 + i] - m) <= 1e-14),
+                 "%s: force and moment on the body: %g, %g", turned_body_name[body], F[i],
+                 F[3 + i]);
+    }
+    turned_body_release(&s);
+}
+
+static void follow_stations(scene_load *load, const double path[3], const double value[3])
+{
+    load->stations = 3;
+    load->path = malloc(3 * sizeof *path);
+    load->factor = malloc(3 * sizeof *value);
+    memcpy(load->path, path, 3 * sizeof *path);
+    memcpy(load->factor, value, 3 * sizeof *value);
+}
+
+/* Factor 0, 2, 1 at path 0, 1, 3: the rate at a station is that of what follows, and nothing
+ * changes outside. */
+static void rates(void)
+{
+    static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
+    static const struct {
+        double path, rate;
+    } row[] = {{-1, 0}, {0, 2}, {0.5, 2}, {1, -0.5}, {2, -0.5}, {3, 0}, {4, 0}};
+    turned_body s;
+    double unit[MOST], out[MOST];
+    turned_body_prepare(FREE_TURNS, SCENE_FORCE, &s);
+    turned_body_loads(&s, unit);
+    loads_rate(s.m, s.turned, 0.3, out);
+    for (int k = 0; k < s.n; k++)
+        gsl_test_abs(out[k], unit[k], 1e-11, "proportional load: its rate is itself");
+    follow_stations(&s.scene.load[0], path, value);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        loads_rate(s.m, s.turned, row[i].path, out);
+        for (int k = 0; k < s.n; k++)
+            gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11),
+                     "rate at path %g: %g of the load, not %g", row[i].path, out[k] / unit[k],
+                     row[i].rate);
+    }
+    turned_body_release(&s);
+}
+
+/* The load between its stations: on straight lines, and constant outside. */
+static void factors(void)
+{
+    static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
+    static const double row[][2] = {{0, 0.25}, {0.5, 0.25}, {0.75, 1.125}, {1, 2},
+                                    {2, 1.5},  {3, 1},      {4, 1}};
+    turned_body s;
+    turned_body_prepare(FREE_TURNS, SCENE_FORCE, &s);
+    follow_stations(&s.scene.load[0], path, value);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        double F[6];
+        fault f = {""};
+        double residual[MOST], dx[MOST] = {0};
+        model_linearisation lin = {.path = row[i][0], .residual = residual};
+        linearise_state(s.m, s.turned, &lin, &f);
+        advance_state(s.m, s.turned, dx, row[i][0], NULL);
+        loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
+        gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
+                     row[i][0]);
+    }
+    turned_body_release(&s);
+}
+
+/* Each load has its own factor: along x proportional to the path, along y by stations. */
+static void reference(void)
+{
+    static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
+    const double end = 1, at = 0.75, expected[2] = {3 * 0.75, -5 * 1.125};
+    const section_spec spec = sections_of(1, 1, 1, 1);
+    formulation chosen;
+    scene s;
+    model *m = NULL;
+    fault f = {""};
+    double out[MOST];
+    scene_init(&s, "two loads");
+    const int tip = scenes_cantilever(&s, &spec);
+    scene_add_load(&s, SCENE_FORCE, tip, 3, 0, 0);
+    follow_stations(scene_load_at(&s, scene_add_load(&s, SCENE_FORCE, tip, 0, -5, 0)), path, value);
+    scene_add_static(&s, 1, &end, 1);
+    formulation_parse("beamw", &chosen, &f);
+    const model_request request = {
+        .scene = &s, .type = chosen.type, .options = chosen.option, .elements = 1};
+    const int good =
+        scene_validate(&s, &f) == STATUS_OK && model_alloc(&request, &m, &f) == STATUS_OK;
+    gsl_test(!good, "%s", f.text);
+    if (!good)
+        return;
+    loads_reference(m, at, out);
+    for (int i = 0; i < 2; i++)
+        gsl_test_abs(out[kinematics_coordinate(m, tip, SCENE_UX + i)], expected[i], 1e-14,
+                     "load %d at path %g", i, at);
+    model_free(m);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    for (int body = 0; body < BODIES; body++) {
+        conjugate(body, SCENE_FORCE);
+        conjugate(body, SCENE_MOMENT);
+    }
+    rates();
+    factors();
+    reference();
+    return gsl_test_summary();
+}

@@ -1,0 +1,138 @@
+/* A beam that ends at a rigid body, in a state that is turned about no special axis, with a load
+ * beside the body's own node, and the work which that load does. */
+#ifndef BEAMWORK_TEST_TURNED_BODY_H
+#define BEAMWORK_TEST_TURNED_BODY_H
+
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/test/sections.h"
+#include "harness/formulations/registry.h"
+#include "harness/model/kinematics.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/linearise.h"
+#include "harness/test/scenes.h"
+
+enum { MOST = 40 };
+
+enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };
+
+static const char *const turned_body_name[] = {"free turns", "three angles", "two angles",
+                                               "a fork"};
+
+/* A beam from a clamp to a body, which a load acts on beside its own node. */
+static inline void beam_and_body(int body, scene_load_kind kind, scene *s)
+{
+    const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
+    static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
+    const section_spec spec = sections_of(1e3, 2, 1, 1);
+    scene_init(s, "beam_and_body");
+    const int node = scenes_cantilever(s, &spec),
+              edge = scene_add_attached(s, node, 1.3, -0.4, 0.25);
+    if (body == THREE_ANGLES || body == TWO_ANGLES) {
+        scene_node *n = scene_node_at(s, node);
+        n->rotation = SCENE_ROTATION_SEQUENCE;
+        memcpy(n->axis, sequence, (body == THREE_ANGLES ? 3 : 2) * sizeof n->axis[0]);
+    } else if (body == FORK) {
+        scene_fork(s, node, x, z);
+    }
+    scene_add_load(s, kind, edge, 0.7, -1.1, 0.4);
+    scene_add_static(s, 1, &end, 1);
+}
+
+typedef struct turned_body {
+    scene scene;
+    model *m;
+    model_state *turned, *moved;
+    int n; /* free coordinates */
+} turned_body;
+
+static inline void turned_body_move(const turned_body *s, const model_state *from,
+                                    const double dx[], model_state *to)
+{
+    double residual[MOST];
+    fault f = {""};
+    model_linearisation lin = {.path = 1, .residual = residual};
+    kinematics_state_copy(s->m, from, to);
+    gsl_test(linearise_state(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
+    advance_state(s->m, to, dx, 1, NULL);
+}
+
+/* A state far from rest, turned about no special axis. */
+static inline void turned_body_prepare(int body, scene_load_kind kind, turned_body *s)
+{
+    fault f = {""};
+    double dx[MOST];
+    beam_and_body(body, kind, &s->scene);
+    int i = 0;
+    for (; strcmp(registry_formulations[i]->name, "geometrically_exact") != 0; i++) {}
+    const model_request what = {&s->scene, registry_formulations[i], NULL, 1, 0, 0};
+    gsl_test(scene_validate(&s->scene, &f) != STATUS_OK ||
+                 model_alloc(&what, &s->m, &f) != STATUS_OK,
+             "%s: %s", turned_body_name[body], f.text);
+    kinematics_state_alloc(s->m, &s->turned, &f);
+    kinematics_state_alloc(s->m, &s->moved, &f);
+    s->n = model_sizes(s->m).free;
+    for (int k = 0; k < s->n; k++)
+        dx[k] = 0.5 * sin(1.7 * k + 0.4);
+    turned_body_move(s, kinematics_rest(s->m), dx, s->turned);
+}
+
+static inline void turned_body_release(turned_body *s)
+{
+    kinematics_state_free(s->turned);
+    kinematics_state_free(s->moved);
+    model_free(s->m);
+    scene_free(&s->scene);
+}
+
+/* Generalised loads of the path's end. */
+static inline void turned_body_loads(const turned_body *s, double out[])
+{
+    double without[MOST];
+    fault f = {""};
+    model_linearisation with = {.path = 1, .residual = out},
+                        none = {.path = 0, .residual = without};
+    linearise_state(s->m, s->turned, &with, &f);
+    linearise_state(s->m, s->turned, &none, &f);
+    for (int k = 0; k < s->n; k++)
+        out[k] -= without[k];
+}
+
+/* Displacement of the loaded node less that of the turned state, and its turn since. */
+static inline void turned_body_motion(const turned_body *s, const double dx[], double d[3],
+                                      double turn[3])
+{
+    double r[3], at[3], q[4], from[4];
+    turned_body_move(s, s->turned, dx, s->moved);
+    kinematics_frame(s->m, s->turned, 2, at, from);
+    kinematics_frame(s->m, s->moved, 2, r, q);
+    for (int i = 0; i < 3; i++)
+        d[i] = r[i] - at[i];
+    rotation_between(from, q, turn);
+}
+
+/* Work of the load's first order: of a force all of it. */
+static inline double turned_body_work(const turned_body *s, const double dx[])
+{
+    const scene_load *load = &s->scene.load[0];
+    double d[3], turn[3];
+    turned_body_motion(s, dx, d, turn);
+    return vec3_dot(load->vector, load->kind == SCENE_FORCE ? d : turn);
+}
+
+static const double turned_body_step = 1e-3;
+
+static inline double turned_body_work_at(const turned_body *s, int i, double hi, int j, double hj)
+{
+    double dx[MOST] = {0};
+    dx[i] += hi;
+    if (j >= 0)
+        dx[j] += hj;
+    return turned_body_work(s, dx);
+}
+
+#endif

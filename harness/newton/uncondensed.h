@@ -1,0 +1,16 @@
+/* All unknowns at once. */
+#ifndef BEAMWORK_MODEL_UNCONDENSED_H
+#define BEAMWORK_MODEL_UNCONDENSED_H
+
+#include "harness/model/model.h"
+#include "harness/newton/loads.h"
+
+/* The uncondensed dense system (column-major A[n x n], b[n] with n = uncondensed_size +
+ * conditions), unknowns in the order free coordinates, strains, stresses, drivers of conditions;
+ * load[free + driven] is work space. */
+int uncondensed_size(const model *);
+status uncondensed_system(model *, const model_state *, double path, const double drive[],
+                          int conditions, const model_condition condition[], double A[], double b[],
+                          double load[], fault *);
+
+#endif
