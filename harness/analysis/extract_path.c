@@ -6,10 +6,10 @@
 #include "elements/math/pi.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/turns.h"
-#include "harness/motion/reading.h"
-#include "harness/motion/resultants.h"
 #include "harness/newton/modes.h"
 #include "harness/newton/quantity.h"
+#include "harness/time/reading.h"
+#include "harness/time/resultants.h"
 
 /* A value with its error, in parts of it; NAN with the reason where no digit is left. */
 static double known(const analysis_context *c, double value, double error, const char *what,

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 
 #include "harness/model/kinematics.h"
-#include "harness/motion/resultants.h"
 #include "harness/newton/linear.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/quantity.h"
+#include "harness/time/resultants.h"
 
 /* Under the loads at path 1. */
 static double reaction_of(model *m, const scene_component *what, const double sigma[])

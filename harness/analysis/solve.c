@@ -16,13 +16,13 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
-#include "harness/motion/motion.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"
 #include "harness/newton/linear_system.h"
 #include "harness/newton/newton.h"
 #include "harness/newton/singular.h"
 #include "harness/numerics/clock.h"
+#include "harness/time/motion.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
 

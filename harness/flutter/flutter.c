@@ -7,7 +7,7 @@
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/rotating_frame.h"
-#include "harness/scheme/damping.h"
+#include "harness/time/damping.h"
 
 status flutter_system_alloc(const newton *n, flutter_system *s, fault *f)
 {

@@ -52,7 +52,7 @@ typedef struct mesh_element {
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];     /* index, or NONE: held at zero or absent */
     double share[ELEMENT_MAX_NODES]; /* of its mass where that is at nodes: mesh.c */
-    double couple[2];  /* of two nodes: what resultants at an end have beside: inertia/shares.c */
+    double couple[2];  /* of two nodes: what resultants at an end have beside: time/shares.c */
     mesh_triad *triad; /* [nodes] initial; not its own: equal ones share them */
     int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
     int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
@@ -131,7 +131,7 @@ typedef struct element_part {
     double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
 } element_part;
 
-/* Stresses of a motion gain eta S0 e', eta of the member: see harness/scheme/damping.h. */
+/* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/damping.h. */
 typedef struct mesh_damping {
     double *stiffness;          /* [kinds x strains^2] S0 */
     double *none;               /* [elements x strains] zero */

@@ -66,7 +66,7 @@ typedef struct outcome_rotation {
 
 /* Of a motion at one instant, by scene_balance. */
 typedef struct outcome_instant {
-    double *rate, *acceleration; /* [free + driven]: see harness/inertia/forms.h; one block */
+    double *rate, *acceleration; /* [free + driven]: see harness/time/forms.h; one block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 

@@ -5,8 +5,8 @@
 #include "cases/scene/along_path.h"
 #include "cases/scene/names.h"
 #include "elements/shared/choice.h"
-#include "harness/motion/account.h"
 #include "harness/tables/paragraph.h"
+#include "harness/time/account.h"
 
 enum { INDENT = 2 };
 

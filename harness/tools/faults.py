@@ -254,7 +254,7 @@ BESIDE = {
 # Tests in C of other rooms that are near all the same.
 NEAR = {
     "elements": "elements/test/|harness/contract/test/contract_|harness/analysis/test/(frequency"
-                "|critical|along_eq)|harness/motion/test/consistent_test",
+                "|critical|along_eq)|harness/time/test/consistent_test",
     "cases": "cases/test/",
 }
 CALLERS = 8

@@ -1,0 +1,176 @@
+#include "harness/time/alpha.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "elements/math/vec3.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/model/model_impl.h"
+#include "harness/time/damping.h"
+#include "harness/time/drive.h"
+#include "harness/time/massive.h"
+#include "harness/time/stage.h"
+
+typedef struct alpha {
+    scheme base;
+    stage stage;
+    work *work;
+    massive massive;
+    size_t strains;                  /* of elements that are damped: elements x strains, or 0 */
+    double *mean;                    /* [strains] their rates over a step */
+    double mass, force, gamma, beta; /* alpha_m, alpha_f */
+    double *a0, *v0, *inc, *weight;  /* [free + driven] */
+} alpha;
+
+/* The acceleration that the scheme averages, from the true one at the end. */
+static double averaged(const alpha *s, double a, double before, double now)
+{
+    return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
+}
+
+/* Rates by the increment, and its guess: the acceleration stays. */
+static void relate(alpha *s, const instant *from, double h, stage_rates *r)
+{
+    for (int i = 0; i < s->stage.free; i++) {
+        const double v = from->v[i], a = from->algorithm[i], vd = from->a[i];
+        const double known = h * v + h * h * (0.5 - s->beta) * a; /* of inc, without a1 */
+        s->inc[i] = known + h * h * s->beta * averaged(s, a, vd, vd);
+        s->a0[i] = -r->b * known - (s->force * vd - s->mass * a) / (1 - s->force);
+        s->v0[i] = v + h * (1 - s->gamma) * a - r->g * known;
+    }
+}
+
+static status error_of(alpha *s, const instant *from, const instant *to, double h, double *error,
+                       fault *f)
+{
+    const model *m = s->stage.c->model;
+    const double part = h * h * fabs(s->beta + (s->mass - s->force) / 2 - 1 / 6.0);
+    double *one = s->v0;
+    if (!s->massive.ready)
+        TRY(massive_of(m, s->stage.masses, from->state, &s->massive, f));
+    s->base.light = s->massive.light;
+    for (int i = 0; i < s->stage.free; i++)
+        one[i] = part * (to->algorithm[i] - from->algorithm[i]);
+    *error = massive_norm(&s->massive, m, s->weight, one);
+    return STATUS_OK;
+}
+
+/* Strains of what is damped move as positions do: what their rates are without the increment. */
+static void relate_strains(alpha *s, const instant *from, double h, instant *to)
+{
+    const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
+                 later = h * (1 - s->gamma / (2 * s->beta));
+    for (size_t i = 0; i < s->strains; i++)
+        to->strain[i] = kept * from->strain[i] + later * from->strain2[i];
+    damping_follow(s->stage.c->model, g, to->strain, kinematics_strains(from->state));
+}
+
+/* Rates at the end, and what was lost by those of the mean: where something has no inertia, rates
+ * at the ends of steps swing about them. */
+static void damp(alpha *s, const instant *from, double h, instant *to)
+{
+    const double *e0 = kinematics_strains(from->state), *e1 = kinematics_strains(to->state);
+    const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
+    to->dissipated = from->dissipated;
+    if (s->strains == 0)
+        return;
+    for (size_t i = 0; i < s->strains; i++) {
+        const double gained = e1[i] - e0[i];
+        s->mean[i] = gained / h;
+        to->strain[i] += g * gained;
+        to->strain2[i] =
+            part * (gained - h * from->strain[i]) - (0.5 - s->beta) / s->beta * from->strain2[i];
+    }
+    to->dissipated += h * damping_power(s->stage.c->model, s->mean);
+}
+
+/* Rotations beyond a radian in one step are not followed. */
+static status check_turns(const alpha *s, double time, fault *f)
+{
+    const double most = 1;
+    const model *m = s->stage.c->model;
+    for (int i = 0; i < m->vertices; i++) {
+        const int *at = &m->vertex[i].coordinate[SCENE_RX];
+        double turn[3];
+        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
+            continue;
+        for (int k = 0; k < 3; k++)
+            turn[k] = s->inc[at[k]];
+        if (vec3_norm(turn) > most)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "a node turns by %.2g rad in the step to %g s, %g are the most",
+                             vec3_norm(turn), time, most);
+    }
+    return STATUS_OK;
+}
+
+static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+                   step_record *record, fault *f)
+{
+    alpha *s = (alpha *)base;
+    model *m = s->stage.c->model;
+    const double time = record->path;
+    stage_rates r = {.b = (1 - s->mass) / ((1 - s->force) * s->beta * h * h),
+                     .g = s->gamma / (s->beta * h),
+                     .a0 = s->a0,
+                     .v0 = s->v0,
+                     .inc = s->inc,
+                     .v = to->v,
+                     .a = to->a};
+    relate(s, from, h, &r);
+    drive_at(m, from->state, time, s->inc, to->v, to->a);
+    kinematics_state_copy(m, from->state, to->state);
+    relate_strains(s, from, h, to);
+    instant_recall(from, &s->stage.arrival);
+    TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
+    instant_remember(&s->stage.arrival, to);
+    TRY(check_turns(s, time, f));
+    for (int i = 0; i < s->stage.all; i++)
+        to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);
+    to->time = time;
+    to->work = from->work + work_trapezoid(s->work, from, to, s->inc);
+    damp(s, from, h, to);
+    return error_of(s, from, to, h, error, f);
+}
+
+static void release(scheme *base)
+{
+    alpha *s = (alpha *)base;
+    stage_free(&s->stage);
+    massive_free(&s->massive);
+    free(s->a0);
+    free(s->mean);
+    free(s);
+}
+
+status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
+{
+    const model_size size = model_sizes(request->c->model);
+    const size_t n = (size_t)(size.free + size.driven) + 1;
+    const scene_alpha *how = &request->how->alpha;
+    const double gamma = 0.5 + how->force - how->mass, half = (gamma + 0.5) / 2;
+    alpha *s = calloc(1, sizeof *s);
+    *out = NULL;
+    if (s == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    *out = &s->base;
+    *s = (alpha){.base = {.order = 3, .adds = 1, .step = step, .free = release},
+                 .work = request->work,
+                 .strains = damping_acts(request->c->scene)
+                                ? (size_t)size.elements * (size_t)size.strains
+                                : 0,
+                 .mass = how->mass,
+                 .force = how->force,
+                 .gamma = gamma,
+                 .beta = half * half,
+                 .a0 = calloc(4 * n, sizeof(double))};
+    s->mean = calloc(s->strains + 1, sizeof *s->mean);
+    if (s->a0 == NULL || s->mean == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    s->v0 = s->a0 + n;
+    s->inc = s->v0 + n;
+    s->weight = s->inc + n;
+    metric_of(request->c->model, s->weight);
+    return stage_alloc(request->c, request->masses, &s->stage, f);
+}

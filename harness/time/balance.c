@@ -1,0 +1,85 @@
+#include "harness/time/balance.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "harness/model/discrete.h"
+#include "harness/model/kinematics.h"
+#include "harness/time/inertia.h"
+
+static status stored(model *m, const model_state *s, double *out, fault *f)
+{
+    double none[1] = {0};
+    *out = 0;
+    for (int i = 0; i < m->elements; i++) {
+        double energy = 0;
+        const double *inner = m->inner > 0 ? s->inner + (size_t)i * (size_t)m->inner : none;
+        const status outcome =
+            m->type->stress(m->kind[m->element[i].kind].data, s->e + (size_t)i * (size_t)m->strains,
+                            inner, &(stress_output){.energy = &energy});
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
+                             m->type->name);
+        *out += energy;
+    }
+    *out += discrete_stored(m, s);
+    return STATUS_OK;
+}
+
+status balance_of(model *m, const carried *masses, const instant *at, double out[SCENE_BALANCES],
+                  fault *f)
+{
+    inertia_balance moving;
+    inertia_of(m, masses, at->state, at->v, at->ends_known ? at->ends : NULL, &moving);
+    TRY(stored(m, at->state, &out[SCENE_STRAIN], f));
+    out[SCENE_KINETIC] = moving.kinetic;
+    out[SCENE_ENERGY] = out[SCENE_KINETIC] + out[SCENE_STRAIN];
+    out[SCENE_WORK] = at->work;
+    out[SCENE_DISSIPATED] = at->dissipated;
+    out[SCENE_DRIFT] = out[SCENE_ENERGY] + at->dissipated - at->work;
+    for (int i = 0; i < 3; i++) {
+        out[SCENE_PX + i] = moving.momentum[i];
+        out[SCENE_LX + i] = moving.angular[i];
+    }
+    return STATUS_OK;
+}
+
+/* What coordinates are off by when they come out of equations, by their size. */
+static const double coordinate_rounding = 32 * DBL_EPSILON;
+
+/* Strain energy of an element whose coordinates are off by that. */
+static double rounding_of(const model *m, const mesh_element *el, int index)
+{
+    enum { E = ELEMENT_MAX_STRAINS };
+    const size_t first = (size_t)index * (size_t)m->strains;
+    const double part[NODE_COORDINATES] = {m->size, m->size, m->size, 1, 1, 1, 1 / m->size};
+    double J[E * ELEMENT_MAX_COORDINATES], C[E * E], sum = 0;
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, m->rest, el, x);
+    m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
+    if (m->type->stress(m->kind[el->kind].data, m->rest->e + first,
+                        m->rest->inner + (size_t)index * (size_t)m->inner,
+                        &(stress_output){.C = C}) != STATUS_OK)
+        return 0;
+    for (int i = 0; i < m->strains; i++) {
+        double off = 0;
+        for (int k = 0; k < m->coordinates; k++)
+            off +=
+                fabs(J[i * m->coordinates + k]) * part[k % NODE_COORDINATES] * coordinate_rounding;
+        sum += C[i * m->strains + i] * off * off / 2;
+    }
+    return sum;
+}
+
+double balance_rounding(const model *m)
+{
+    double sum = 0;
+    for (int i = 0; i < m->elements; i++)
+        sum += rounding_of(m, &m->element[i], i);
+    for (int i = m->discretes - m->springs; i < m->discretes; i++)
+        for (int k = 0; k < 6; k++) {
+            const double off = coordinate_rounding * (k < 3 ? m->size : 1);
+            sum += m->discrete[i].spring->stiffness[7 * k] * off * off / 2;
+        }
+    return sum;
+}

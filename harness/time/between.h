@@ -1,0 +1,33 @@
+/* A motion inside one of its steps: a polynomial of every coordinate's increment, that of rotations
+ * of the vector in the frame's axes at the begin, with the places and rates of both ends, and where
+ * a scheme has them as exactly, with the accelerations too. What is driven is read where it is
+ * prescribed. */
+#ifndef BEAMWORK_BETWEEN_H
+#define BEAMWORK_BETWEEN_H
+
+#include "harness/time/instant.h"
+
+typedef enum between_degree {
+    BETWEEN_CUBIC,  /* of places and rates: order 4 inside a step; accelerations run linearly */
+    BETWEEN_QUINTIC /* of accelerations too: order 6 */
+} between_degree;
+
+typedef struct between {
+    const model *m;
+    const instant *from, *to;
+    between_degree degree;
+    double *part; /* [free + driven] x 5: of s, s^2 .. s^5; s = 0 .. 1 along the step */
+    double *room; /* [3 x (free + driven)] */
+} between;
+
+status between_alloc(const model *, between *, fault *);
+void between_free(between *);
+/* Of the step; both instants stay as they are as long as it is read. */
+void between_take(between *, between_degree, const instant *from, const instant *to);
+/* Places and rates at a time of the step, or next to it [s]. */
+void between_places(const between *, double time, instant *at);
+/* With all of a state. Strains, stresses and inner unknowns
+ * run linearly from end to end: fit for pictures, not for forces. */
+void between_at(const between *, double time, instant *at);
+
+#endif

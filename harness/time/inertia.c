@@ -1,0 +1,260 @@
+#include "harness/time/inertia.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/time/released.h"
+#include "harness/time/spread.h"
+#include "harness/time/vertex_rates.h"
+
+/* A mass in spatial axes. */
+typedef struct spatial {
+    double c[3], J[9];
+} spatial;
+
+static void turn_tensor(const double R[9], const double J0[9], double J[9])
+{
+    double half[9];
+    mat3_mul(R, J0, half);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            J[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
+}
+
+static void at_frame(const carried_mass *one, const double R[9], spatial *out)
+{
+    mat3_mul_vec(R, one->moment, out->c);
+    turn_tensor(R, one->inertia, out->J);
+}
+
+void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6])
+{
+    spatial s;
+    double alpha_c[3], w_c[3], w_w_c[3], c_a[3], J_alpha[3], J_w[3], w_J_w[3];
+    at_frame(one, r->R, &s);
+    vec3_cross(r->wd, s.c, alpha_c);
+    vec3_cross(r->w, s.c, w_c);
+    vec3_cross(r->w, w_c, w_w_c);
+    vec3_cross(s.c, r->a, c_a);
+    mat3_mul_vec(s.J, r->wd, J_alpha);
+    mat3_mul_vec(s.J, r->w, J_w);
+    vec3_cross(r->w, J_w, w_J_w);
+    for (int i = 0; i < 3; i++) {
+        F[i] = one->mass * r->a[i] + alpha_c[i] + w_w_c[i];
+        F[3 + i] = c_a[i] + J_alpha[i] + w_J_w[i];
+    }
+}
+
+void inertia_force(const model *m, const carried_mass *one, const model_state *s, const double v[],
+                   const double a[], double F[6])
+{
+    frame_rates r;
+    inertia_rates(m, s, one->frame, v, a, &r);
+    inertia_force_at(one, &r, F);
+}
+
+void inertia_subtract(const model *m, const carried *all, const model_state *s, const double v[],
+                      const double a[], double out[])
+{
+    if (all->spread)
+        spread_subtract(m, s, v, a, out);
+    for (int k = 0; k < all->masses; k++) {
+        double F[6];
+        inertia_force(m, &all->mass[k], s, v, a, F);
+        for (int i = 0; i < 6; i++)
+            F[i] = -F[i];
+        if (all->mass[k].frame >= m->first_release)
+            released_add_force(m, s, all->mass[k].frame, F, out);
+        else
+            forms_add_force(m, s, all->mass[k].frame, F, out);
+    }
+    for (int i = 0; i < m->warps && a != NULL; i++)
+        out[m->warp[i].coordinate] -=
+            all->warping[m->warp[i].coordinate] * a[m->warp[i].coordinate];
+}
+
+static void skew(const double v[3], double A[9])
+{
+    const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
+    memcpy(A, all, sizeof all);
+}
+
+/* Derivatives of the force and moment of one frame, [6 x 6] each, by spatial increments of its
+ * place and turn at fixed rates in its axes (in the exponential chart), of its velocity, and of its
+ * acceleration, with what the axes' turn does to these left to `place`. */
+static void parts_of(const carried_mass *one, const frame_rates *r, const double F[6],
+                     inertia_parts *out)
+{
+    spatial s;
+    double C[9], W[9], Jw[3], H[9], WJ[9], w_c[3], WC[9], CW[9], AC[9], A[9], c_a[3], rest[3],
+        force[3], R[9], T[9], M[9];
+    at_frame(one, r->R, &s);
+    memset(out, 0, sizeof *out);
+    skew(s.c, C);
+    skew(r->w, W);
+    skew(r->a, A);
+    mat3_mul_vec(s.J, r->w, Jw);
+    skew(Jw, H);
+    mat3_mul(W, s.J, WJ);
+    vec3_cross(r->w, s.c, w_c);
+    skew(w_c, WC);
+    mat3_mul(W, C, CW);
+    mat3_mul(A, C, AC); /* of c x a, whose a does not turn: d(c x a) = a~ c~ dphi */
+    vec3_cross(s.c, r->a, c_a);
+    for (int i = 0; i < 3; i++) {
+        rest[i] = F[3 + i] - c_a[i]; /* both turn with the frame */
+        force[i] = F[i] - one->mass * r->a[i];
+    }
+    skew(rest, R);
+    skew(force, T);
+    skew(F + 3, M);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int k = 3 * i + j, turn = 6 * i + 3 + j, both = 6 * (3 + i) + 3 + j;
+            out->acceleration[6 * i + j] = i == j ? one->mass : 0;
+            out->acceleration[turn] = -C[k];
+            out->acceleration[6 * (3 + i) + j] = C[k];
+            out->acceleration[both] = s.J[k];
+            out->velocity[turn] = -WC[k] - CW[k];
+            out->velocity[both] = WJ[k] - H[k];
+            out->place[turn] = -T[k];
+            out->place[both] = AC[k] - R[k] + M[k] / 2;
+        }
+}
+
+static void identity(double A[9])
+{
+    static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    memcpy(A, one, sizeof one);
+}
+
+void inertia_frame(const model *m, const carried *all, int index, const model_state *s,
+                   const double v[], const double a[], inertia_parts *out)
+{
+    const carried_mass *one = &all->mass[index];
+    frame_rates r;
+    double F[6];
+    inertia_rates(m, s, one->frame, v, a, &r);
+    inertia_force_at(one, &r, F);
+    parts_of(one, &r, F, out);
+    inertia_turns(m, s, one->frame, out->turn, out->rate);
+}
+
+/* A[6 x 6] <- A diag(1, B) */
+void inertia_times(const double A[36], const double translation, const double B[9], double out[36])
+{
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 3; j++) {
+            double sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += A[6 * i + 3 + k] * B[3 * k + j];
+            out[6 * i + j] = translation * A[6 * i + j];
+            out[6 * i + 3 + j] = sum;
+        }
+}
+
+void inertia_rows(const double turn[9], double K[36])
+{
+    for (int j = 0; j < 6; j++) {
+        const double at[3] = {K[18 + j], K[24 + j], K[30 + j]};
+        for (int i = 0; i < 3; i++)
+            K[6 * (3 + i) + j] = turn[i] * at[0] + turn[3 + i] * at[1] + turn[6 + i] * at[2];
+    }
+}
+
+/* The same of a released end; its rates' own change with the state (of axes that turn) is left out.
+ */
+static void released_tangent(const model *m, int vertex, const model_state *s,
+                             const inertia_parts *p, const inertia_relation *with, sparse *S)
+{
+    const int body = m->vertex[vertex].body;
+    released of;
+    double of_body[9], of_ball[9], one[9], motion[6 * KINEMATICS_MOST], rates[36],
+        K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
+    released_columns(m, s, vertex, &of);
+    identity(one);
+    inertia_turn(m, body, s, with->inc, of_body);
+    inertia_turn(m, vertex, s, with->inc, of_ball);
+    for (int i = 0; i < 36; i++)
+        rates[i] = with->b * p->acceleration[i] + with->g * p->velocity[i];
+    released_motion(&of, 1, of_body, of_ball, motion);
+    released_project(&of, rates, motion, K);
+    released_motion(&of, 1, one, one, motion);
+    released_project(&of, p->place, motion, K);
+    for (int i = 0; i < of.count; i++)
+        for (int j = 0; j < of.count; j++)
+            assemble_subtract(S, of.index[i], of.index[j], -K[of.count * i + j]);
+}
+
+void inertia_add_tangent(const model *m, const carried *all, const model_state *s, const double v[],
+                         const double a[], const inertia_relation *with, sparse *S)
+{
+    if (all->spread)
+        spread_add_tangent(m, s, v, a, with, S);
+    for (int k = 0; k < all->masses; k++) {
+        const int vertex = all->mass[k].frame;
+        const int *at = m->vertex[vertex].coordinate;
+        inertia_parts p;
+        double N[9], E[9], rates[36], K[36], more[36];
+        inertia_frame(m, all, k, s, v, a, &p);
+        if (vertex >= m->first_release) {
+            released_tangent(m, vertex, s, &p, with, S);
+            continue;
+        }
+        inertia_chart(m, vertex, with->inc, p.rate, N);
+        mat3_mul(p.rate, N, E);
+        for (int i = 0; i < 36; i++)
+            rates[i] = with->b * p.acceleration[i] + with->g * p.velocity[i];
+        inertia_times(rates, 1, E, K);
+        inertia_times(p.place, 1, p.turn, more);
+        for (int i = 0; i < 36; i++)
+            K[i] += more[i];
+        inertia_rows(p.turn, K);
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < 6; j++)
+                assemble_subtract(S, at[i], at[j], -K[6 * i + j]);
+    }
+    for (int i = 0; i < m->warps; i++) {
+        const int c = m->warp[i].coordinate;
+        assemble_subtract(S, c, c, -with->b * all->warping[c]);
+    }
+}
+
+void inertia_of(const model *m, const carried *all, const model_state *s, const double v[],
+                const double ends[], inertia_balance *out)
+{
+    memset(out, 0, sizeof *out);
+    if (all->spread)
+        spread_add_balance(m, s, v, &out->kinetic, out->momentum, out->angular);
+    for (int k = 0; k < all->masses; k++) {
+        const carried_mass *one = &all->mass[k];
+        frame_rates r;
+        spatial at;
+        double w_c[3], p[3], Jw[3], c_v[3], position[3], r_p[3];
+        inertia_rates(m, s, one->frame, v, NULL, &r);
+        at_frame(one, r.R, &at);
+        if (ends != NULL && one->frame >= m->first_release)
+            released_moving(ends + 6 * (one->frame - m->first_release), one->mass, at.c, &r);
+        kinematics_position(m, s, one->frame, position);
+        vec3_cross(r.w, at.c, w_c);
+        mat3_mul_vec(at.J, r.w, Jw);
+        vec3_cross(at.c, r.v, c_v);
+        for (int i = 0; i < 3; i++)
+            p[i] = one->mass * r.v[i] + w_c[i];
+        vec3_cross(position, p, r_p);
+        out->kinetic +=
+            (one->mass * vec3_dot(r.v, r.v) + vec3_dot(r.w, Jw)) / 2 + vec3_dot(r.v, w_c);
+        for (int i = 0; i < 3; i++) {
+            out->momentum[i] += p[i];
+            out->angular[i] += r_p[i] + Jw[i] + c_v[i];
+        }
+    }
+    for (int i = 0; i < m->warps; i++) {
+        const int c = m->warp[i].coordinate;
+        out->kinetic += all->warping[c] * v[c] * v[c] / 2;
+    }
+}

@@ -1,0 +1,410 @@
+#include "harness/time/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/larger.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/newton/history.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
+#include "harness/numerics/memory.h"
+#include "harness/time/account.h"
+#include "harness/time/balance.h"
+#include "harness/time/checks.h"
+#include "harness/time/damping.h"
+#include "harness/time/frames.h"
+#include "harness/time/integrator.h"
+#include "harness/time/kinks.h"
+#include "harness/time/launch.h"
+#include "harness/time/peaks.h"
+#include "harness/time/resume.h"
+#include "harness/time/stations.h"
+#include "harness/time/watches.h"
+
+enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
+
+/* Of a step by that of the last one. */
+static const double shorter = 0.3, longer = 2, safety = 0.9;
+
+/* All that a motion is integrated with. */
+typedef struct motion {
+    analysis_context *c;
+    const scene_motion *how;
+    int analysis, follows;
+    double path;             /* parameter of the state that it starts from; NAN: it has none */
+    const outcome_end *from; /* where the motion stopped that this one goes on from; NULL: none */
+    carried masses;
+    mesh_damping damping;
+    work work;
+    scheme *scheme;
+    instant now, next;
+    double h, least; /* [s] next step; the shortest */
+    stations stations;
+    watches watches;
+    peaks peaks;
+    frames frames;
+    outcome_motion *out;
+    double balance[SCENE_BALANCES], ahead[SCENE_BALANCES]; /* at `now`, at `next` */
+    int looked_ahead;                                      /* 1: ahead is known */
+    account account;
+    extent extent, reaches; /* so far; with the step that is tried */
+    double rounding;        /* [J] energy that is none */
+    int quiet;              /* steps since what acts was last smooth no longer */
+    int unjudged;           /* steps whose balance was not yet looked at */
+} motion;
+
+static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
+{
+    TRY(balance_of(w->c->model, &w->masses, at, balance, f));
+    if (w->out->steps == 0 && w->from == NULL)
+        w->out->origin = balance[SCENE_ENERGY];
+    balance[SCENE_DRIFT] -= w->out->origin;
+    return STATUS_OK;
+}
+
+/* The present instant, where a step has ended, becomes one of the records. */
+static status record_step(motion *w, const step_record *record, double error, fault *f)
+{
+    outcome_step one = {.time = w->now.time,
+                        .step = record->increment,
+                        .error = error,
+                        .iterations = record->iterations,
+                        .rejected = record->rejected};
+    if (w->looked_ahead)
+        memcpy(w->balance, w->ahead, sizeof w->balance);
+    else
+        TRY(balance_at(w, &w->now, w->balance, f));
+    w->looked_ahead = 0;
+    account_take(&w->account, w->out->steps, w->balance);
+    w->quiet += w->out->steps > 0 || w->from == NULL;
+    memcpy(one.balance, w->balance, sizeof one.balance);
+    return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
+}
+
+/* last: what acts is smooth no longer behind it, or nothing follows. */
+static status keep_step(motion *w, const step_record *record, double error, int last, fault *f)
+{
+    TRY(history_add_step(w->c->result, record, f));
+    model_counters(w->c->model)->steps++;
+    TRY(stations_inside(&w->stations, &w->now, &w->next, f));
+    TRY(watches_step(&w->watches, &w->now, &w->next, f));
+    TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
+    instant_copy(w->c->model, &w->next, &w->now);
+    w->extent = w->reaches;
+    TRY(record_step(w, record, error, f));
+    return peaks_here(&w->peaks, &w->now, w->balance, last, f);
+}
+
+/* [s] of the last motion of the scene that goes on from this one. */
+static double end_of_all(const motion *w)
+{
+    const scene *s = w->c->scene;
+    int last = w->analysis;
+    for (int i = last + 1; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION && s->analysis[i].follows == last)
+            last = i;
+    const scene_path *path = scene_path_of(&s->analysis[last]);
+    return path->value[path->stations - 1];
+}
+
+/* 1: its error allows the step; the next one has the length that this one should have had. Where
+ * errors of steps add up to that of the motion, each step has its share by time. */
+static int allowed(motion *w, double step, double error)
+{
+    w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
+    if (w->how->tolerance <= 0)
+        return 1;
+    const double part = w->scheme->adds ? step / end_of_all(w) : 1,
+                 most = extent_allows(&w->reaches, part, w->how->tolerance),
+                 order = w->scheme->order - w->scheme->adds,
+                 of = extent_error(&w->reaches, w->scheme, step, error),
+                 ratio = safety * pow(most / larger(of, 1e-300), 1 / order);
+    w->h = step * fmin(longer, fmax(shorter, ratio));
+    w->reaches.worst = fmax(w->reaches.worst, of / part);
+    return of <= most;
+}
+
+/* The first steps behind a jump of what acts make energy by alpha however short they are. */
+static int looks(const motion *w)
+{
+    return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
+}
+
+/* Steps make energy from nothing where modes are not resolved; shorter ones make less. *grows: more
+ * than may be, by this step or with those before it. Steps that stay as they are are not looked at.
+ */
+static status watch(motion *w, int *grows, fault *f)
+{
+    *grows = 0;
+    if (!looks(w))
+        return STATUS_OK;
+    TRY(balance_at(w, &w->next, w->ahead, f));
+    w->looked_ahead = 1;
+    account ahead = w->account;
+    account_take(&ahead, w->out->steps, w->ahead);
+    const double most = account_most(&ahead, account_gained, w->rounding),
+                 drift = w->ahead[SCENE_DRIFT], gain = drift - w->balance[SCENE_DRIFT];
+    *grows = gain > most || (gain > 0 && drift > most);
+    return STATUS_OK;
+}
+
+/* What the next step is after one that was taken. */
+static void lengthen(motion *w, double step, double whole, int rejected)
+{
+    if (w->how->tolerance > 0 && step < whole)
+        w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
+    if (w->how->tolerance <= 0 && rejected == 0)
+        w->h = fmin(w->how->step, 2 * w->h); /* back to where it was before it was halved */
+}
+
+/* One step, shorter until it succeeds. */
+static status take_step(motion *w, double target, fault *f)
+{
+    for (int rejected = 0;; rejected++) {
+        const double left = target - w->now.time, whole = w->h;
+        const int last = whole >= left * (1 - 1e-9);
+        const double step = last ? left : whole;
+        step_record record = {
+            .path = last ? target : w->now.time + step, .increment = step, .rejected = rejected};
+        double error = 0;
+        int grows = 0;
+        status outcome = w->scheme->step(w->scheme, &w->now, step, &w->next, &error, &record, f);
+        int right = outcome == STATUS_OK && allowed(w, step, error);
+        if (right)
+            outcome = newton_accept(w->c->model, w->now.state, w->next.state, f);
+        right &= outcome == STATUS_OK;
+        if (right)
+            outcome = watch(w, &grows, f);
+        if (right && outcome == STATUS_OK && !grows) {
+            lengthen(w, step, whole, rejected);
+            w->next.time = record.path;
+            return keep_step(w, &record, error, last, f);
+        }
+        history_drop_step(w->c->result, &record);
+        w->looked_ahead = 0;
+        if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED)
+            return outcome;
+        if (outcome != STATUS_OK || grows)
+            w->h = step / 2;
+        if (w->h < w->least)
+            return outcome != STATUS_OK
+                       ? outcome
+                       : fault_set(f, STATUS_NOT_CONVERGED,
+                                   "at %g s no step is short enough for %s", w->now.time,
+                                   grows ? "the energy to stay" : "the tolerance");
+        model_counters(w->c->model)->rejected_steps++;
+    }
+}
+
+/* What acts is another from here on. */
+static status jump(motion *w, fault *f)
+{
+    TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
+    peaks_jump(&w->peaks);
+    return peaks_here(&w->peaks, &w->now, w->balance, 0, f);
+}
+
+/* Of the instant that a step has come to. The first ones behind the begin and behind a jump of what
+ * acts are judged by those that follow, unless jumps are too many for that. */
+static status judge(motion *w, double end, fault *f)
+{
+    if (w->quiet <= ACCOUNT_STEPS && w->unjudged < 2 * ACCOUNT_STEPS && w->now.time < end) {
+        w->unjudged++;
+        return STATUS_OK;
+    }
+    w->unjudged = 0;
+    return account_judge(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
+}
+
+static status integrate(motion *w, fault *f)
+{
+    const scene_path *path = &w->how->path;
+    const double end = path->value[path->stations - 1];
+    w->least = w->how->step / (w->c->options->whole_steps ? 1 : 1 << MAX_HALVINGS);
+    TRY(stations_here(&w->stations, &w->now, w->balance, f));
+    TRY(frames_begin(&w->frames, &w->now, f));
+    while (w->now.time < end) {
+        const double kink = kinks_next(w->c->model, w->now.time);
+        TRY(take_step(w, fmin(end, kink), f));
+        TRY(judge(w, end, f));
+        w->quiet *= w->now.time != kink;
+        if (w->now.time == kink)
+            TRY(jump(w, f));
+        TRY(stations_here(&w->stations, &w->now, w->balance, f));
+    }
+    return resume_keep(w->c, w->analysis, &w->now,
+                       &(resume_control){w->h, w->account, w->out->origin, w->quiet, w->extent},
+                       w->out, f);
+}
+
+/* Where the motion before it stopped; of another scheme or step: in the same scene only. */
+static status go_on(motion *w, fault *f)
+{
+    const scene_motion *former = w->from->analysis == w->analysis
+                                     ? w->how
+                                     : scene_motion_of(&w->c->scene->analysis[w->from->analysis]);
+    resume_control control = {.extent = w->extent};
+    TRY(resume_take(w->c, w->from, &w->now, &control, f));
+    w->out->origin = control.origin;
+    if (former->step == w->how->step && former->tolerance == w->how->tolerance)
+        w->h = control.step;
+    w->account = control.account;
+    w->quiet = control.quiet;
+    w->extent = control.extent;
+    return former->scheme != w->how->scheme
+               ? launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f)
+               : STATUS_OK;
+}
+
+/* Where it goes on from, in another run or in the scene. */
+static status find_end(motion *w, fault *f)
+{
+    w->from = resume_given(w->c, w->analysis);
+    if (w->from != NULL || w->follows == SCENE_NONE ||
+        w->c->scene->analysis[w->follows].kind != SCENE_MOTION)
+        return STATUS_OK;
+    return resume_before(w->c, w->follows, &w->from, f);
+}
+
+/* The state that the motion starts from, at time 0, and how the axes turn that it is at rest in. */
+static status begin(motion *w, scene_rotating_frame *frame, fault *f)
+{
+    const int follows = w->follows;
+    memset(frame, 0, sizeof *frame);
+    w->h = w->how->step;
+    TRY(find_end(w, f));
+    if (w->from != NULL)
+        return go_on(w, f);
+    if (follows == SCENE_NONE) /* members may have strains by themselves */
+        return linearise_make_compatible(w->c->model, w->now.state, f);
+    const analysis_outcome *before = &w->c->outcomes[follows];
+    const outcome_path *path = outcome_path_of(before);
+    if (before->status != STATUS_OK || path->reached < path->stations)
+        return fault_set(f, STATUS_NOT_CONVERGED, "the state that the motion starts from: %s",
+                         before->reason);
+    kinematics_state_copy(w->c->model, path->state[path->reached - 1], w->now.state);
+    w->path = kinematics_state_path(w->now.state);
+    const scene_analysis *of = &w->c->scene->analysis[follows];
+    const double speed = of->kind == SCENE_ROTATION ? path->value[path->reached - 1] : 1;
+    if (scene_rotating_frame_of(of) != NULL)
+        *frame = *scene_rotating_frame_of(of);
+    for (int i = 0; i < 3; i++)
+        frame->omega[i] *= speed;
+    return STATUS_OK;
+}
+
+static status solve(motion *w, fault *f)
+{
+    const step_record start = {.increment = 0};
+    scene_rotating_frame frame;
+    const model *m = w->c->model;
+    TRY(checks_of(w->c, w->analysis, f));
+    TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
+                                      : carried_alloc(m, &w->masses, f));
+    TRY(damping_begin(w->c->model, &w->damping, f));
+    TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
+    const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
+    w->rounding = balance_rounding(m);
+    TRY(integrator_alloc(&request, &w->scheme, f));
+    TRY(instant_alloc(m, &w->now, f));
+    TRY(instant_alloc(m, &w->next, f));
+    TRY(kinematics_state_alloc(m, &w->extent.begin, f));
+    w->stations = (stations){.c = w->c,
+                             .analysis = w->analysis,
+                             .masses = &w->masses,
+                             .scheme = w->scheme,
+                             .out = w->out};
+    w->watches = (watches){.c = w->c, .analysis = w->analysis, .scheme = w->scheme, .out = w->out};
+    TRY(stations_alloc(&w->stations, f));
+    TRY(watches_alloc(&w->watches, f));
+    w->peaks = (peaks){.c = w->c,
+                       .analysis = w->analysis,
+                       .scheme = w->scheme,
+                       .masses = &w->masses,
+                       .out = w->out};
+    TRY(peaks_alloc(&w->peaks, f));
+    TRY(begin(w, &frame, f));
+    w->frames = (frames){.m = m,
+                         .to = &w->out->frames,
+                         .begin = w->now.time,
+                         .end = w->how->path.value[w->how->path.stations - 1]};
+    TRY(frames_alloc(&w->frames, shapes_frames(w->c->options->shapes), f));
+    TRY(checks_massless(w->c, &w->masses, w->how, w->now.state, f));
+    if (w->from == NULL)
+        kinematics_state_copy(m, w->now.state, w->extent.begin);
+    extent_begin(&w->extent, m);
+    if (w->from == NULL)
+        TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
+    TRY(record_step(w, &start, 0, f));
+    TRY(peaks_here(&w->peaks, &w->now, w->balance, 0, f));
+    return integrate(w, f);
+}
+
+static void release(motion *w)
+{
+    instant_free(&w->now);
+    instant_free(&w->next);
+    kinematics_state_free(w->extent.begin);
+    watches_end(&w->watches);
+    peaks_end(&w->peaks);
+    stations_free(&w->stations);
+    watches_free(&w->watches);
+    peaks_free(&w->peaks);
+    frames_free(&w->frames);
+    integrator_free(w->scheme);
+    carried_free(&w->masses);
+    work_free(&w->work);
+    damping_end(w->c->model, &w->damping);
+}
+
+/* Once, with a guess of its extent; *again: it was less, and there is a better guess. */
+static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
+                  fault *f)
+{
+    const history_mark begin = history_here(c->result);
+    const counters before = *model_counters(c->model);
+    motion w;
+    memset(&w, 0, sizeof w);
+    w.c = c;
+    w.path = NAN;
+    w.how = scene_motion_of(&c->scene->analysis[analysis]);
+    w.analysis = analysis;
+    w.follows = c->scene->analysis[analysis].follows;
+    w.out = outcome_motion_in(o);
+    w.extent.scale = *scale;
+    status result = solve(&w, f);
+    const int went = result == STATUS_OK || result == STATUS_NOT_CONVERGED;
+    *again = went && w.how->tolerance > 0 && w.out->steps > 1 &&
+             extent_is_less(&w.extent, w.how->tolerance, scale);
+    if (result != STATUS_FAULT && !*again &&
+        history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
+        result = STATUS_FAULT;
+    release(&w);
+    if (*again) { /* what it cost stays counted; its steps are none of the motion's */
+        history_go_back(c->result, &begin);
+        model_counters(c->model)->steps = before.steps;
+        model_counters(c->model)->rejected_steps = before.rejected_steps;
+    }
+    return result;
+}
+
+status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    double scale = extent_guess;
+    for (int pass = 1;; pass++) {
+        int again;
+        const status result = run(c, analysis, &scale, &again, o, f);
+        if (!again)
+            return result;
+        if (pass == MAX_PASSES)
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "the largest motion is not known after it was integrated %d times: "
+                             "give a step",
+                             pass);
+        outcome_free(o);
+        *o = (analysis_outcome){.kind = SCENE_MOTION};
+    }
+}

@@ -1,0 +1,307 @@
+#include "harness/time/place.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/vec3.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/release.h"
+
+enum { FIRST_TURN = 6, BALL = 3 };
+
+int place_plain(const model *m, int vertex)
+{
+    return m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
+}
+
+/* What is being built, with the derivatives by the columns as [3 x columns]. */
+typedef struct chain {
+    const model *m;
+    const model_state *from, *now;
+    int vertex;
+    const mesh_release *release; /* NULL: none */
+    const double *F;
+    double about[9];                       /* c of the node = about times its measures */
+    double a[3][3], da[3][3 * PLACE_MOST]; /* its columns where they are mean axes of angles */
+    double c[3], dc[3 * PLACE_MOST];       /* behind all turns */
+    double x[3][3], dx[3][3 * PLACE_MOST];
+    double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; of rho_1 */
+    double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean, (a s)_m */
+} chain;
+
+/* out[3 x columns] = times A B */
+static void product(int columns, double times, const double A[9], const double B[], double out[])
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < columns; k++)
+            out[i * columns + k] = times * (A[3 * i] * B[k] + A[3 * i + 1] * B[columns + k] +
+                                            A[3 * i + 2] * B[2 * columns + k]);
+}
+
+/* out <- times (T_c dc) x v */
+static void sweep(const chain *by, int columns, double times, const double v[3], double out[])
+{
+    double T[9], V[9], B[9];
+    cayley_tangent(by->c, T);
+    cayley_skew(v, V);
+    mat3_mul(V, T, B);
+    product(columns, -times, B, by->dc, out);
+}
+
+static void beside(chain *by, int columns)
+{
+    double after[3];
+    kinematics_offset(by->m, by->from, by->vertex, by->rho);
+    kinematics_offset(by->m, by->now, by->vertex, after);
+    for (int i = 0; i < 3; i++)
+        by->rho[i] = (by->rho[i] + after[i]) / 2;
+    sweep(by, columns, 1, after, by->moved);
+    sweep(by, columns, 0.5, after, by->drho);
+}
+
+/* One turn more, about b: x[3] and dx[3 x columns], c and dc behind it. */
+static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
+                 chain *by)
+{
+    const double tau = 2 * tan(angle / 2), along = vec3_dot(by->c, b), part = 1 - tau * along / 4,
+                 stretch = 1 + tau * tau / 4;
+    double crossed[3], skew[9], N[9];
+    vec3_cross(by->c, b, crossed);
+    cayley_skew(b, skew);
+    for (int i = 0; i < 3; i++) {
+        x[i] = (b[i] + crossed[i] / 2 + along * by->c[i] / 4) / part;
+        for (int j = 0; j < 3; j++)
+            N[3 * i + j] = -skew[3 * i + j] / 2 + (by->c[i] * b[j] + (i == j ? along : 0)) / 4 +
+                           x[i] * tau * b[j] / 4;
+    }
+    product(columns, 1 / part, N, by->dc, dx);
+    for (int i = 0; i < 3; i++)
+        dx[i * columns + column] += x[i] * along / 4 / part * stretch;
+    for (int i = 0; i < 3; i++) {
+        by->c[i] += tau * x[i];
+        for (int k = 0; k < columns; k++)
+            by->dc[i * columns + k] += tau * dx[i * columns + k];
+        by->dc[i * columns + column] += x[i] * stretch;
+    }
+}
+
+/* c of the body: three coordinates, or a sequence of angles. */
+static void begin(const double step[], chain *by, place *p)
+{
+    const int at = by->m->vertex[by->vertex].body;
+    const mesh_vertex *body = &by->m->vertex[at];
+    double b[3][3];
+    for (int i = 0; i < 6; i++)
+        p->measure[i] = body->coordinate[i] != NONE ? step[body->coordinate[i]] : 0;
+    if (body->angles > 0)
+        kinematics_axes(by->m, by->from, at, b);
+    for (int k = 0; k < body->angles; k++) {
+        const double angle = p->measure[SCENE_RX + k];
+        turn(b[k], angle, SCENE_RX + k, by->a[k], by->da[k], p->columns, by);
+        p->measure[SCENE_RX + k] = 2 * tan(angle / 2);
+    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            by->about[3 * i + k] = body->angles == 0 ? i == k : k < body->angles ? by->a[k][i] : 0;
+            if (body->angles > 0)
+                continue;
+            by->c[i] += (i == k) * p->measure[SCENE_RX + k];
+            by->dc[i * p->columns + SCENE_RX + k] = i == k;
+        }
+}
+
+/* All turns that the end keeps to itself. */
+static void turns(const double step[], chain *by, place *p)
+{
+    const mesh_release *r = by->release;
+    const int *own = by->m->vertex[by->vertex].coordinate + SCENE_RX;
+    double b[3][3];
+    if (r->turns == BALL) {
+        memset(by->dc, 0, sizeof by->dc);
+        for (int i = 0; i < 3; i++) {
+            by->c[i] = p->measure[FIRST_TURN + i] = step[own[i]];
+            by->dc[i * p->columns + FIRST_TURN + i] = 1;
+        }
+        return;
+    }
+    release_turn_axes(by->m, by->from, by->vertex, b);
+    for (int k = 0; k < r->turns; k++) {
+        p->measure[FIRST_TURN + k] = 2 * tan(step[own[k]] / 2);
+        turn(b[k], step[own[k]], FIRST_TURN + k, by->x[k], by->dx[k], p->columns, by);
+    }
+}
+
+/* The direction of a slide, b and a at the ends of the step: (b + a)/2 - c x (a - b)/4, and its
+ * derivative: the shift moves by c x its mean and by that times the change of the coordinate. */
+static void direction(const double before[3], const double after[3], const chain *by, int columns,
+                      double along[3], double change[])
+{
+    double apart[3], crossed[3], skew[9], turned[9], swept[3 * PLACE_MOST], more[3 * PLACE_MOST];
+    for (int i = 0; i < 3; i++)
+        apart[i] = after[i] - before[i];
+    vec3_cross(by->c, apart, crossed);
+    for (int i = 0; i < 3; i++)
+        along[i] = (before[i] + after[i]) / 2 - crossed[i] / 4;
+    sweep(by, columns, 1, after, swept);
+    cayley_skew(apart, skew);
+    product(columns, 0.25, skew, by->dc, change);
+    cayley_skew(by->c, turned);
+    product(columns, -0.25, turned, swept, more);
+    for (int i = 0; i < 3 * columns; i++)
+        change[i] += swept[i] / 2 + more[i];
+}
+
+/* What the end slides by: shift of the mean, and its columns. */
+static void slides(const double step[], chain *by, place *p)
+{
+    const mesh_release *r = by->release;
+    const int *own = by->m->vertex[by->vertex].coordinate, n = p->columns;
+    double before[3][3], after[3][3], first[3], last[3], change[3 * PLACE_MOST];
+    release_slide_axes(by->m, by->from, by->vertex, before, first);
+    release_slide_axes(by->m, by->now, by->vertex, after, last);
+    for (int i = 0; i < 3; i++)
+        by->sigma[i] = (first[i] + last[i]) / 2;
+    sweep(by, n, 0.5, last, by->dsigma);
+    sweep(by, n, 1, last, p->moved);
+    for (int k = 0; k < r->slides; k++) {
+        const int column = FIRST_TURN + r->turns + k;
+        double along[3];
+        direction(before[k], after[k], by, n, along, change);
+        p->measure[column] = step[own[k]];
+        for (int i = 0; i < 3; i++) {
+            p->work[i * n + column] = along[i];
+            p->moved[i * n + column] = after[k][i];
+            by->dsigma[i * n + column] += after[k][i] / 2;
+            for (int c = 0; c < n; c++)
+                p->curved[column * n + c] += by->F[i] * change[i * n + c];
+        }
+    }
+}
+
+/* Columns `column`.. of work: forces at a lever from what turns by A, and moments. */
+static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
+                    place *p)
+{
+    double skew[9], levered[9];
+    cayley_skew(lever, skew);
+    mat3_mul(skew, A, levered);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            p->work[i * columns + column + k] -= levered[3 * i + k];
+            p->work[(3 + i) * columns + column + k] += moments ? A[3 * i + k] : 0;
+        }
+}
+
+/* curved[rows `row`..] += A^T B, B[3 x columns] */
+static void add_curved(const double A[9], const double B[], int row, int columns, place *p)
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < columns; k++)
+            p->curved[(row + i) * columns + k] +=
+                A[i] * B[k] + A[3 + i] * B[columns + k] + A[6 + i] * B[2 * columns + k];
+}
+
+static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/* Rows of single turns: x . M'. */
+static void turning_rows(const chain *by, const double moment[3], const double dmoment[], place *p)
+{
+    const int n = p->columns;
+    for (int k = 0; k < by->release->turns; k++) {
+        const int column = FIRST_TURN + k;
+        double swept[3];
+        vec3_cross(by->x[k], by->sigma, swept);
+        for (int i = 0; i < 3; i++) {
+            p->work[i * n + column] = swept[i];
+            p->work[(3 + i) * n + column] = by->x[k][i];
+            for (int c = 0; c < n; c++)
+                p->curved[column * n + c] +=
+                    by->x[k][i] * dmoment[i * n + c] + moment[i] * by->dx[k][i * n + c];
+        }
+    }
+}
+
+/* Rows of the angles of the body, whose mean axes turn with those before them: a' . M. */
+static void angle_rows(const chain *by, const double moment[3], place *p)
+{
+    const int n = p->columns, angles = by->m->vertex[by->m->vertex[by->vertex].body].angles;
+    for (int k = 0; k < angles; k++)
+        for (int i = 0; i < 3; i++)
+            for (int c = 0; c < n; c++)
+                p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
+}
+
+/* All rows, by what the chain came to. */
+static void finish(const chain *by, place *p)
+{
+    const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;
+    double force[9], more[3 * PLACE_MOST], dmoment[3 * PLACE_MOST], moment[3];
+    for (int i = 0; i < 3; i++) {
+        p->work[i * n + i] = 1;
+        p->moved[i * n + i] += 1;
+    }
+    for (int i = 0; i < 3 * n; i++) {
+        p->moved[i] += by->moved[i];
+        p->moved[3 * n + i] = by->dc[i];
+    }
+    vec3_cross(by->sigma, by->F, moment);
+    for (int i = 0; i < 3; i++)
+        moment[i] += by->F[3 + i];
+    cayley_skew(by->F, force);
+    product(n, -1, force, by->dsigma, dmoment);
+    product(n, -1, force, by->drho, more);
+    work_on(by->rho, by->about, 0, 3, n, p);
+    add_curved(by->about, more, 3, n, p);
+    work_on(by->sigma, ball ? one : by->about, 1, ball ? FIRST_TURN : 3, n, p);
+    add_curved(ball ? one : by->about, dmoment, ball ? FIRST_TURN : 3, n, p);
+    if (by->release != NULL && !ball)
+        turning_rows(by, moment, dmoment, p);
+    double lever[3];
+    vec3_cross(by->rho, by->F, lever);
+    for (int i = 0; i < 3; i++)
+        lever[i] += ball ? 0 : moment[i];
+    angle_rows(by, lever, p);
+}
+
+void place_of(const conserving *s, const model_state *from, const model_state *now, int vertex,
+              const double F[6], place *p)
+{
+    static const double none[6] = {0};
+    const model *m = s->of.c->model;
+    chain by = {.m = m,
+                .from = from,
+                .now = now,
+                .vertex = vertex,
+                .release = release_of(m, vertex),
+                .F = F != NULL ? F : none};
+    memset(p, 0, sizeof *p);
+    p->columns = FIRST_TURN + (by.release != NULL ? by.release->turns + by.release->slides : 0);
+    begin(s->step, &by, p);
+    beside(&by, p->columns);
+    if (by.release != NULL) {
+        turns(s->step, &by, p);
+        slides(s->step, &by, p);
+    }
+    finish(&by, p);
+}
+
+void place_step(const conserving *s, const model_state *from, const model_state *now, int vertex,
+                double dr[3], double c[3])
+{
+    const model *m = s->of.c->model;
+    const int *at = m->vertex[vertex].coordinate;
+    place p;
+    double all[6];
+    if (place_plain(m, vertex)) {
+        for (int i = 0; i < 3; i++) {
+            dr[i] = at[i] != NONE ? s->step[at[i]] : 0;
+            c[i] = at[SCENE_RX + i] != NONE ? s->step[at[SCENE_RX + i]] : 0;
+        }
+        return;
+    }
+    place_of(s, from, now, vertex, NULL, &p);
+    dense_mul_vec(6, p.columns, p.work, p.measure, all);
+    memcpy(dr, all, 3 * sizeof *dr);
+    memcpy(c, all + 3, 3 * sizeof *c);
+}

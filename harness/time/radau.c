@@ -1,0 +1,201 @@
+#include "harness/time/radau.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/larger.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/metric.h"
+#include "harness/newton/advance.h"
+#include "harness/newton/newton.h"
+#include "harness/time/damping.h"
+#include "harness/time/drive.h"
+#include "harness/time/increment.h"
+#include "harness/time/kinks.h"
+#include "harness/time/radau_impl.h"
+#include "harness/time/stage.h"
+
+/* What an iteration of the stages works on. */
+typedef struct solution {
+    radau *r;
+    const instant *from;
+    double h;
+} solution;
+
+static void advance(const solution *of, const step_record *record, newton_correction *out)
+{
+    radau *r = of->r;
+    model *m = r->of.c->model;
+    for (int i = 0; i < STAGES; i++) {
+        radau_stage *one = &r->stage[i];
+        const double time = radau_time(r, of->from, of->h, i, record);
+        advance_stress stress;
+        memset(r->dx, 0, (size_t)r->all * sizeof *r->dx);
+        memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
+        m->work = one->work;
+        increment_add(m, one->state, r->dx, one->inc);
+        complement_keep(one->complement, one->state);
+        out->size = larger(out->size, advance_state(m, one->state, r->dx, time, &stress));
+        out->stress.largest = fmax(out->stress.largest, stress.largest);
+        out->stress.change = fmax(out->stress.change, stress.change);
+    }
+}
+
+static status correct(void *of, int iteration, newton_correction *out, step_record *record,
+                      fault *f)
+{
+    const solution *one = of;
+    radau *r = one->r;
+    const int fresh = iteration == 1 || !stage_stands(&r->arrival);
+    TRY(radau_equations(r, fresh, one->from, one->h, record, f));
+    if (fresh)
+        TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
+    factor_solve(r->factor, r->residual);
+    context_count_solution(r->of.c, r->factor, fresh, &r->counted);
+    advance(one, record, out);
+    out->at = one->from->time + one->h;
+    radau_rates(r, one->from, one->h);
+    return STATUS_OK;
+}
+
+static void prepare(void *of, int iteration, double correction)
+{
+    radau *r = ((const solution *)of)->r;
+    for (int i = 0; i < STAGES; i++)
+        complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
+}
+
+/* The power of the stages by the quadrature of the scheme. */
+static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
+{
+    double sum = 0;
+    for (int i = 0; i < STAGES; i++) {
+        const radau_stage *one = &r->stage[i];
+        const double time = kinks_before(r->of.c->model, radau_time(r, from, h, i, record));
+        sum += h * r->weights[i] * work_power(r->of.work, one->state, one->v, one->a, time, one->v);
+    }
+    return sum;
+}
+
+static status solve(radau *r, const instant *from, double h, instant *to, double *error,
+                    step_record *record, fault *f)
+{
+    const model *m = r->of.c->model;
+    const size_t bytes = (size_t)r->all * sizeof(double);
+    for (int i = 0; i < STAGES; i++) {
+        radau_stage *one = &r->stage[i];
+        const double t = r->node[i] * h, time = radau_time(r, from, h, i, record);
+        for (int c = 0; c < r->free; c++)
+            one->inc[c] = t * from->v[c] + t * t / 2 * from->a[c];
+        drive_at(m, from->state, time, one->inc, one->v, one->a);
+        kinematics_state_copy(m, from->state, one->state);
+        increment_apply(m, from->state, one->inc, time, one->state);
+    }
+    radau_rates(r, from, h);
+    instant_recall(from, &r->arrival);
+    solution one = {r, from, h};
+    const newton_use use = newton_in_time(r->of.c, &one, correct, prepare);
+    TRY(newton_iterate(r->of.c, &use, &r->arrival, record, f));
+    instant_remember(&r->arrival, to);
+    const radau_stage *last = &r->stage[STAGES - 1];
+    if (r->of.estimate)
+        TRY(radau_error(r, from, h, to, error, f));
+    kinematics_state_copy(m, last->state, to->state);
+    memcpy(to->v, last->v, bytes);
+    memcpy(to->a, last->a, bytes);
+    memcpy(to->algorithm, last->a, bytes);
+    to->time = record->path;
+    to->work = from->work + work_of_stages(r, from, h, record);
+    to->dissipated = from->dissipated + radau_dissipated(r, from, h, to->strain);
+    return STATUS_OK;
+}
+
+static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+                   step_record *record, fault *f)
+{
+    radau *r = (radau *)base;
+    model *m = r->of.c->model;
+    *error = 0;
+    r->own_work = m->work;
+    if (m->damping != NULL) /* stages add theirs by themselves */
+        damping_follow(m, 0, m->damping->none, m->damping->none);
+    const status outcome = solve(r, from, h, to, error, record, f);
+    m->work = r->own_work;
+    return outcome;
+}
+
+static void release(scheme *base)
+{
+    radau *r = (radau *)base;
+    for (int i = 0; i < STAGES; i++) {
+        kinematics_state_free(r->stage[i].state);
+        free(r->stage[i].inc);
+        free(r->stage[i].work);
+        complement_free(r->stage[i].complement);
+    }
+    sparse_free_values(&r->K);
+    factor_free(r->factor);
+    factor_free(r->single);
+    stages_free(&r->S);
+    free(r->residual);
+    free(r->dx);
+    free(r->weight);
+    free(r);
+}
+
+static status allocate_stage(radau *r, radau_stage *one, fault *f)
+{
+    model *m = r->of.c->model;
+    const size_t all = (size_t)r->all + 1;
+    one->inc = calloc(4 * all, sizeof *one->inc);
+    one->work = calloc((size_t)m->elements * (size_t)m->work_size + 1, sizeof *one->work);
+    if (one->inc == NULL || one->work == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
+    one->rate = one->inc + all;
+    one->v = one->rate + all;
+    one->a = one->v + all;
+    if (r->of.c->options->newton != NEWTON_DISPLACEMENT)
+        TRY(complement_alloc(m, &one->complement, f));
+    return kinematics_state_alloc(m, &one->state, f);
+}
+
+static status allocate(radau *r, fault *f)
+{
+    const sparse *pattern;
+    const size_t all = (size_t)r->all + 1;
+    r->residual = calloc(STAGES * all, sizeof *r->residual);
+    r->dx = calloc(all, sizeof *r->dx);
+    r->weight = calloc(all, sizeof *r->weight);
+    if (r->residual == NULL || r->dx == NULL || r->weight == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    metric_of(r->of.c->model, r->weight);
+    for (int i = 0; i < STAGES; i++)
+        TRY(allocate_stage(r, &r->stage[i], f));
+    TRY(assemble_pattern_in_time(r->of.c->model, &pattern, f));
+    TRY(sparse_alloc_like(pattern, &r->K, f));
+    TRY(stages_alloc(r->of.c->model, r->of.masses, pattern, &r->S, f));
+    TRY(factor_alloc(&r->S.whole, &r->factor, f));
+    return factor_alloc(pattern, &r->single, f);
+}
+
+status radau_alloc(const scheme_request *request, scheme **out, fault *f)
+{
+    const radau begin = {
+        .base = {.order = 4, .degree = BETWEEN_QUINTIC, .step = step, .free = release},
+        .of = *request};
+    radau *r = malloc(sizeof *r);
+    *out = NULL;
+    if (r == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    memcpy(r, &begin, sizeof *r);
+    *out = &r->base;
+    const model_size size = model_sizes(request->c->model);
+    r->free = size.free;
+    r->all = size.free + size.driven;
+    arrival_start(request->c->options->criterion, model_leaves(request->c->model) != 0,
+                  size.elements, &r->arrival);
+    radau_coefficients(r);
+    return allocate(r, f);
+}

@@ -1,0 +1,135 @@
+/* Members whose stresses gain eta S0 e': strains of the stages have the rates
+ *   e_i' = 1/h sum_j B_ij (e_j - e_0),
+ * which couple all three in every damped element. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "harness/newton/equations_impl.h"
+#include "harness/time/damping.h"
+#include "harness/time/radau_impl.h"
+
+/* Of one element in one stage. */
+typedef struct damped {
+    double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* by the model's coordinates */
+    double gained[ELEMENT_MAX_STRAINS];                    /* strains since the begin */
+} damped;
+
+static void take(radau *r, const instant *from, int stage, int element, damped *out)
+{
+    model *m = r->of.c->model;
+    const mesh_element *el = &m->element[element];
+    const size_t first = (size_t)element * (size_t)m->strains;
+    m->work = r->stage[stage].work;
+    const model_slot w = linearise_slot(m, element);
+    for (int k = 0; k < m->strains; k++) {
+        double *row = out->J + k * el->columns;
+        memset(row, 0, (size_t)el->columns * sizeof *row);
+        memcpy(row, w.J + k * m->coordinates, (size_t)m->coordinates * sizeof *row);
+        eliminate_forces(m, r->stage[stage].state, el, row);
+        out->gained[k] = r->stage[stage].state->e[first + (size_t)k] + w.incompatibility[k] -
+                         from->state->e[first + (size_t)k];
+    }
+}
+
+/* eta S0 e' of a stage joins the stress that its element has linearised, and its forces. */
+static void add_stress(radau *r, const damped all[STAGES], double h, double eta, const double S[],
+                       int stage, int element)
+{
+    model *m = r->of.c->model;
+    const mesh_element *el = &m->element[element];
+    double rate[ELEMENT_MAX_STRAINS] = {0}, more[ELEMENT_MAX_STRAINS],
+           force[MODEL_MAX_COORDINATES] = {0};
+    for (int j = 0; j < STAGES; j++)
+        for (int k = 0; k < m->strains; k++)
+            rate[k] += eta * r->B[STAGES * stage + j] / h * all[j].gained[k];
+    dense_mul_vec(m->strains, m->strains, S, rate, more);
+    m->work = r->stage[stage].work;
+    const model_slot w = linearise_slot(m, element);
+    for (int k = 0; k < m->strains; k++)
+        w.sigma[k] += more[k];
+    dense_add_transpose_mul(el->columns, m->strains, 1, all[stage].J, more, force);
+    for (int c = 0; c < el->columns; c++)
+        if (el->index[c] != NONE && el->index[c] < r->free)
+            r->residual[(size_t)stage * (size_t)r->free + (size_t)el->index[c]] -= force[c];
+}
+
+/* J_i^T S0 J_k in all blocks. */
+static void add_blocks(radau *r, const damped all[STAGES], double h, double eta, const double S[],
+                       int element)
+{
+    const model *m = r->of.c->model;
+    const mesh_element *el = &m->element[element];
+    const int n = el->columns;
+    for (int k = 0; k < STAGES; k++) {
+        double SJ[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
+        dense_mul(m->strains, m->strains, n, S, all[k].J, SJ);
+        for (int i = 0; i < STAGES; i++) {
+            const double part = eta * r->B[STAGES * i + k] / h;
+            double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+            dense_add_transpose_mul(n, m->strains, n, all[i].J, SJ, K);
+            for (int row = 0; row < n; row++)
+                for (int column = 0; column < n; column++)
+                    stages_add(&r->S, i, k, el->index[row], el->index[column],
+                               part * K[n * row + column]);
+        }
+    }
+}
+
+void radau_damp(radau *r, int fresh, const instant *from, double h)
+{
+    const model *m = r->of.c->model;
+    const size_t n = (size_t)m->strains;
+    for (int i = 0; i < m->elements && m->damping != NULL; i++) {
+        const double eta = m->scene->member[m->element[i].member].damping;
+        const double *S = m->damping->stiffness + (size_t)m->element[i].kind * n * n;
+        damped all[STAGES];
+        if (eta == 0)
+            continue;
+        for (int stage = 0; stage < STAGES; stage++)
+            take(r, from, stage, i, &all[stage]);
+        for (int stage = 0; stage < STAGES; stage++)
+            add_stress(r, all, h, eta, S, stage, i);
+        if (fresh)
+            add_blocks(r, all, h, eta, S, i);
+    }
+}
+
+/* out = sum_j weight_j (e_j - e_0) */
+static void sum_strains(const radau *r, const instant *from, const double weight[STAGES],
+                        double out[])
+{
+    const model *m = r->of.c->model;
+    const size_t count = (size_t)m->elements * (size_t)m->strains;
+    for (size_t k = 0; k < count; k++) {
+        out[k] = 0;
+        for (int j = 0; j < STAGES; j++)
+            out[k] += weight[j] * (r->stage[j].state->e[k] - from->state->e[k]);
+    }
+}
+
+double radau_dissipated(const radau *r, const instant *from, double h, double room[])
+{
+    const model *m = r->of.c->model;
+    double sum = 0;
+    for (int i = 0; i < STAGES && m->damping != NULL; i++) {
+        double weight[STAGES];
+        for (int j = 0; j < STAGES; j++)
+            weight[j] = r->B[STAGES * i + j] / h;
+        sum_strains(r, from, weight, room);
+        sum += h * r->weights[i] * damping_power(m, room);
+    }
+    return sum;
+}
+
+void radau_damp_error(const radau *r, const instant *from, double h, const double e[STAGES],
+                      double g, double room[])
+{
+    double weight[STAGES];
+    if (r->of.c->model->damping == NULL)
+        return;
+    for (int j = 0; j < STAGES; j++)
+        weight[j] = -e[j] / h;
+    sum_strains(r, from, weight, room);
+    damping_follow(r->of.c->model, g, room, from->state->e);
+}

@@ -1,0 +1,370 @@
+#include "harness/time/spread.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/offset.h"
+#include "elements/math/vec3.h"
+#include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/time/released.h"
+#include "harness/time/vertex_rates.h"
+
+enum { MOST = ELEMENT_MAX_COORDINATES };
+
+/* Of an element's nodes: states, velocities and accelerations. */
+typedef struct moving_element {
+    node_state x[ELEMENT_MAX_NODES];
+    double rate[MOST], acceleration[MOST];
+} moving_element;
+
+static void gather(const model *m, const mesh_element *el, const model_state *s, const double v[],
+                   const double a[], moving_element *out)
+{
+    kinematics_gather(m, s, el, out->x);
+    for (int k = 0; k < el->nodes; k++) {
+        double *rate = out->rate + NODE_COORDINATES * k,
+               *acceleration = out->acceleration + NODE_COORDINATES * k;
+        const int warp = el->warp[k] != NONE ? m->warp[el->warp[k]].coordinate : NONE;
+        frame_rates r;
+        vertex_rates(m, s, el->vertex[k], v, a, &r);
+        memcpy(rate, r.v, sizeof r.v);
+        memcpy(rate + 3, r.w, sizeof r.w);
+        memcpy(acceleration, r.a, sizeof r.a);
+        memcpy(acceleration + 3, r.wd, sizeof r.wd);
+        rate[6] = warp != NONE ? v[warp] : 0;
+        acceleration[6] = warp != NONE && a != NULL ? a[warp] : 0;
+    }
+}
+
+static void nothing_known(int count, double *A)
+{
+    for (int i = 0; i < count && A != NULL; i++)
+        A[i] = NAN;
+}
+
+static void evaluate(const model *m, int element, const node_state x[], inertia_output *out)
+{
+    const int n = m->coordinates;
+    if (m->type->inertia(m->kind[m->element[element].kind].data, x, NULL, out) == STATUS_OK)
+        return;
+    nothing_known(n, out->taken);
+    nothing_known(n * n, out->M);
+    nothing_known(n * n, out->C);
+    nothing_known(n * n, out->K);
+}
+
+void spread_force(const model *m, int element, const model_state *s, const double v[],
+                  const double a[], double F[])
+{
+    moving_element e;
+    gather(m, &m->element[element], s, v, a, &e);
+    evaluate(m, element, e.x,
+             &(inertia_output){.rate = e.rate, .acceleration = e.acceleration, .taken = F});
+}
+
+void spread_subtract(const model *m, const model_state *s, const double v[], const double a[],
+                     double out[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        double F[MODEL_MAX_COORDINATES];
+        spread_force(m, i, s, v, a, F);
+        for (int k = 0; k < m->coordinates; k++)
+            F[k] = -F[k];
+        eliminate_forces(m, s, &m->element[i], F);
+        assemble_vector(&m->element[i], F, out);
+    }
+}
+
+/* A[columns x columns] += B Q, Q [3 x 3] from the rotations of a node that begins at `at` to its
+ * translations. */
+static void add_through(int columns, int at, const double B[], const double Q[9], double A[])
+{
+    for (int i = 0; i < columns; i++)
+        for (int j = 0; j < 3; j++)
+            for (int k = 0; k < 3; k++)
+                A[columns * i + at + 3 + j] += B[columns * i + at + k] * Q[3 * k + j];
+}
+
+/* The same by rates that turn with the node: dw = d x w. */
+static void add_turning(int columns, int at, const double B[], const double w[3], double A[])
+{
+    for (int i = 0; i < columns; i++) {
+        double turned[3];
+        vec3_cross(w, &B[columns * i + at + 3], turned);
+        for (int j = 0; j < 3; j++)
+            A[columns * i + at + 3 + j] += turned[j];
+    }
+}
+
+/* out = x~ A */
+static void cross_all(const double x[3], const double A[9], double out[9])
+{
+    for (int j = 0; j < 3; j++) {
+        const double column[3] = {A[j], A[3 + j], A[6 + j]};
+        double moved[3];
+        vec3_cross(x, column, moved);
+        for (int i = 0; i < 3; i++)
+            out[3 * i + j] = moved[i];
+    }
+}
+
+/* A node at rho from the body that moves it: v = v_b + w x rho, a = a_b + w' x rho + w x (w x rho).
+ * What its rates gain by w and by turns d of the body beside what their Jacobian has. */
+static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
+                  double C[], double K[])
+{
+    const double *w = e->rate + at + 3, *wd = e->acceleration + at + 3;
+    const double place[9] = {0,      rho[2], -rho[1], -rho[2], 0,
+                             rho[0], rho[1], -rho[0], 0}; /* -rho~ */
+    double w_rho[3], velocity[9], turned[9], gained[9], by_w[9];
+    vec3_cross(w, rho, w_rho);
+    const double apart[9] = {0,        w_rho[2], -w_rho[1], -w_rho[2], 0,
+                             w_rho[0], w_rho[1], -w_rho[0], 0}; /* d x (w x rho) */
+    cross_all(w, place, velocity);
+    cross_all(w, velocity, turned);
+    cross_all(wd, place, gained);
+    for (int i = 0; i < 9; i++) {
+        gained[i] += turned[i];
+        by_w[i] = apart[i] + velocity[i];
+    }
+    add_through(n, at, C, velocity, K);
+    add_through(n, at, M, gained, K);
+    add_through(n, at, M, by_w, C);
+}
+
+/* All of an element from its nodes to the bodies that move them. */
+static void to_bodies(const model *m, const mesh_element *el, const model_state *s,
+                      const moving_element *e, double F[], spread_parts *p)
+{
+    const int n = NODE_COORDINATES * el->nodes;
+    for (int k = 0; k < el->nodes; k++) {
+        const int vertex = el->vertex[k], at = NODE_COORDINATES * k;
+        double rho[3];
+        if (m->vertex[vertex].body != vertex && vertex < m->first_release) {
+            kinematics_offset(m, s, vertex, rho);
+            carry(n, at, e, rho, p->acceleration, p->velocity, p->place);
+            offset_matrix(n, at, rho, NULL, p->acceleration);
+            offset_matrix(n, at, rho, NULL, p->velocity);
+            offset_matrix(n, at, rho, F + at, p->place);
+        }
+        add_turning(n, at, p->velocity, e->rate + at + 3, p->place);
+        add_turning(n, at, p->acceleration, e->acceleration + at + 3, p->place);
+    }
+}
+
+static void set_turns(const model *m, const mesh_element *el, const model_state *s, spread_parts *p)
+{
+    for (int k = 0; k < el->nodes; k++)
+        inertia_turns(m, s, m->vertex[el->vertex[k]].body, p->turn[k], p->rate[k]);
+}
+
+static void begin_parts(const mesh_element *el, const model_state *s, spread_parts *out)
+{
+    out->el = el;
+    out->state = s;
+    out->columns = el->columns;
+}
+
+void spread_element(const model *m, int element, const model_state *s, const double v[],
+                    const double a[], spread_parts *out)
+{
+    const mesh_element *el = &m->element[element];
+    moving_element e;
+    double F[MOST];
+    gather(m, el, s, v, a, &e);
+    begin_parts(el, s, out);
+    evaluate(m, element, e.x,
+             &(inertia_output){.M = out->acceleration,
+                               .rate = e.rate,
+                               .acceleration = e.acceleration,
+                               .taken = F,
+                               .C = out->velocity,
+                               .K = out->place});
+    to_bodies(m, el, s, &e, F, out);
+    set_turns(m, el, s, out);
+}
+
+/* One of an element that is released from a node. */
+static int is_wide(const spread_parts *p)
+{
+    return p->columns > NODE_COORDINATES * p->el->nodes;
+}
+
+static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/* T[7 nodes x columns]: motion of the nodes by the coordinates of the element; moves NULL: by
+ * spatial increments. */
+static void wide_motion(const model *m, const spread_parts *p, const spread_motion moves[],
+                        double T[MOST * MODEL_MAX_COORDINATES])
+{
+    const mesh_element *el = p->el;
+    memset(T, 0, MOST * MODEL_MAX_COORDINATES * sizeof *T);
+    for (int k = 0; k < el->nodes; k++) {
+        const int at = NODE_COORDINATES * k;
+        const double plain = moves != NULL ? moves[k].plain : 1,
+                     *turn = moves != NULL ? moves[k].turn : p->turn[k];
+        T[p->columns * (at + 6) + at + 6] = plain;
+        if (el->vertex[k] < m->first_release) {
+            for (int i = 0; i < 3; i++) {
+                T[p->columns * (at + i) + at + i] = plain;
+                for (int j = 0; j < 3; j++)
+                    T[p->columns * (at + 3 + i) + at + 3 + j] = turn[3 * i + j];
+            }
+            continue;
+        }
+        released of;
+        double motion[6 * KINEMATICS_MOST];
+        released_columns(m, p->state, el->vertex[k], &of);
+        released_motion(&of, plain, moves != NULL ? turn : one, moves != NULL ? moves[k].ball : one,
+                        motion);
+        for (int c = 0; c < of.count; c++) {
+            int to = 0;
+            while (to + 1 < p->columns && el->index[to] != of.index[c])
+                to++;
+            for (int i = 0; i < 6; i++)
+                T[p->columns * (at + i) + to] = motion[i * of.count + c];
+        }
+    }
+}
+
+/* out[columns x columns] += rows^T A motion, A [7 nodes x 7 nodes]. */
+static void wide_times(const model *m, const spread_parts *p, const double A[],
+                       const spread_motion moves[], double out[])
+{
+    const int n = NODE_COORDINATES * p->el->nodes;
+    double rows[MOST * MODEL_MAX_COORDINATES], motion[MOST * MODEL_MAX_COORDINATES],
+        half[MOST * MODEL_MAX_COORDINATES];
+    wide_motion(m, p, NULL, rows);
+    wide_motion(m, p, moves, motion);
+    dense_mul(n, n, p->columns, A, motion, half);
+    dense_add_transpose_mul(p->columns, n, p->columns, rows, half, out);
+}
+
+void spread_times(const model *m, const spread_parts *p, const double A[],
+                  const spread_motion motion[], double out[])
+{
+    const int columns = p->columns;
+    if (is_wide(p)) {
+        wide_times(m, p, A, motion, out);
+        return;
+    }
+    for (int i = 0; i < columns; i++)
+        for (int at = 0; at < columns; at += NODE_COORDINATES) {
+            const spread_motion *by = &motion[at / NODE_COORDINATES];
+            const double *row = &A[columns * i + at];
+            double *to = &out[columns * i + at];
+            for (int j = 0; j < 3; j++) {
+                to[j] += by->plain * row[j];
+                for (int k = 0; k < 3; k++)
+                    to[3 + j] += row[3 + k] * by->turn[3 * k + j];
+            }
+            to[6] += by->plain * row[6];
+        }
+}
+
+void spread_rows(const spread_parts *p, double K[])
+{
+    const int n = p->columns;
+    for (int at = 3; at < n && !is_wide(p); at += NODE_COORDINATES)
+        for (int j = 0; j < n; j++) {
+            const double column[3] = {K[n * at + j], K[n * (at + 1) + j], K[n * (at + 2) + j]};
+            double turned[3];
+            mat3_transpose_mul_vec(p->turn[at / NODE_COORDINATES], column, turned);
+            for (int i = 0; i < 3; i++)
+                K[n * (at + i) + j] = turned[i];
+        }
+}
+
+static const double at_rest[MOST];
+
+void spread_masses(const model *m, int element, const model_state *s, spread_parts *out)
+{
+    const mesh_element *el = &m->element[element];
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, s, el, x);
+    begin_parts(el, s, out);
+    evaluate(m, element, x, &(inertia_output){.M = out->acceleration, .rate = at_rest});
+    for (int k = 0; k < el->nodes; k++)
+        if (m->vertex[el->vertex[k]].body != el->vertex[k] && el->vertex[k] < m->first_release) {
+            double rho[3];
+            kinematics_offset(m, s, el->vertex[k], rho);
+            offset_matrix(m->coordinates, NODE_COORDINATES * k, rho, NULL, out->acceleration);
+        }
+    set_turns(m, el, s, out);
+}
+
+void spread_place(const model *m, const spread_parts *p, spread_motion place[])
+{
+    for (int k = 0; k < p->el->nodes; k++) {
+        const int plain = p->el->vertex[k] < m->first_release;
+        place[k].plain = 1;
+        memcpy(place[k].turn, plain ? p->turn[k] : one, sizeof place[k].turn);
+        memcpy(place[k].ball, one, sizeof place[k].ball);
+    }
+}
+
+/* What the rates of the bodies are by their coordinates. */
+static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
+                       const spread_parts *p, spread_motion rates[])
+{
+    for (int k = 0; k < el->nodes; k++) {
+        double N[9];
+        const int body = m->vertex[el->vertex[k]].body;
+        rates[k].plain = 1;
+        if (el->vertex[k] >= m->first_release) {
+            inertia_turn(m, body, p->state, with->inc, rates[k].turn);
+            inertia_turn(m, el->vertex[k], p->state, with->inc, rates[k].ball);
+            continue;
+        }
+        inertia_chart(m, body, with->inc, p->rate[k], N);
+        mat3_mul(p->rate[k], N, rates[k].turn);
+    }
+}
+
+void spread_add_tangent(const model *m, const model_state *s, const double v[], const double a[],
+                        const inertia_relation *with, sparse *S)
+{
+    const mesh_pattern *pattern = assemble_of(m, S);
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        spread_parts p;
+        spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        spread_element(m, i, s, v, a, &p);
+        const int all = m->coordinates * m->coordinates;
+        for (int k = 0; k < all; k++)
+            p.acceleration[k] = with->b * p.acceleration[k] + with->g * p.velocity[k];
+        spread_place(m, &p, place);
+        motions_of(m, el, with, &p, rates);
+        spread_times(m, &p, p.acceleration, rates, K);
+        spread_times(m, &p, p.place, place, K);
+        spread_rows(&p, K);
+        assemble_matrix(pattern, i, K, S);
+    }
+}
+
+void spread_add_balance(const model *m, const model_state *s, const double v[], double *kinetic,
+                        double momentum[3], double angular[3])
+{
+    for (int i = 0; i < m->elements; i++) {
+        const mesh_element *el = &m->element[i];
+        moving_element e;
+        double M[MOST * MOST], p[MOST];
+        gather(m, el, s, v, NULL, &e);
+        evaluate(m, i, e.x, &(inertia_output){.M = M, .rate = e.rate});
+        dense_mul_vec(m->coordinates, m->coordinates, M, e.rate, p);
+        *kinetic += dense_dot(m->coordinates, e.rate, p) / 2;
+        for (int k = 0; k < el->nodes; k++) {
+            const double *own = p + NODE_COORDINATES * k;
+            double moment[3];
+            vec3_cross(e.x[k].r, own, moment);
+            for (int c = 0; c < 3; c++) {
+                momentum[c] += own[c];
+                angular[c] += moment[c] + own[3 + c];
+            }
+        }
+    }
+}

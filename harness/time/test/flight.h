@@ -1,0 +1,142 @@
+/* A scene in motion, step by step: for tests of the conserving scheme. */
+#ifndef BEAMWORK_TEST_FLIGHT_H
+#define BEAMWORK_TEST_FLIGHT_H
+
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/formulations/formulation.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/model/spring.h"
+#include "harness/model/turns.h"
+#include "harness/newton/history.h"
+#include "harness/time/conserving.h"
+#include "harness/time/inertia.h"
+#include "harness/time/launch.h"
+
+typedef struct flight {
+    scene scene;
+    formulation chosen;
+    model *m;
+    solve_options options;
+    solve_result result;
+    analysis_context c;
+    scene_motion how;
+    carried masses;
+    scheme *scheme;
+    instant now, next;
+    int most, sum, steps; /* iterations */
+    fault why;
+} flight;
+
+/* The scene's only analysis is the motion; REFUSED and the like: see `why`. */
+static inline status flight_prepare(flight *f, const char *with, int elements)
+{
+    model_request request = {&f->scene, NULL, f->chosen.option, elements, 0};
+    TRY(formulation_parse(with, &f->chosen, &f->why));
+    request.type = f->chosen.type;
+    TRY(model_alloc(&request, &f->m, &f->why));
+    f->c = (analysis_context){
+        .scene = &f->scene, .model = f->m, .options = &f->options, .result = &f->result};
+    f->how = *scene_motion_of(&f->scene.analysis[f->scene.analyses - 1]);
+    f->m->in_time = 1;
+    TRY(carried_alloc(f->m, &f->masses, &f->why));
+    const scheme_request asked = {.c = &f->c, .masses = &f->masses, .how = &f->how};
+    TRY(conserving_alloc(&asked, &f->scheme, &f->why));
+    TRY(instant_alloc(f->m, &f->now, &f->why));
+    return instant_alloc(f->m, &f->next, &f->why);
+}
+
+/* build: of a case without parameters. At rest, as it is built. */
+static inline status flight_ready(flight *f,
+                                  status (*build)(const double value[], scene *, fault *),
+                                  const char *with, int elements)
+{
+    memset(f, 0, sizeof *f);
+    scene_init(&f->scene, "flight");
+    TRY(build(NULL, &f->scene, &f->why));
+    return flight_prepare(f, with, elements);
+}
+
+/* With the start that its motion has. */
+static inline status flight_begin(flight *f,
+                                  status (*build)(const double value[], scene *, fault *),
+                                  const char *with, int elements)
+{
+    TRY(flight_ready(f, build, with, elements));
+    return launch(&f->c, &f->masses, &f->how, &f->now, &f->next, &f->why);
+}
+
+static inline void flight_end(flight *f)
+{
+    if (f->scheme != NULL)
+        f->scheme->free(f->scheme);
+    instant_free(&f->now);
+    instant_free(&f->next);
+    carried_free(&f->masses);
+    free(f->result.iteration);
+    model_free(f->m);
+    scene_free(&f->scene);
+}
+
+/* One step, negative backwards. */
+static inline status flight_step(flight *f, double h)
+{
+    double error;
+    step_record record = {.path = f->now.time + h, .increment = h};
+    const status outcome =
+        f->scheme->step(f->scheme, &f->now, h, &f->next, &error, &record, &f->why);
+    if (outcome == STATUS_OK) {
+        instant_copy(f->m, &f->next, &f->now);
+        f->most = record.iterations > f->most ? record.iterations : f->most;
+        f->sum += record.iterations;
+        f->steps++;
+    }
+    history_drop_step(&f->result, &record);
+    return outcome;
+}
+
+static inline double flight_strain_energy(const flight *f)
+{
+    const model *m = f->m;
+    const model_state *s = f->now.state;
+    double sum = 0, none[1] = {0};
+    for (int i = 0; i < m->elements; i++) {
+        double energy = 0;
+        const double *inner = m->inner > 0 ? s->inner + (size_t)(i * m->inner) : none;
+        m->type->stress(m->kind[m->element[i].kind].data, s->e + (size_t)(i * m->strains), inner,
+                        &(stress_output){.energy = &energy});
+        sum += energy;
+    }
+    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+        double e[SPRING_STRAINS];
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s, &m->discrete[i].el, x);
+        spring_strain(m->discrete[i].el.nodes, x,
+                      turns_of_spring(m, s, i - (m->discretes - m->springs)),
+                      &(strain_output){.e = e});
+        sum += dense_quadratic(SPRING_STRAINS, m->discrete[i].spring->stiffness, e) / 2;
+    }
+    return sum;
+}
+
+/* Kinetic energy, momenta. */
+static inline inertia_balance flight_inertia(const flight *f)
+{
+    inertia_balance b;
+    inertia_of(f->m, &f->masses, f->now.state, f->now.v, f->now.ends_known ? f->now.ends : NULL,
+               &b);
+    return b;
+}
+
+static inline double flight_energy(const flight *f)
+{
+    return flight_inertia(f).kinetic + flight_strain_energy(f);
+}
+
+#endif

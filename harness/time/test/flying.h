@@ -1,0 +1,119 @@
+/* Motions step by step, for tests of the integrators themselves. */
+#ifndef BEAMWORK_TEST_FLYING_H
+#define BEAMWORK_TEST_FLYING_H
+
+#include <gsl/gsl_test.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/formulations/formulation.h"
+#include "harness/model/model_impl.h"
+#include "harness/newton/history.h"
+#include "harness/time/damping.h"
+#include "harness/time/integrator.h"
+#include "harness/time/launch.h"
+
+typedef struct flying {
+    formulation chosen;
+    solve_options options;
+    solve_result result;
+    analysis_context c;
+    model *m;
+    carried masses;
+    work work;
+    mesh_damping damping;
+    scheme *scheme;
+    instant now, next;
+    double error; /* that the last step has estimated */
+    fault why;
+} flying;
+
+/* At the begin of the first motion of the scene. */
+static inline status flying_begin(const scene *s, const element_type *type, int elements, flying *f)
+{
+    memset(f, 0, sizeof *f);
+    formulation_default(type, &f->chosen);
+    const model_request wanted = {
+        .scene = s, .type = type, .options = f->chosen.option, .elements = elements};
+    TRY(model_alloc(&wanted, &f->m, &f->why));
+    f->c =
+        (analysis_context){.scene = s, .model = f->m, .options = &f->options, .result = &f->result};
+    context_set_frame(&f->c, 0);
+    const scene_motion *how = scene_motion_of(&s->analysis[0]);
+    TRY(carried_alloc(f->m, &f->masses, &f->why));
+    TRY(damping_begin(f->m, &f->damping, &f->why));
+    TRY(work_alloc(f->m, &f->masses, &f->work, &f->why));
+    const scheme_request request = {
+        .c = &f->c, .masses = &f->masses, .how = how, .work = &f->work, .estimate = 1};
+    TRY(integrator_alloc(&request, &f->scheme, &f->why));
+    TRY(instant_alloc(f->m, &f->now, &f->why));
+    TRY(instant_alloc(f->m, &f->next, &f->why));
+    return launch(&f->c, &f->masses, how, &f->now, &f->next, &f->why);
+}
+
+static inline void flying_end(flying *f)
+{
+    damping_end(f->m, &f->damping);
+    integrator_free(f->scheme);
+    instant_free(&f->now);
+    instant_free(&f->next);
+    carried_free(&f->masses);
+    work_free(&f->work);
+    result_free(&f->result);
+    model_free(f->m);
+}
+
+/* One step of h [s], backwards if negative, to `next`. */
+static inline status flying_try(flying *f, double h)
+{
+    step_record record = {.path = f->now.time + h, .increment = h};
+    const status outcome =
+        f->scheme->step(f->scheme, &f->now, h, &f->next, &f->error, &record, &f->why);
+    history_drop_step(&f->result, &record);
+    f->next.time = record.path;
+    return outcome;
+}
+
+/* The same, and `now` becomes `next` unless it fails. */
+static inline status flying_step(flying *f, double h)
+{
+    const status outcome = flying_try(f, h);
+    if (outcome == STATUS_OK)
+        instant_copy(f->m, &f->next, &f->now);
+    return outcome;
+}
+
+/* All numbers of an instant; returns how many there are, numbers NULL: only that. */
+static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
+{
+    const size_t n = (size_t)(f->m->free + f->m->driven), size = at->state->size,
+                 rates = at->strain != NULL ? 2 * (size_t)(f->m->elements * f->m->strains) : 0,
+                 ends = instant_ends(f->m);
+    if (numbers != NULL) {
+        memcpy(numbers, at->v, n * sizeof *numbers);
+        memcpy(numbers + n, at->a, n * sizeof *numbers);
+        memcpy(numbers + 2 * n, at->algorithm, n * sizeof *numbers);
+        memcpy(numbers + 3 * n, at->state->block, size * sizeof *numbers);
+        numbers[3 * n + size] = at->time;
+        numbers[3 * n + size + 1] = at->work;
+        numbers[3 * n + size + 2] = at->dissipated;
+        numbers[3 * n + size + 3] = at->stress;
+        numbers[3 * n + size + 4] = at->contraction;
+        numbers[3 * n + size + 5] = at->ends_known;
+        if (rates > 0)
+            memcpy(numbers + 3 * n + size + 6, at->strain, rates * sizeof *numbers);
+        if (ends > 0)
+            memcpy(numbers + 3 * n + size + 6 + rates, at->ends, ends * sizeof *numbers);
+    }
+    return 3 * n + size + 6 + rates + ends;
+}
+
+/* All numbers of where it is, to be freed. */
+static inline double *flying_all(const flying *f)
+{
+    double *all = malloc(flying_numbers(f, &f->now, NULL) * sizeof *all);
+    flying_numbers(f, &f->now, all);
+    return all;
+}
+
+#endif

@@ -1,0 +1,147 @@
+/* Rods and bodies on their way, for tests of what carries mass: bodies beside their nodes, sections
+ * whose centre is beside the line, a channel that warps, and where it is asked for a sequence of
+ * angles and ends that are released. */
+#ifndef BEAMWORK_TEST_MASSES_H
+#define BEAMWORK_TEST_MASSES_H
+
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/shared/timed.h"
+#include "elements/math/vec3.h"
+#include "elements/test/random.h"
+#include "harness/formulations/formulation.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
+#include "harness/time/carried.h"
+#include "harness/time/increment.h"
+
+extern const element_type element_collocation, element_geometrically_exact,
+    element_beamw_consistent;
+
+enum { MOST = 120 };
+
+static inline void turn_in_sequence(scene *s, int node)
+{
+    static const double axis[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
+    scene_node_at(s, node)->rotation = SCENE_ROTATION_SEQUENCE;
+    memcpy(scene_node_at(s, node)->axis, axis, sizeof axis);
+}
+
+/* Of a metre of the rods: mass, its centre beside the line, and inertia about that. */
+static const double mass = 1.5, centre[3] = {0, 0.06, -0.1}, about[3] = {0.04, 0.025, 0.015};
+
+static inline section_spec heavy(void)
+{
+    section_spec spec = timed_profile(&(timed_section){
+        .EA = 2e3, .GA = 1e3, .GJ = 3, .EI = 5, .mass = mass, .polar = 1, .rotary = 1});
+    double *M = spec.constants.mass;
+    const double skew[9] = {0,          -centre[2], centre[1], centre[2], 0,
+                            -centre[0], -centre[1], centre[0], 0};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            M[6 * i + 3 + j] = M[6 * (3 + j) + i] = -mass * skew[3 * i + j];
+            M[6 * (3 + i) + 3 + j] = (i == j ? about[i] + mass * vec3_dot(centre, centre) : 0) -
+                                     mass * (centre[i] * centre[j]);
+        }
+    return spec;
+}
+
+/* It warps. */
+static inline section_spec channel(void)
+{
+    static const double point[4][2] = {{0.1, 0.14}, {0, 0.14}, {0, -0.14}, {0.1, -0.14}},
+                        thickness[3] = {0.012, 0.012, 0.012};
+    section_spec spec = section_spec_walls(210e9, 80e9, 3, point, NULL, thickness);
+    spec.density = 100;
+    return spec;
+}
+
+static inline void build(scene *s, int warps, int released)
+{
+    static const double y[3] = {0.1, 1, 0.2};
+    const section_spec spec = warps ? channel() : heavy();
+    scene_init(s, "masses");
+    const int profile = scene_add_section(s, &spec), A = scene_add_node(s, 0, 0, 0),
+              B = scene_add_node(s, 1, 0.1, 0.2), beside = scene_add_attached(s, B, 1.1, 0.3, 0.1),
+              C = scene_add_node(s, 2, 0, 0.3), D = scene_add_node(s, 2.8, 0.4, 0);
+    scene_set_body(s, A,
+                   (scene_body){0.7, {0.1, -0.2, 0.3}, {0.05, 0.06, 0.07, 0.011, -0.012, 0.013}});
+    scene_set_body(s, beside, (scene_body){0.4, {0.2, 0.1, 0}, {0.03, 0.05, 0.04, 0, 0.01, 0}});
+    scene_set_body(s, C, (scene_body){0.5, {0, 0.3, -0.1}, {0.02, 0.03, 0.04, 0.005, 0, 0.003}});
+    if (released)
+        turn_in_sequence(s, C);
+    scene_add_member(s, A, B, profile, y);
+    const int second = scene_add_member(s, beside, C, profile, y),
+              third = scene_add_member(s, C, D, profile, y);
+    if (released) {
+        scene_release_end(s, second, 0, SCENE_RY);
+        scene_release_end(s, second, 0, SCENE_RZ);
+        scene_release_end(s, second, 0, SCENE_UY);
+        scene_release_end(s, second, 0, SCENE_UX);
+        scene_release_end(s, third, 0, SCENE_RX);
+        scene_release_end(s, third, 0, SCENE_RY);
+        scene_release_end(s, third, 0, SCENE_RZ);
+        scene_release_end(s, third, 0, SCENE_UZ);
+    }
+    scene_demand(s, FEATURE_MASS | FEATURE_ROTARY_INERTIA);
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE |
+                      (warps ? FEATURE_SHEAR : 0));
+}
+
+/* A structure on its way. */
+typedef struct moving_one {
+    scene scene;
+    model *m;
+    carried masses;
+    model_state *rest, *now;
+    int all;
+    double inc[MOST], v[MOST], a[MOST];
+} moving_one;
+
+static inline void some(int n, double size, uint64_t *seed, double out[])
+{
+    for (int i = 0; i < n; i++)
+        out[i] = size * random_number(seed);
+}
+
+static inline void begin(moving_one *o, const element_type *type, int released)
+{
+    double option[ELEMENT_MAX_OPTIONS] = {0};
+    fault f = {""};
+    uint64_t seed = 7;
+    memset(o, 0, sizeof *o);
+    build(&o->scene, type == &element_beamw_consistent, released);
+    formulation chosen;
+    formulation_default(type, &chosen);
+    memcpy(option, chosen.option, sizeof option);
+    const model_request request = {
+        .scene = &o->scene, .type = type, .options = option, .elements = 2};
+    const status outcome = model_alloc(&request, &o->m, &f);
+    gsl_test(outcome != STATUS_OK, "%s: %s", type->name, f.text);
+    if (outcome != STATUS_OK)
+        exit(gsl_test_summary());
+    gsl_test(carried_alloc(o->m, &o->masses, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(kinematics_state_alloc(o->m, &o->rest, &f) != STATUS_OK ||
+                 kinematics_state_alloc(o->m, &o->now, &f) != STATUS_OK,
+             "%s", f.text);
+    o->all = o->m->free + o->m->driven;
+    gsl_test(o->all > MOST, "%d coordinates", o->all);
+    some(o->all, 0.4, &seed, o->inc);
+    some(o->all, 1, &seed, o->v);
+    some(o->all, 3, &seed, o->a);
+    increment_apply(o->m, o->rest, o->inc, 0, o->now);
+}
+
+static inline void end(moving_one *o)
+{
+    carried_free(&o->masses);
+    kinematics_state_free(o->rest);
+    kinematics_state_free(o->now);
+    model_free(o->m);
+    scene_free(&o->scene);
+}
+
+#endif

@@ -1,0 +1,258 @@
+#include "harness/time/watches.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness/model/model_impl.h"
+#include "harness/time/aside.h"
+#include "harness/time/reading.h"
+
+enum { PIECES = 4, MOST_HALVINGS = 200 }; /* of a step, between whose ends one root is looked for */
+
+static const double no_sign = 1e-13, /* of the size of what is read */
+    a_jump =
+        1e-3; /* of the values beside a root: a rotation vector changes its sign at half a turn */
+
+static void begin(const watches *s, watched *one, const scene_quantity *q)
+{
+    const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
+    const double end = path->value[path->stations - 1];
+    *one = (watched){.q = q,
+                     .out = &s->out->passing[q - s->c->scene->quantity],
+                     .from = q->passing.from,
+                     .until = q->passing.until > 0 ? fmin(q->passing.until, end) : end,
+                     .noise = no_sign * fmax(1, s->c->model->size)};
+}
+
+status watches_alloc(watches *s, fault *f)
+{
+    const scene *what = s->c->scene;
+    TRY(between_alloc(s->c->model, &s->inside, f));
+    TRY(instant_alloc(s->c->model, &s->at, f));
+    s->one = calloc((size_t)what->quantities + 1, sizeof *s->one);
+    s->out->passing = calloc((size_t)what->quantities + 1, sizeof *s->out->passing);
+    if (s->one == NULL || s->out->passing == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for what a motion passes through");
+    for (int i = 0; i < what->quantities; i++)
+        if (what->quantity[i].analysis == s->analysis &&
+            scene_is_passed(&what->quantity[i], SCENE_MOTION) &&
+            reading_is_kinematic(what->quantity[i].what.kind))
+            begin(s, &s->one[s->count++], &what->quantity[i]);
+    return STATUS_OK;
+}
+
+void watches_free(watches *s)
+{
+    free(s->one);
+    between_free(&s->inside);
+    instant_free(&s->at);
+}
+
+/* As extracted, of the polynomial inside the step. */
+static double value_at(watches *s, const watched *one, double time)
+{
+    between_places(&s->inside, time, &s->at);
+    return reading_of(s->c->model, one->q, s->at.state, s->at.v);
+}
+
+/* Exact for what the polynomial is of fourth degree in. */
+static double slope_at(watches *s, const watched *one, double time)
+{
+    const double d = (s->inside.to->time - s->inside.from->time) / 64;
+    return (8 * (value_at(s, one, time + d) - value_at(s, one, time - d)) -
+            (value_at(s, one, time + 2 * d) - value_at(s, one, time - 2 * d))) /
+           (12 * d);
+}
+
+typedef double along(watches *, const watched *, double time);
+
+static double above_level(watches *s, const watched *one, double time)
+{
+    return value_at(s, one, time) - one->q->passing.level;
+}
+
+/* Root between a and b, where f has the values fa and fb of two signs: secants, halvings where
+ * these are slow. */
+static double root(watches *s, const watched *one, along *f, double a, double fa, double b,
+                   double fb)
+{
+    for (int i = 0; i < MOST_HALVINGS && fa != 0 && fb != 0; i++) {
+        const double width = b - a, secant = b - fb * width / (fb - fa);
+        const double inside = 1e-3 * width;
+        const double x = i % 3 == 2 ? a + width / 2 : fmin(fmax(secant, a + inside), b - inside);
+        if (width <= 2 * DBL_EPSILON * fmax(fabs(a), fabs(b)) || x <= a || x >= b)
+            break;
+        const double fx = f(s, one, x);
+        if ((fx < 0) == (fa < 0)) {
+            a = x;
+            fa = fx;
+        } else {
+            b = x;
+            fb = fx;
+        }
+    }
+    return fabs(fa) < fabs(fb) ? a : b;
+}
+
+/* What a step that ends at the time says otherwise than the polynomial. */
+static status disagreement(watches *s, const watched *one, const instant *from, double time,
+                           double *out, fault *f)
+{
+    const double here = value_at(s, one, time);
+    *out = 0;
+    if (time <= from->time || time >= s->inside.to->time)
+        return STATUS_OK;
+    const status outcome = aside_step(s->c, s->scheme, from, time, &s->at, f);
+    if (outcome == STATUS_OK)
+        *out = fabs(reading_of(s->c->model, one->q, s->at.state, s->at.v) - here);
+    return outcome == STATUS_FAULT ? outcome : STATUS_OK;
+}
+
+static status crossed(watches *s, watched *one, const instant *from, double time, fault *f)
+{
+    double error = 0;
+    TRY(disagreement(s, one, from, time, &error, f));
+    const double slope = fabs(slope_at(s, one, time));
+    error = slope > 0 ? error / slope : 0;
+    if (one->q->reduction == SCENE_CROSSING && one->crossings == one->q->passing.order)
+        *one->out = (outcome_passing){1, time, time, error};
+    if (one->crossings == 0) {
+        one->first = time;
+        one->error = error;
+    }
+    one->last = time;
+    if (++one->crossings > 1) {
+        const double span = time - one->first, period = span / (one->crossings - 1),
+                     doubt = (one->error + error) / span;
+        if (one->q->reduction == SCENE_PERIOD)
+            *one->out = (outcome_passing){1, period, time, doubt * period};
+        if (one->q->reduction == SCENE_PER_SECOND)
+            *one->out = (outcome_passing){1, 1 / period, time, doubt / period};
+    }
+    return STATUS_OK;
+}
+
+/* Does a change to this side count? */
+static int counts(const watched *one, int side)
+{
+    const scene_direction way = one->q->passing.direction;
+    return way == SCENE_EITHER || side == (way == SCENE_RISING ? 1 : -1);
+}
+
+static status watch_level(watches *s, watched *one, const instant *from, const double t[],
+                          const double value[], fault *f)
+{
+    for (int i = 0; i <= PIECES; i++) {
+        const double now = value[i] - one->q->passing.level;
+        const int side = (now > one->noise) - (now < -one->noise);
+        if (side == 0 || side == one->side)
+            continue;
+        const int was = one->side;
+        one->side = side;
+        if (was == 0 || !counts(one, side))
+            continue;
+        const double before = i > 0 ? value[i - 1] - one->q->passing.level : now;
+        const double time = (before < 0) != (now < 0)
+                                ? root(s, one, above_level, t[i - 1], before, t[i], now)
+                                : t[i > 0 ? i - 1 : 0];
+        const int jumps =
+            fabs(above_level(s, one, time)) > a_jump * fmax(fabs(before), fabs(now)) + one->noise;
+        if (!jumps && time >= one->from && time <= one->until)
+            TRY(crossed(s, one, from, time, f));
+    }
+    return STATUS_OK;
+}
+
+static void take_extreme(watched *one, double sign, double value, double time, double error)
+{
+    if (!one->out->known || sign * value > sign * one->out->value)
+        *one->out = (outcome_passing){1, value, time, error};
+}
+
+static status watch_extreme(watches *s, watched *one, const instant *from, double sign,
+                            const double t[], const double value[], fault *f)
+{
+    double most = -INFINITY, least = INFINITY;
+    for (int i = 0; i <= PIECES; i++) {
+        most = fmax(most, sign * value[i]);
+        least = fmin(least, sign * value[i]);
+    }
+    const int hopeless = one->out->known && most + (most - least) / 2 < sign * one->out->value;
+    take_extreme(one, sign, value[0], t[0], 0);
+    take_extreme(one, sign, value[PIECES], t[PIECES], 0);
+    double before = hopeless ? 0 : sign * slope_at(s, one, t[0]);
+    for (int i = 0; i < PIECES && !hopeless; i++) {
+        const double now = sign * slope_at(s, one, t[i + 1]);
+        if (before > 0 && now < 0) {
+            const double time = root(s, one, slope_at, t[i], sign * before, t[i + 1], sign * now);
+            const double there = value_at(s, one, time);
+            double error = 0;
+            if (!one->out->known || sign * there > sign * one->out->value)
+                TRY(disagreement(s, one, from, time, &error, f));
+            take_extreme(one, sign, there, time, error);
+        }
+        before = now;
+    }
+    return STATUS_OK;
+}
+
+/* Three points of Gauss: exact for what is of fifth degree. */
+static void add_mean(watches *s, watched *one, double a, double b)
+{
+    const double half = (b - a) / 2, middle = (a + b) / 2, off = half * sqrt(0.6);
+    one->sum += half *
+                (5 * value_at(s, one, middle - off) + 8 * value_at(s, one, middle) +
+                 5 * value_at(s, one, middle + off)) /
+                9;
+    one->span += b - a;
+    *one->out = (outcome_passing){1, one->sum / one->span, b, 0};
+}
+
+static status watch_step(watches *s, watched *one, const instant *from, fault *f)
+{
+    const double a = fmax(from->time, one->from), b = fmin(s->inside.to->time, one->until);
+    double t[PIECES + 1], value[PIECES + 1];
+    if (!(b > a))
+        return STATUS_OK;
+    if (one->out->known == PASSING_LOST)
+        return STATUS_OK;
+    if (one->q->reduction == SCENE_MEAN) {
+        add_mean(s, one, a, b);
+        if (isnan(one->sum))
+            one->out->known = PASSING_LOST;
+        return STATUS_OK;
+    }
+    for (int i = 0; i <= PIECES; i++) {
+        t[i] = i == PIECES ? b : a + i * (b - a) / PIECES;
+        value[i] = value_at(s, one, t[i]);
+        if (isnan(value[i])) {
+            one->out->known = PASSING_LOST;
+            return STATUS_OK;
+        }
+    }
+    if (one->q->reduction >= SCENE_CROSSING)
+        return watch_level(s, one, from, t, value, f);
+    const int least = one->q->reduction == SCENE_MIN || one->q->reduction == SCENE_MIN_TIME;
+    return watch_extreme(s, one, from, least ? -1 : 1, t, value, f);
+}
+
+status watches_step(watches *s, const instant *from, const instant *to, fault *f)
+{
+    if (s->count == 0)
+        return STATUS_OK;
+    between_take(&s->inside, s->scheme->degree, from, to);
+    for (int i = 0; i < s->count; i++)
+        TRY(watch_step(s, &s->one[i], from, f));
+    return STATUS_OK;
+}
+
+void watches_end(watches *s)
+{
+    for (int i = 0; i < s->count; i++) {
+        outcome_passing *out = s->one[i].out;
+        const scene_reduction how = s->one[i].q->reduction;
+        if (how == SCENE_MAX_TIME || how == SCENE_MIN_TIME)
+            *out = (outcome_passing){out->known, out->time, out->time, 0};
+    }
+}

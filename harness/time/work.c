@@ -1,0 +1,97 @@
+#include "harness/time/work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+#include "harness/model/model_impl.h"
+#include "harness/newton/applied.h"
+#include "harness/newton/linearise.h"
+#include "harness/newton/loads.h"
+#include "harness/time/inertia.h"
+#include "harness/time/kinks.h"
+
+static int is_driven(const model *m, const mesh_element *el)
+{
+    for (int k = 0; k < el->columns; k++)
+        if (el->index[k] >= m->free)
+            return 1;
+    return 0;
+}
+
+status work_alloc(model *m, const carried *masses, work *w, fault *f)
+{
+    *w = (work){.m = m,
+                .masses = masses,
+                .force = calloc(2 * (size_t)(m->free + m->driven) + 1, sizeof *w->force),
+                .element = calloc((size_t)m->elements + 1, sizeof *w->element)};
+    if (w->force == NULL || w->element == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the work of a motion");
+    w->holding = w->force + m->free + m->driven;
+    for (int i = 0; i < m->elements; i++)
+        if (is_driven(m, &m->element[i]))
+            w->element[w->elements++] = i;
+    return STATUS_OK;
+}
+
+void work_free(work *w)
+{
+    free(w->force);
+    free(w->element);
+}
+
+/* Sum over the coordinates; moments of frames whose rates are in their own axes are spatial. */
+static double product(const work *w, const model_state *s, const double along[])
+{
+    const model *m = w->m;
+    double sum = dense_dot(m->free + m->driven, w->force, along);
+    for (int i = 0; i < m->vertices; i++) {
+        const int *at = &m->vertex[i].coordinate[SCENE_RX];
+        double R[9], own[3], moment[3], turned[3];
+        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
+            continue;
+        rotation_matrix(&s->q[4 * i], R);
+        for (int k = 0; k < 3; k++) {
+            own[k] = along[at[k]];
+            moment[k] = w->force[at[k]];
+        }
+        mat3_mul_vec(R, own, turned);
+        sum += vec3_dot(moment, turned) - vec3_dot(moment, own);
+    }
+    return sum;
+}
+
+/* All that acts on driven coordinates from outside, loads too: what stresses and inertia take. */
+static void hold(work *w, const model_state *s, const double v[], const double a[])
+{
+    model *m = w->m;
+    const int all = m->free + m->driven;
+    memset(w->holding, 0, (size_t)all * sizeof *w->holding);
+    inertia_subtract(m, w->masses, s, v, a, w->holding);
+    for (int c = 0; c < all; c++)
+        w->holding[c] = -w->holding[c];
+    linearise_add_internal(m, s, w->elements, w->element, w->holding);
+    memcpy(w->force + m->free, w->holding + m->free, (size_t)m->driven * sizeof *w->force);
+}
+
+double work_power(work *w, const model_state *s, const double v[], const double a[], double time,
+                  const double along[])
+{
+    const model *m = w->m;
+    memset(w->force, 0, (size_t)(m->free + m->driven) * sizeof *w->force);
+    for (int i = 0; i < m->scene->loads; i++)
+        loads_add_one(m, s, &m->scene->load[i], applied_factor(m, &m->scene->load[i], time),
+                      w->force);
+    if (m->driven > 0)
+        hold(w, s, v, a);
+    return product(w, s, along);
+}
+
+double work_trapezoid(work *w, const instant *from, const instant *to, const double inc[])
+{
+    return (work_power(w, from->state, from->v, from->a, from->time, inc) +
+            work_power(w, to->state, to->v, to->a, kinks_before(w->m, to->time), inc)) /
+           2;
+}
