@@ -11,8 +11,8 @@
 
 #include <complex.h>
 
-#include "harness/flutter/judge.h"
-#include "harness/flutter/left.h"
+#include "harness/analysis/flutter_judge.h"
+#include "harness/analysis/flutter_left.h"
 
 /* A point of the path. */
 typedef struct path_point {

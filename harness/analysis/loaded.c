@@ -11,9 +11,9 @@
 
 #include "cases/scene/along_path.h"
 #include "elements/math/pi.h"
+#include "harness/analysis/flutter.h"
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
-#include "harness/flutter/flutter.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/metric.h"

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/flutter/flutter.h"
+#include "harness/analysis/flutter.h"
 #include "harness/newton/context.h"
 #include "harness/newton/linear.h"
 #include "harness/newton/linear_system.h"

@@ -9,7 +9,7 @@
 
 #include "harness/analysis/compliance_walk.h"
 #include "harness/analysis/extract_path.h"
-#include "harness/flutter/within.h"
+#include "harness/analysis/flutter_within.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"

@@ -22,7 +22,7 @@ rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 # The floors of the harness, lowest first: a room includes itself and those before it.
-floors="numerics formulations model section_forces newton time flutter analysis contract language scene_file scene_writer truth study timing judge project schema record shards tables extremes certificate comparison imports export request ranges pace library command manual spread completion contest cli"
+floors="numerics formulations model section_forces newton time analysis contract language scene_file scene_writer truth study timing judge project schema record shards tables extremes certificate comparison imports export request ranges pace library command manual spread completion contest cli"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_JUDGE_H
 #define BEAMWORK_JUDGE_H
 
-#include "harness/flutter/flutter.h"
+#include "harness/analysis/flutter.h"
 
 /* Of one analysis; all zero at first. */
 typedef struct flutter_judge {

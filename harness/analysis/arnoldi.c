@@ -1,4 +1,4 @@
-#include "harness/flutter/arnoldi.h"
+#include "harness/analysis/arnoldi.h"
 
 #include <float.h>
 #include <lapacke.h>

@@ -1,4 +1,4 @@
-#include "harness/flutter/unsymmetric.h"
+#include "harness/analysis/unsymmetric.h"
 
 #include <float.h>
 #include <math.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/flutter/arnoldi.h"
+#include "harness/analysis/arnoldi.h"
 
 /* Coordinates are measured by the roots of the diagonal of K, rates times `second`. */
 typedef struct solver {

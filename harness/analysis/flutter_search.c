@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/flutter/flutter.h"
+#include "harness/analysis/flutter.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/context.h"
 

@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_FLUTTER_H
 #define BEAMWORK_FLUTTER_H
 
-#include "harness/flutter/unsymmetric.h"
+#include "harness/analysis/unsymmetric.h"
 #include "harness/newton/newton.h"
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;

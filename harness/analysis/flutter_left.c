@@ -1,9 +1,9 @@
-#include "harness/flutter/left.h"
+#include "harness/analysis/flutter_left.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "harness/flutter/arnoldi.h"
+#include "harness/analysis/arnoldi.h"
 
 enum {
     FEWEST = 6,

@@ -1,9 +1,9 @@
-#include "harness/flutter/judge.h"
+#include "harness/analysis/flutter_judge.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "harness/flutter/left.h"
+#include "harness/analysis/flutter_left.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/context.h"
 

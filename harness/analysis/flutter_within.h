@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_WITHIN_H
 #define BEAMWORK_WITHIN_H
 
-#include "harness/flutter/judge.h"
+#include "harness/analysis/flutter_judge.h"
 
 /* The step led from one state to the other. *found: path of a part of it whose stability is not
  * between those of the ends; INFINITY: there is none that could be reached. It is not counted as

@@ -1,4 +1,4 @@
-#include "harness/flutter/within.h"
+#include "harness/analysis/flutter_within.h"
 
 #include <math.h>
 

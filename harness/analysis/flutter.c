@@ -1,4 +1,4 @@
-#include "harness/flutter/flutter.h"
+#include "harness/analysis/flutter.h"
 
 #include <math.h>
 #include <stdio.h>
