@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/meaning.h"
 #include "cases/scene/inputs.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/formulations/registry.h"
-#include "harness/scene_writer/meaning.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 #include "harness/truth/glossary.h"

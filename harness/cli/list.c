@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/format/meaning.h"
 #include "elements/feature.h"
 #include "harness/cli/cli.h"
 #include "harness/cli/list_formulation.h"
@@ -10,7 +11,6 @@
 #include "harness/request/list_json.h"
 #include "harness/request/list_subject.h"
 #include "harness/request/runs_on.h"
-#include "harness/scene_writer/meaning.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 

@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/format/key_list.h"
+#include "cases/format/schema_file.h"
+#include "cases/format/write.h"
 #include "harness/cli/cli.h"
 #include "harness/record/output.h"
-#include "harness/scene_file/key_list.h"
-#include "harness/scene_writer/schema_file.h"
-#include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/write.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
-#include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 #include "harness/truth/derive.h"

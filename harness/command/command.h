@@ -4,9 +4,9 @@
 
 #include <argp.h>
 
+#include "cases/format/scene_file.h"
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/formulations.h"
-#include "harness/scene_file/scene_file.h"
 
 enum {
     EXIT_AS_EXPECTED = 0,

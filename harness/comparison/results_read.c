@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/line.h"
 #include "harness/comparison/results.h"
-#include "harness/language/line.h"
 
 static int compare_cells(const void *a, const void *b)
 {

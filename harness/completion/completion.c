@@ -2,9 +2,9 @@
 
 #include <string.h>
 
+#include "cases/format/scene_file.h"
 #include "harness/completion/names.h"
 #include "harness/formulations/case_find.h"
-#include "harness/scene_file/scene_file.h"
 
 enum { SAID = 400 };
 

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/scene_file.h"
+#include "cases/format/write.h"
 #include "harness/fuzz/fuzz.h"
 #include "harness/project/scene_truths.h"
-#include "harness/scene_file/scene_file.h"
-#include "harness/scene_writer/write.h"
 
 /* The scene at its defaults as text, malloced; NULL: it cannot be written. */
 static char *written(const scene_file *file, size_t *size)

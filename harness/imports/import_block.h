@@ -2,9 +2,9 @@
 #ifndef BEAMWORK_IMPORT_BLOCK_H
 #define BEAMWORK_IMPORT_BLOCK_H
 
+#include "cases/format/mistakes.h"
+#include "cases/format/scene_file.h"
 #include "harness/imports/axes.h"
-#include "harness/language/mistakes.h"
-#include "harness/scene_file/scene_file.h"
 #include "harness/study/sweep.h"
 
 enum { IMPORT_SCENES = 32, IMPORT_ROWS = 200000, IMPORT_TEXT = 512 };

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/line.h"
 #include "elements/shared/choice.h"
-#include "harness/language/line.h"
 
 typedef enum column {
     QUANTITY,

@@ -15,8 +15,8 @@
 #ifndef BEAMWORK_IMPORT_FILE_H
 #define BEAMWORK_IMPORT_FILE_H
 
+#include "cases/format/mistakes.h"
 #include "harness/imports/import_block.h"
-#include "harness/language/mistakes.h"
 
 /* All mistakes of the file go to m, by line; what it says to `into`. FAULT: it cannot be read. */
 status import_file_read(const char *path, import_set *into, mistakes *m, fault *f);

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/document.h"
+#include "cases/format/line.h"
 #include "harness/imports/map_keys.h"
-#include "harness/language/document.h"
-#include "harness/language/line.h"
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };
 

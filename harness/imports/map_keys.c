@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/format/line.h"
 #include "elements/shared/choice.h"
-#include "harness/language/line.h"
 
 static const char *name_at(const void *context, int i)
 {

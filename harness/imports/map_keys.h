@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MAP_KEYS_H
 #define BEAMWORK_MAP_KEYS_H
 
-#include "harness/language/document.h"
+#include "cases/format/document.h"
 
 /* A mistake for every key that is not in the list, which ends with NULL. */
 void map_keys_check(const document_node *map, const char *const known[], mistakes *m);

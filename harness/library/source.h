@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_SOURCE_H
 #define BEAMWORK_SOURCE_H
 
+#include "cases/format/scene_file.h"
 #include "harness/library/beamwork.h"
-#include "harness/scene_file/scene_file.h"
 #include "harness/truth/truths.h"
 
 typedef struct source source;

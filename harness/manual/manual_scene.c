@@ -1,6 +1,6 @@
+#include "cases/format/key_list.h"
 #include "harness/manual/manual.h"
 #include "harness/manual/roff.h"
-#include "harness/scene_file/key_list.h"
 
 static const char opening[] = ".Bl -tag -width 2n -offset %s -compact\n";
 

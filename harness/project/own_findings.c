@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/line.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/registry.h"
 #include "harness/judge/proposal.h"
 #include "harness/judge/verdict.h"
-#include "harness/language/line.h"
 #include "harness/project/own_names.h"
 #include "harness/project/own_table.h"
 

@@ -2,10 +2,10 @@
 
 #include <string.h>
 
+#include "cases/format/mistakes.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/registry.h"
-#include "harness/language/mistakes.h"
 
 static int is_among(const case_type *const list[], const case_type *type)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/language/line.h"
+#include "cases/format/line.h"
 
 /* A quote that does not end in its line would take the next lines along. */
 static int quotes_are_even(const char *line)

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_OWN_TABLE_H
 #define BEAMWORK_OWN_TABLE_H
 
-#include "harness/language/mistakes.h"
+#include "cases/format/mistakes.h"
 
 enum { OWN_TABLE_COLUMNS = 16 };
 

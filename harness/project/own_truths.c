@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/line.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulation.h"
-#include "harness/language/line.h"
 #include "harness/project/own_names.h"
 #include "harness/project/own_table.h"
 #include "harness/truth/truth_index.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_OWN_TRUTHS_H
 #define BEAMWORK_OWN_TRUTHS_H
 
-#include "harness/language/mistakes.h"
+#include "cases/format/mistakes.h"
 #include "harness/truth/truths.h"
 
 /* Adds the rows of a file to those of t; run: the cases of the run, NULL behind the last. only: of

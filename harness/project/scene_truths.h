@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SCENE_TRUTHS_H
 #define BEAMWORK_SCENE_TRUTHS_H
 
-#include "harness/scene_file/scene_file.h"
+#include "cases/format/scene_file.h"
 #include "harness/truth/truths.h"
 
 /* Adds the file's truths that hold at a point of its parameters, and their values there. */

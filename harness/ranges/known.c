@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/write.h"
 #include "harness/formulations/parameters.h"
 #include "harness/model/features.h"
 #include "harness/project/scene_truths.h"
-#include "harness/scene_writer/write.h"
 #include "harness/truth/derive.h"
 #include "harness/truth/truth.h"
 

@@ -3,11 +3,11 @@
 #ifndef BEAMWORK_RANGES_H
 #define BEAMWORK_RANGES_H
 
+#include "cases/format/scene_file.h"
 #include "cases/scene/omission.h"
 #include "harness/formulations/formulation.h"
 #include "harness/ranges/design.h"
 #include "harness/ranges/rows.h"
-#include "harness/scene_file/scene_file.h"
 #include "harness/study/sweep.h"
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };

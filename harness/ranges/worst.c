@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/write.h"
 #include "harness/ranges/ranges_points.h"
 #include "harness/record/output_folder.h"
-#include "harness/scene_writer/write.h"
 #include "harness/study/cell.h"
 
 static void write_text(FILE *to, const void *text)

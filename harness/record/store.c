@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/write.h"
 #include "harness/judge/sentence.h"
 #include "harness/record/record_rows.h"
 #include "harness/record/store_shapes.h"
 #include "harness/record/vtkhdf.h"
-#include "harness/scene_writer/write.h"
 #include "harness/schema/gather.h"
 #include "harness/timing/price.h"
 

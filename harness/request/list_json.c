@@ -3,6 +3,7 @@
 #include <float.h>
 #include <string.h>
 
+#include "cases/format/meaning.h"
 #include "elements/feature.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
@@ -11,7 +12,6 @@
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 #include "harness/request/runs_on.h"
-#include "harness/scene_writer/meaning.h"
 #include "harness/study/cell.h"
 
 enum { MOST_CASES = 256 };

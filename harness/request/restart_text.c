@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/scene_writer/write.h"
+#include "cases/format/write.h"
 
 /* No motion has another station than this one. */
 static void equal_stations(scene *plain, double *zero)

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cases/format/meaning.h"
 #include "cases/scene/names.h"
 #include "harness/formulations/assignment.h"
-#include "harness/scene_writer/meaning.h"
 #include "harness/schema/assumptions.h"
 #include "harness/schema/fields_keys.h"
 

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/format/scene_file.h"
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/words.h"
 #include "harness/judge/rounding.h"
 #include "harness/judge/sentence.h"
-#include "harness/scene_file/scene_file.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 4 };

@@ -65,7 +65,7 @@ def runs(program, scratch):
 
 def scenes():
     """Scenes that are read, and those with a planted mistake."""
-    for folder in ("cases/examples", "harness/scene_file/test/bad"):
+    for folder in ("cases/examples", "cases/format/test/bad"):
         for path in sorted((ROOT / folder).glob("*.yaml")):
             yield path.read_bytes()
 

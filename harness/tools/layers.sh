@@ -21,8 +21,9 @@ rule elements/beamw 'elements/(sheet|exact)' 'families borrow from shared/ only'
 rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
+rule cases/scene 'cases/format/' 'a scene knows no file'
 # The floors of the harness, lowest first: a room includes itself and those before it.
-floors="numerics formulations model section_forces newton time analysis contract language scene_file scene_writer truth study timing judge project schema record shards tables extremes certificate comparison imports export request ranges pace library command manual spread completion contest cli"
+floors="numerics formulations model section_forces newton time analysis contract truth study timing judge project schema record shards tables extremes certificate comparison imports export request ranges pace library command manual spread completion contest cli"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}
@@ -37,7 +38,7 @@ for file in elements/*.c cases/*.c; do
     name=$(basename "$file" .c)
     quoted="\"$name\"|"
     case $name in release) quoted="" ;; esac # a word of scene files, too
-    hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness --include='*.c' --include='*.h' 2>/dev/null | grep -vE '/(test|kit)/' || true)
+    hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness cases/format --include='*.c' --include='*.h' 2>/dev/null | grep -vE '/(test|kit)/' || true)
     if [ -n "$hits" ]; then
         echo "$hits" | sed "s|\$|   <- the harness names $name|"
         bad=1

@@ -12,7 +12,7 @@ from reports.drawing.canvas import Canvas, boxes_overlap
 from reports.style import plt
 
 
-LOADED = ROOT / "harness/scene_file/test/good/loaded.yaml"
+LOADED = ROOT / "cases/format/test/good/loaded.yaml"
 
 
 def written():

@@ -4,7 +4,7 @@ import io
 import re
 import unittest
 
-from harness.scene_file.test.scene_case import SceneCase, values
+from cases.format.test.scene_case import SceneCase, values
 
 ASKED = {"coupled_beam": ("asked=frequencies",), "sheet_cantilever": ("modes=3",),
          "tapered_cantilever": ("section=wedge", "asked=waves")}

@@ -7,7 +7,7 @@ import re
 
 import h5py
 
-from harness.scene_file.test.scene_case import SceneCase, values
+from cases.format.test.scene_case import SceneCase, values
 
 WHOLE = ("--set", "omit=none")
 

@@ -3,7 +3,7 @@ unequal length, what a tension and a rotation do to torsion, rotary inertia; wha
 import math
 import unittest
 
-from harness.scene_file.test.scene_case import SceneCase, values
+from cases.format.test.scene_case import SceneCase, values
 
 MATERIAL = "young: 210e9, shear_modulus: 81e9, density: 7850"
 E, G, RHO = 210e9, 81e9, 7850

@@ -2,7 +2,7 @@
 import csv
 import unittest
 
-from harness.scene_file.test.scene_case import SceneCase
+from cases.format.test.scene_case import SceneCase
 from harness.test.program import TRUTHS
 
 # Turned quickly out of its place under its weight, with a load that comes at once.

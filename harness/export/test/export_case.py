@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 from harness.export import read_back
-from harness.scene_file.test.scene_case import EXAMPLES, SceneCase
+from cases.format.test.scene_case import EXAMPLES, SceneCase
 
 CCX = shutil.which("ccx")
 needs_ccx = unittest.skipUnless(CCX, "ccx (Debian: calculix-ccx) is not installed")

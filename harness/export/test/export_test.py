@@ -13,7 +13,7 @@ from harness.export.test.export_case import (
     CHANNEL, HEIGHT, LENGTH, PATH, RECTANGLE, WALLS, WIDTH, cantilever, hinge, mesh_of,
     ExportTest,
 )
-from harness.scene_file.test.scene_case import EXAMPLES
+from cases.format.test.scene_case import EXAMPLES
 from harness.test.program import ROOT, run
 
 

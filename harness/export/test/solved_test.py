@@ -7,7 +7,7 @@ from harness.export.test.export_case import (
     CHANNEL, HEIGHT, INERTIA, LENGTH, PATH, PERCENT, RECTANGLE, TIP, WIDTH, YOUNG,
     cantilever, needs_ccx, ExportTest,
 )
-from harness.scene_file.test.scene_case import EXAMPLES
+from cases.format.test.scene_case import EXAMPLES
 
 
 @needs_ccx

@@ -9,11 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cases/format/scene_file.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/registry.h"
 #include "harness/project/scene_truths.h"
 #include "harness/record/store.h"
-#include "harness/scene_file/scene_file.h"
 #include "harness/study/plan.h"
 
 void *__real_malloc(size_t size);

@@ -1,0 +1,224 @@
+#include "cases/format/build.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/builder.h"
+#include "cases/format/expression.h"
+#include "cases/format/range.h"
+#include "cases/scene/omission.h"
+#include "cases/scene/unit.h"
+#include "cases/scene/warping.h"
+
+static const char *const list_name[LISTS] = {"sections", "nodes", "members",  "springs",
+                                             "motions",  "loads", "analyses", "quantities"};
+
+/* A name of an entry that others can use, once. */
+static void check_name(const builder *b, builder_list list, int i)
+{
+    const unrolled *entry = &b->list[list].entry[i];
+    const size_t length = strlen(entry->name);
+    if (length == 0 || length >= SCENE_NAME)
+        document_mistake(b->mistakes, entry->place, 0, "a name of %zu characters; give 1 to %d",
+                         length, SCENE_NAME - 1);
+    for (int k = 0; k < i; k++)
+        if (strcmp(b->list[list].entry[k].name, entry->name) == 0) {
+            document_mistake(b->mistakes, entry->place, 0,
+                             "'%s' is there already; put the names of the loops into it: NAME_$i",
+                             entry->name);
+            return;
+        }
+}
+
+static void list_own(builder *b, builder_list i)
+{
+    const int before = b->mistakes->count + b->mistakes->more;
+    b->list[i].count = unroll_entries(document_find(b->root, list_name[i]), b->names, b->arena,
+                                      b->mistakes, &b->list[i].entry);
+    b->list[i].incomplete = b->mistakes->count + b->mistakes->more > before;
+}
+
+void build_sections(builder *b)
+{
+    list_own(b, LIST_SECTIONS);
+    builder_sections(b);
+}
+
+/* Entries of the scene's own lists but sections, and behind them those of its instances. */
+static void list_entries(builder *b)
+{
+    static const builder_list placed[PLACEMENT_LISTS] = {LIST_NODES, LIST_MEMBERS, LIST_SPRINGS,
+                                                         LIST_LOADS};
+    unrolled *list[PLACEMENT_LISTS];
+    int count[PLACEMENT_LISTS];
+    for (int i = LIST_SECTIONS + 1; i < LISTS; i++)
+        list_own(b, (builder_list)i);
+    for (int k = 0; k < PLACEMENT_LISTS; k++) {
+        list[k] = b->list[placed[k]].entry;
+        count[k] = b->list[placed[k]].count;
+    }
+    const int before = b->mistakes->count + b->mistakes->more;
+    placement_unroll(b->root, b->names, b->arena, b->mistakes, list, count);
+    const int incomplete = b->mistakes->count + b->mistakes->more > before;
+    for (int k = 0; k < PLACEMENT_LISTS; k++) {
+        b->list[placed[k]].entry = list[k];
+        b->list[placed[k]].count = count[k];
+        b->list[placed[k]].incomplete |= incomplete;
+    }
+    for (int i = 0; i < LISTS; i++)
+        for (int k = 0; k < b->list[i].count; k++)
+            check_name(b, (builder_list)i, k);
+}
+
+/* What earlier versions had in its place: what it does not list is left out, but for warping, which
+ * every section had that has any. */
+static void read_needs(const fields *f)
+{
+    static const char choices[] =
+        "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|engesser|haringx";
+    enum { ENGESSER = 1 << 6, HARINGX = 1 << 7 };
+    const unsigned needs = fields_words(f, "needs", choices);
+    scene *s = f->b->scene;
+    for (int i = 0; scene_omissions[i].word != NULL; i++)
+        if (!(needs >> i & 1u) && scene_omissions[i].feature != FEATURE_WARPING)
+            scene_omit(s, scene_omissions[i].feature);
+    int sheared = (needs & 1u) != 0;
+    for (int i = 0; i < s->sections; i++)
+        sheared |= s->section[i].kind == SECTION_MATRICES;
+    s->shear_theory = needs & HARINGX || !sheared ? SCENE_SHEAR_HARINGX
+                      : needs & ENGESSER          ? SCENE_SHEAR_ENGESSER
+                                                  : SCENE_SHEAR_OWN;
+}
+
+static void read_physics(builder *b)
+{
+    static const char choices[] =
+        "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping|all|none";
+    enum { ALL = 1 << 6 };
+    const fields f = {b, b->names, b->root, b->root, NULL};
+    if (!fields_have(&f, "needs")) {
+        const unsigned omits = fields_words(&f, "omit", choices);
+        for (int i = 0; scene_omissions[i].word != NULL; i++)
+            if (omits >> i & 1u || omits & ALL)
+                scene_omit(b->scene, scene_omissions[i].feature);
+        b->scene->shear_theory =
+            (scene_shear)fields_word(&f, "shear_theory", "haringx|engesser|own", 0);
+        return;
+    }
+    for (int i = 0; i < b->root->count; i++)
+        if (strcmp(b->root->key[i]->text, "omit") == 0 ||
+            strcmp(b->root->key[i]->text, "shear_theory") == 0)
+            document_mistake(b->mistakes, b->root->key[i], 0,
+                             "%s: 'needs' of earlier versions stands beside it; take 'needs' out",
+                             b->root->key[i]->text);
+    read_needs(&f);
+}
+
+static void read_plane(builder *b)
+{
+    const fields f = {b, b->names, b->root, b->root, NULL};
+    b->scene->lumped = fields_word(&f, "mass", "consistent|lumped", 0);
+    b->scene->plane = (scene_plane)(fields_word(&f, "plane", SCENE_PLANE_CHOICES, -1) + 1);
+}
+
+static void read_meshes(builder *b)
+{
+    static const int usual[] = {1, 2, 4, 8};
+    const fields f = {b, b->names, b->root, b->root, NULL};
+    double *value;
+    int mesh[SCENE_MESHES];
+    const int count = fields_values(&f, "meshes", &value);
+    if (count == 0) {
+        scene_meshes(b->scene, 4, usual);
+        return;
+    }
+    const document_node *n = document_find(b->root, "meshes");
+    if (count > SCENE_MESHES)
+        document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, SCENE_MESHES);
+    for (int i = 0; i < count && i < SCENE_MESHES; i++) {
+        mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 1;
+        if (mesh[i] != value[i])
+            document_mistake(b->mistakes, n, 0, "a mesh of %g elements; give whole numbers from 1",
+                             value[i]);
+    }
+    scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
+}
+
+/* Where the entry stands that a refusal speaks of ("node tip: ..."), and what it says of it. */
+static void tell_refusal(const builder *b, const char *text)
+{
+    static const char *const word[LISTS] = {"section ", "node ", "member ",   "spring ",
+                                            "driver ",  "load ", "analysis ", "quantity "};
+    for (int k = 0; k < LISTS; k++) {
+        const size_t length = strlen(word[k]);
+        if (strncmp(text, word[k], length) != 0)
+            continue;
+        for (int i = 0; i < b->list[k].count; i++) {
+            const unrolled *entry = &b->list[k].entry[i];
+            const size_t name = strlen(entry->name);
+            if (strncmp(text + length, entry->name, name) != 0 ||
+                strncmp(text + length + name, ": ", 2) != 0)
+                continue;
+            document_mistake(b->mistakes, entry->place, 0, "%s", text + length);
+            return;
+        }
+    }
+    document_mistake(b->mistakes, b->root, 0, "%s", text);
+}
+
+/* From the units of the file, in which quantities are reported. own: the rest are not of the file.
+ */
+static void to_si(const builder *b, int own)
+{
+    fault f = {""};
+    scene *s = b->scene;
+    for (int i = own; i < s->quantities; i++) {
+        char unit[SCENE_UNIT];
+        units_translate(&b->units, s->quantity[i].unit, sizeof unit, unit);
+        memcpy(s->quantity[i].unit, unit, sizeof unit);
+    }
+    scene_change_force(s, b->units.force);
+    if (scene_change_unit(s, b->units.length, &f) != STATUS_OK)
+        tell_refusal(b, f.text);
+}
+
+void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
+                 mistakes *m, scene *out)
+{
+    builder b = {.unsaid_warping = ends == BUILD_FREE ? SCENE_WARP_FREE : SCENE_WARP_BY_SUPPORT,
+                 .arena = a,
+                 .mistakes = m,
+                 .scene = out,
+                 .root = root};
+    fault f = {""};
+    units_read(document_find(root, "units"), m, &b.units);
+    b.names = unroll_let(document_find(root, "let"), names, a, m);
+    build_sections(&b);
+    list_entries(&b);
+    if (a->failed) {
+        m->out_of_memory = 1;
+        return;
+    }
+    if (b.list[LIST_MEMBERS].count == 0 && !b.list[LIST_MEMBERS].incomplete)
+        document_mistake(m, root, 0,
+                         "the scene has no members; add members: {NAME: {from, to, section, y}}");
+    builder_nodes(&b);
+    builder_members(&b);
+    builder_springs(&b);
+    scene_warping_by_supports(out);
+    builder_motions(&b);
+    builder_loads(&b);
+    builder_analyses(&b);
+    builder_quantities(&b);
+    const int own = out->quantities;
+    builder_defaults(&b);
+    read_plane(&b);
+    read_physics(&b);
+    read_meshes(&b);
+    m->out_of_memory |= a->failed || out->out_of_memory;
+    if (b.units.given && m->count == 0 && !m->out_of_memory)
+        to_si(&b, own);
+    if (m->count == 0 && !m->out_of_memory && scene_validate(out, &f) != STATUS_OK)
+        tell_refusal(&b, f.text);
+}

@@ -1,0 +1,284 @@
+/* Springs of a scene and what loads it. */
+#include <string.h>
+
+#include "cases/format/builder.h"
+
+static const char *const key_of[] = {"force", "moment", "distributed", "distributed_moment",
+                                     "gravity"};
+
+/* In the axes of a member, which turn with an instance by themselves. */
+static int along_member(const fields *f, const char *key, double out[3])
+{
+    return fields_vector(f, key, 3, out);
+}
+
+/* Adds one load of the scene, as the entry describes it; its index. */
+static int add(const fields *f, const scene_load *what)
+{
+    scene *s = f->b->scene;
+    double *path, *factor;
+    const int load = scene_add_load(s, what->kind, what->where, 0, 0, 0);
+    *scene_load_at(s, load) = *what; /* has neither a name nor factors yet */
+    if (fields_have(f, "path") || fields_have(f, "factor")) {
+        const int stations = builder_stations(f, "factor", &path, &factor);
+        if (stations > 0 && load >= 0)
+            scene_set_factor(s, load, stations, path, factor);
+    }
+    builder_function(f, load, scene_load_piece, 0);
+    return load;
+}
+
+static void mistake_at(const fields *f, const char *key, const char *words)
+{
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0, "%s", words);
+}
+
+/* Is its `on` the word, and the name of nothing? */
+static int is_on_all(const fields *f)
+{
+    const document_node *on = document_find(f->map, "on");
+    return fields_have(f, "gravity") && on != NULL && on->kind == DOCUMENT_TEXT &&
+           strcmp(on->text, "all") == 0 && !fields_names(f, "on", LIST_MEMBERS) &&
+           !fields_names(f, "on", LIST_NODES);
+}
+
+static int is_heavy(const scene *s, const scene_member *m)
+{
+    const int profile[2] = {m->section, m->section_q};
+    section c;
+    for (int k = 0; k < 2; k++)
+        if (profile[k] >= 0 && scene_constants(s, profile[k], &c, NULL) == STATUS_OK &&
+            c.density > 0)
+            return 1;
+    return 0;
+}
+
+/* The same gravity on a body. */
+static scene_load at_centre(const scene_load *what)
+{
+    scene_load out = *what;
+    out.kind = SCENE_WEIGHT;
+    out.range[1] = 0;
+    return out;
+}
+
+/* Gravity on each member that has a density and each body that has a mass; a mistake is told
+ * once. */
+static void weigh_all(const fields *f, scene_load *what)
+{
+    const scene *s = f->b->scene;
+    const int before = s->loads, told = f->b->mistakes->count;
+    if (f->placed != NULL)
+        mistake_at(f, "on",
+                   "gravity on all is of the whole scene and not of a part; put it among "
+                   "the loads of the scene");
+    for (what->where = 0; what->where < s->members && f->b->mistakes->count == told; what->where++)
+        if (is_heavy(s, &s->member[what->where]))
+            add(f, what);
+    *what = at_centre(what);
+    what->lumped = 0;
+    for (what->where = 0; what->where < s->nodes && f->b->mistakes->count == told; what->where++)
+        if (s->node[what->where].body.mass > 0)
+            add(f, what);
+    if (s->loads == before && f->b->mistakes->count == told)
+        mistake_at(f, "on",
+                   "nothing of the scene has a mass; give sections a density or nodes a "
+                   "mass");
+}
+
+/* Of a body. */
+static void check_weight(const fields *f, const scene_load *what)
+{
+    if (what->where >= 0 && scene_node_at(f->b->scene, what->where)->body.mass == 0)
+        mistake_at(f, "on",
+                   "gravity on a node that has no mass; give it mass: [kg], or name a member");
+}
+
+/* The entry whose gravity is on all; -1: none. */
+static int whole_of(builder *b)
+{
+    for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
+        const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
+        if (is_on_all(&f))
+            return i;
+    }
+    return -1;
+}
+
+static void check_gravity(const fields *f, const scene_load *what, int whole)
+{
+    if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER || what->follower)
+        mistake_at(f, "gravity",
+                   "weight acts at centres of mass along fixed axes; leave out 'at', 'axes' and "
+                   "'follower'");
+    if (whole >= 0 && !is_on_all(f))
+        document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
+                         "its weight is in '%.40s' already, which is on all; leave one out",
+                         f->b->list[LIST_LOADS].entry[whole].name);
+}
+
+/* A force or a moment with a place within a member is of another kind than one at a node. */
+static scene_load_kind kind_of(const fields *f, int given)
+{
+    const int within = fields_have(f, "where");
+    return given == SCENE_FORCE    ? (within ? SCENE_MEMBER_FORCE : SCENE_FORCE)
+           : given == SCENE_MOMENT ? (within ? SCENE_MEMBER_MOMENT : SCENE_MOMENT)
+                                   : (scene_load_kind)given;
+}
+
+/* Of the member's length. */
+static double part_of(const fields *f, const char *key, double otherwise)
+{
+    const double part = fields_number(f, key, otherwise);
+    if (part >= 0 && part <= 1)
+        return part;
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                     "%s = %g; give a part of the member's length, from 0 to 1", key, part);
+    return otherwise;
+}
+
+/* Keys that a load of this kind cannot have. */
+static void check_keys(const fields *f, int given)
+{
+    static const char *const of_range[] = {"from", "to", "to_value"};
+    if (fields_have(f, "where") && given > SCENE_MOMENT)
+        mistake_at(f, "where",
+                   given == SCENE_GRAVITY
+                       ? "where: a place of a force or a moment, and gravity is on all of a "
+                         "member; take it away"
+                       : "where: a place of a force or a moment; a distributed load begins and "
+                         "ends at 'from' and 'to'");
+    for (int k = 0; k < 3; k++) {
+        if (given == SCENE_DISTRIBUTED || given == SCENE_DISTRIBUTED_MOMENT ||
+            !fields_have(f, of_range[k]))
+            continue;
+        document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
+                         "%s: of a distributed load; %s", of_range[k],
+                         given == SCENE_GRAVITY
+                             ? "gravity is on all of a member, take it away"
+                             : "a force or a moment within a member is at one place, 'where'");
+    }
+}
+
+/* Where on its member it acts. */
+static void read_range(const fields *f, int given, scene_load *what)
+{
+    check_keys(f, given);
+    what->lumped = fields_word(f, "lumped", "false|true|no|yes", 0) % 2;
+    if (scene_load_within(what))
+        what->range[0] = what->range[1] = part_of(f, "where", 0);
+    if (given != SCENE_DISTRIBUTED && given != SCENE_DISTRIBUTED_MOMENT)
+        return;
+    what->range[0] = part_of(f, "from", 0);
+    what->range[1] = part_of(f, "to", 1);
+    if (what->range[0] < what->range[1])
+        return;
+    document_mistake(f->b->mistakes, document_find(f->map, fields_have(f, "to") ? "to" : "from"), 0,
+                     "from %g to %g of the member's length; give a larger 'to' than 'from'",
+                     what->range[0], what->range[1]);
+}
+
+/* The node or the member that a load is on. */
+static int place_of(const fields *f, const scene_load *what)
+{
+    const int node = fields_names(f, "on", LIST_NODES),
+              member = fields_names(f, "on", LIST_MEMBERS), within = scene_load_within(what);
+    const char *on = fields_text(f, "on", "");
+    if (what->lumped && (!scene_load_along(what) || within))
+        mistake_at(f, "lumped",
+                   "lumped: of distributed loads and of gravity on a member, and this acts at one "
+                   "place; take it away");
+    if (within && node && !member) {
+        document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
+                         "where: a part of a member's length, and '%.40s' is a node; name a "
+                         "member, or take it away",
+                         on);
+        return SCENE_NONE;
+    }
+    if (what->kind <= SCENE_MOMENT && member && !node) {
+        document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
+                         "'%.40s' is a member; say where of its length, with 'where' from 0 to 1, "
+                         "or name a node",
+                         on);
+        return SCENE_NONE;
+    }
+    return fields_entry(f, "on", scene_load_along(what) ? LIST_MEMBERS : LIST_NODES);
+}
+
+void builder_loads(builder *b)
+{
+    const int whole = whole_of(b);
+    for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
+        const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
+        int given = SCENE_FORCE;
+        while (given < SCENE_GRAVITY && !fields_have(&f, key_of[given]))
+            given++;
+        scene_load what = scene_load_of(kind_of(&f, given), SCENE_NONE, 0, 0, 0);
+        what.axes =
+            fields_word(&f, "axes", "fixed|member", 0) == 1 ? SCENE_AXES_MEMBER : SCENE_AXES_FIXED;
+        what.follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
+        int (*const vector_of)(const fields *, const char *, double[3]) =
+            what.axes == SCENE_AXES_MEMBER ? along_member : fields_direction;
+        vector_of(&f, key_of[given], what.vector);
+        vector_of(&f, "at", what.at);
+        what.varies = vector_of(&f, "to_value", what.last);
+        read_range(&f, given, &what);
+        if (what.kind == SCENE_GRAVITY)
+            check_gravity(&f, &what, whole);
+        if (is_on_all(&f)) {
+            const int first = b->scene->loads;
+            weigh_all(&f, &what);
+            for (int k = first; k < b->scene->loads; k++)
+                builder_call(b, SCENE_LOADS, k, LIST_LOADS, i);
+            continue;
+        }
+        if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", LIST_MEMBERS) &&
+            fields_names(&f, "on", LIST_NODES))
+            what = at_centre(&what);
+        what.where = place_of(&f, &what);
+        if (what.kind == SCENE_WEIGHT)
+            check_weight(&f, &what);
+        builder_call(b, SCENE_LOADS, add(&f, &what), LIST_LOADS, i);
+    }
+}
+
+/* In a part that is turned the stiffness is in its axes: K <- T K T^T, T = diag(R, R). */
+static void turn_stiffness(const placement *placed, double K[36])
+{
+    double turned[36];
+    if (placed == NULL || !placed->turned)
+        return;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < 36; i += 3)
+            placement_turn(placed, &K[i]);
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < 6; j++)
+                turned[6 * i + j] = K[6 * j + i];
+        memcpy(K, turned, sizeof turned);
+    }
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            K[6 * i + j] = (turned[6 * i + j] + turned[6 * j + i]) / 2;
+}
+
+void builder_springs(builder *b)
+{
+    for (int i = 0; i < b->list[LIST_SPRINGS].count; i++) {
+        const fields f = fields_of(b, &b->list[LIST_SPRINGS].entry[i]);
+        const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
+        double *given, stiffness[36] = {0};
+        const int count = fields_values(&f, "stiffness", &given);
+        if (count == 36)
+            memcpy(stiffness, given, sizeof stiffness);
+        if (count == 6)
+            for (int k = 0; k < 6; k++)
+                stiffness[7 * k] = given[k];
+        if (count != 6 && count != 36)
+            document_mistake(b->mistakes, document_find(f.map, "stiffness"), 0,
+                             "stiffness: %d numbers; give six, or the 36 of a matrix", count);
+        else
+            turn_stiffness(f.placed, stiffness);
+        builder_call(b, SCENE_SPRINGS, scene_add_spring(b->scene, p, q, stiffness), LIST_SPRINGS,
+                     i);
+    }
+}

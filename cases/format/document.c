@@ -1,0 +1,299 @@
+#include "cases/format/document.h"
+
+#include <stdarg.h>
+#include <string.h>
+#include <yaml.h>
+
+typedef struct reader {
+    yaml_parser_t parser;
+    arena *arena;
+    mistakes *mistakes;
+    int nodes;
+} reader;
+
+enum { MOST_NODES = 100000, MOST_TEXT = 4000 };
+
+static document_node *read_node(reader *r, const yaml_event_t *event, int depth);
+
+static void *refuse(reader *r, yaml_mark_t at, const char *what)
+{
+    mistakes_add(r->mistakes, (int)at.line + 1, (int)at.column + 1, "%s", what);
+    return NULL;
+}
+
+/* What the parser found; its own words where nothing better is known. */
+static void tell_syntax(reader *r)
+{
+    const yaml_parser_t *p = &r->parser;
+    const char *context = p->context != NULL ? p->context : "";
+    const char *problem = p->problem != NULL ? p->problem : "this cannot be read";
+    const int line = (int)p->problem_mark.line + 1, column = (int)p->problem_mark.column + 1;
+    const int in_flow = strstr(context, "flow") != NULL;
+    if (p->error == YAML_MEMORY_ERROR)
+        r->mistakes->out_of_memory = 1;
+    else if (p->error == YAML_READER_ERROR)
+        mistakes_add(r->mistakes, line, column,
+                     "byte %zu is no readable text (%s); save the file as UTF-8, without control "
+                     "characters",
+                     p->problem_offset, problem);
+    else if (strstr(problem, "cannot start any token") != NULL &&
+             p->buffer.pointer < p->buffer.last && *p->buffer.pointer == '\t')
+        mistakes_add(r->mistakes, line, column, "a tab; indent with spaces");
+    else if (in_flow)
+        mistakes_add(r->mistakes, line, column,
+                     "the %s opened in line %d, column %d is not closed here (%s); close it, or "
+                     "put a comma",
+                     strstr(context, "mapping") != NULL ? "'{'" : "'['",
+                     (int)p->context_mark.line + 1, (int)p->context_mark.column + 1, problem);
+    else
+        mistakes_add(r->mistakes, line, column, "%s%s%s; mend indentation, colons and quotes",
+                     context, context[0] != '\0' ? ": " : "", problem);
+}
+
+/* 1: there is a further event, to be deleted. */
+static int next(reader *r, yaml_event_t *event)
+{
+    if (yaml_parser_parse(&r->parser, event))
+        return 1;
+    tell_syntax(r);
+    return 0;
+}
+
+static document_node *new_node(reader *r, document_kind kind, yaml_mark_t at)
+{
+    if (r->nodes++ >= MOST_NODES)
+        return refuse(r, at, "more than 100000 entries; write a smaller file");
+    document_node *n = arena_take(r->arena, sizeof *n);
+    if (n == NULL) {
+        r->mistakes->out_of_memory = 1;
+        return NULL;
+    }
+    n->kind = kind;
+    n->line = (int)at.line + 1;
+    n->column = (int)at.column + 1;
+    return n;
+}
+
+/* Columns count characters: the bytes that continue one are none. */
+static int characters(const char *text, int bytes)
+{
+    int count = 0;
+    for (int i = 0; i < bytes && text[i] != '\0'; i++)
+        count += ((unsigned char)text[i] & 0xc0) != 0x80;
+    return count;
+}
+
+static document_node *read_text(reader *r, const yaml_event_t *event)
+{
+    const char *value = (const char *)event->data.scalar.value;
+    size_t length = event->data.scalar.length;
+    const yaml_mark_t from = event->start_mark, to = event->end_mark;
+    const int quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+    while (length > 0 && value[length - 1] == '\n')
+        length--;
+    if (length > MOST_TEXT)
+        return refuse(r, from, "a text of more than 4000 characters; shorten it");
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)value[i] < ' ' || value[i] == 0x7f)
+            return refuse(r, from,
+                          "a text with a control character; write it in one line, without tabs");
+    document_node *n = new_node(r, DOCUMENT_TEXT, from);
+    if (n == NULL)
+        return NULL;
+    n->text = arena_copy(r->arena, value, length);
+    if (n->text == NULL) {
+        r->mistakes->out_of_memory = 1;
+        return NULL;
+    }
+    const int columns = (int)(to.column - from.column), one_line = from.line == to.line;
+    n->inset = one_line && columns == characters(n->text, (int)length) + 2 * quoted ? quoted : -1;
+    return n;
+}
+
+static int add_entry(reader *r, document_node *n, document_node *key, document_node *item)
+{
+    n->item = arena_grow(r->arena, n->item, n->count, sizeof(document_node *));
+    if (key != NULL)
+        n->key = arena_grow(r->arena, n->key, n->count, sizeof(document_node *));
+    if (n->item == NULL || (key != NULL && n->key == NULL)) {
+        r->mistakes->out_of_memory = 1;
+        return 0;
+    }
+    n->item[n->count] = item;
+    if (key != NULL)
+        n->key[n->count] = key;
+    n->count++;
+    return 1;
+}
+
+/* A key that the map can take; mistakes that leave it readable are only noted. */
+static int check_key(reader *r, const document_node *map, const document_node *key)
+{
+    if (key->kind != DOCUMENT_TEXT) {
+        document_mistake(r->mistakes, key, 0, "a key must be a name, not a list or map");
+        return 0;
+    }
+    if (strcmp(key->text, "<<") == 0) {
+        document_mistake(r->mistakes, key, 0,
+                         "a merge key; write the entries out, or use 'for', 'let' or 'parts'");
+        return 0;
+    }
+    for (int i = 0; i < map->count; i++)
+        if (strcmp(map->key[i]->text, key->text) == 0) {
+            document_mistake(r->mistakes, key, 0,
+                             "'%.60s' is there already, in line %d; rename or remove one",
+                             key->text, map->key[i]->line);
+            return 0;
+        }
+    return 1;
+}
+
+static int read_entries(reader *r, document_node *n, int depth, yaml_event_type_t end)
+{
+    yaml_event_t event;
+    while (next(r, &event)) {
+        if (event.type == end) {
+            yaml_event_delete(&event);
+            return 1;
+        }
+        document_node *key = NULL, *item = read_node(r, &event, depth + 1);
+        yaml_event_delete(&event);
+        if (item == NULL)
+            return 0;
+        if (n->kind == DOCUMENT_MAP) {
+            key = item;
+            if (!next(r, &event))
+                return 0;
+            item = read_node(r, &event, depth + 1);
+            yaml_event_delete(&event);
+            if (item == NULL)
+                return 0;
+            if (!check_key(r, n, key))
+                continue;
+        }
+        if (n->count == DOCUMENT_ENTRIES) {
+            document_mistake(r->mistakes, item, 0,
+                             "more than 10000 entries in one place; write a smaller file");
+            return 0;
+        }
+        if (!add_entry(r, n, key, item))
+            return 0;
+    }
+    return 0;
+}
+
+static document_node *read_collection(reader *r, const yaml_event_t *event, int depth)
+{
+    const int map = event->type == YAML_MAPPING_START_EVENT;
+    if (depth == DOCUMENT_DEPTH)
+        return refuse(r, event->start_mark, "deeper than 16 lists and maps; nothing needs that");
+    document_node *n = new_node(r, map ? DOCUMENT_MAP : DOCUMENT_LIST, event->start_mark);
+    const yaml_event_type_t end = map ? YAML_MAPPING_END_EVENT : YAML_SEQUENCE_END_EVENT;
+    return n != NULL && read_entries(r, n, depth, end) ? n : NULL;
+}
+
+static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
+{
+    static const char anchor[] =
+        "an anchor; write the entry where it is needed, or use 'for', 'let' or 'parts'";
+    static const char tag[] = "a tag; every value is text, number or word by its key: leave it out";
+    switch (event->type) {
+    case YAML_ALIAS_EVENT:
+        return refuse(r, event->start_mark,
+                      "an alias; write the entry out, or use 'for', 'let' or 'parts'");
+    case YAML_SCALAR_EVENT:
+        if (event->data.scalar.anchor != NULL)
+            return refuse(r, event->start_mark, anchor);
+        return event->data.scalar.tag != NULL ? refuse(r, event->start_mark, tag)
+                                              : read_text(r, event);
+    case YAML_SEQUENCE_START_EVENT:
+        if (event->data.sequence_start.anchor != NULL)
+            return refuse(r, event->start_mark, anchor);
+        return event->data.sequence_start.tag != NULL ? refuse(r, event->start_mark, tag)
+                                                      : read_collection(r, event, depth);
+    case YAML_MAPPING_START_EVENT:
+        if (event->data.mapping_start.anchor != NULL)
+            return refuse(r, event->start_mark, anchor);
+        return event->data.mapping_start.tag != NULL ? refuse(r, event->start_mark, tag)
+                                                     : read_collection(r, event, depth);
+    default:
+        return refuse(r, event->start_mark, "the file is empty; begin with 'beamwork: 1'");
+    }
+}
+
+/* The stream's first events, the tree, and the end behind it. */
+static document_node *read_stream(reader *r)
+{
+    yaml_event_t event;
+    document_node *root = NULL;
+    for (int done = 0; !done && next(r, &event);) {
+        const yaml_mark_t at = event.start_mark;
+        switch (event.type) {
+        case YAML_STREAM_START_EVENT:
+        case YAML_DOCUMENT_END_EVENT:
+            break;
+        case YAML_DOCUMENT_START_EVENT:
+            if (root != NULL)
+                refuse(r, at, "a second document; put it into a file of its own");
+            if (event.data.document_start.version_directive != NULL ||
+                event.data.document_start.tag_directives.start !=
+                    event.data.document_start.tag_directives.end)
+                refuse(r, at, "a directive; leave out lines that begin with '%'");
+            done = root != NULL;
+            break;
+        case YAML_STREAM_END_EVENT:
+            if (root == NULL)
+                refuse(r, at, "the file is empty; begin with 'beamwork: 1'");
+            done = 1;
+            break;
+        default:
+            root = read_node(r, &event, 0);
+            done = root == NULL;
+            break;
+        }
+        yaml_event_delete(&event);
+    }
+    return root;
+}
+
+document_node *document_read(const char *bytes, size_t size, arena *a, mistakes *m)
+{
+    reader r = {.arena = a, .mistakes = m};
+    if (size > DOCUMENT_BYTES) {
+        mistakes_add(m, 1, 1, "more than 1 MB; write a smaller file");
+        return NULL;
+    }
+    if (!yaml_parser_initialize(&r.parser)) {
+        m->out_of_memory = 1;
+        return NULL;
+    }
+    yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
+    /* a byte order mark, as some editors put it, is no text */
+    const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes + mark, size - mark);
+    document_node *root = read_stream(&r);
+    yaml_parser_delete(&r.parser);
+    return m->count == 0 && !m->out_of_memory ? root : NULL;
+}
+
+const document_node *document_find(const document_node *map, const char *key)
+{
+    if (map == NULL || map->kind != DOCUMENT_MAP)
+        return NULL;
+    for (int i = 0; i < map->count; i++)
+        if (strcmp(map->key[i]->text, key) == 0)
+            return map->item[i];
+    return NULL;
+}
+
+void document_mistake(mistakes *m, const document_node *n, int offset, const char *format, ...)
+{
+    char text[FAULT_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    const int inside = n->kind == DOCUMENT_TEXT && n->inset >= 0;
+    mistakes_add(m, n->line, n->column + (inside ? n->inset + characters(n->text, offset) : 0),
+                 "%s", text);
+}

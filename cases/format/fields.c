@@ -1,0 +1,221 @@
+/* Values of a map by their keys. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cases/format/builder.h"
+#include "cases/format/expression.h"
+#include "cases/format/range.h"
+#include "cases/format/substitute.h"
+#include "elements/shared/choice.h"
+
+const char fields_components[] = "ux|uy|uz|rx|ry|rz";
+
+fields fields_of(builder *b, const unrolled *entry)
+{
+    return (fields){b, entry->names, entry->value, entry->place, entry->placed};
+}
+
+fields fields_below(const fields *f, const char *key)
+{
+    const document_node *below = document_find(f->map, key);
+    return (fields){f->b, f->names, below, below != NULL ? below : f->place, f->placed};
+}
+
+int fields_have(const fields *f, const char *key)
+{
+    return document_find(f->map, key) != NULL;
+}
+
+double fields_number(const fields *f, const char *key, double otherwise)
+{
+    const document_node *n = document_find(f->map, key);
+    double value;
+    return n != NULL && expression_number(n, f->names, f->b->mistakes, &value) ? value : otherwise;
+}
+
+int fields_whole(const fields *f, const char *key, int otherwise, int least, int most)
+{
+    const double value = fields_number(f, key, otherwise);
+    if (value == floor(value) && value >= least && value <= most)
+        return (int)value;
+    document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                     "%s = %g; give a whole number from %d to %d", key, value, least, most);
+    return otherwise;
+}
+
+int fields_vector(const fields *f, const char *key, int count, double out[])
+{
+    const document_node *n = document_find(f->map, key);
+    if (n == NULL)
+        return 0;
+    expression_vector(n, count, f->names, f->b->mistakes, out);
+    return 1;
+}
+
+int fields_direction(const fields *f, const char *key, double out[3])
+{
+    const int there = fields_vector(f, key, 3, out);
+    if (there)
+        placement_turn(f->placed, out);
+    return there;
+}
+
+int fields_values(const fields *f, const char *key, double **out)
+{
+    const document_node *n = document_find(f->map, key);
+    *out = NULL;
+    const int count = n != NULL ? range_values(n, f->names, f->b->arena, f->b->mistakes, out) : 0;
+    return count > 0 ? count : 0;
+}
+
+const char *fields_text(const fields *f, const char *key, const char *otherwise)
+{
+    const document_node *n = document_find(f->map, key);
+    return n != NULL && n->kind == DOCUMENT_TEXT ? n->text : otherwise;
+}
+
+/* The words of "a|b|c". */
+typedef struct word_list {
+    char word[20][20];
+} word_list;
+
+static const char *word_at(const void *context, int i)
+{
+    const word_list *those = context;
+    return i < 20 && those->word[i][0] != '\0' ? those->word[i] : NULL;
+}
+
+static const char *nearest_word(const char *text, const char *choices, word_list *those)
+{
+    for (int i = 0; i < 20; i++)
+        choice_name(choices, i, those->word[i], sizeof those->word[i]);
+    return choice_nearest(text, word_at, those);
+}
+
+int fields_word_of(const fields *f, const document_node *n, const char *what, const char *choices,
+                   int otherwise)
+{
+    if (n->kind != DOCUMENT_TEXT) {
+        document_mistake(f->b->mistakes, n, 0, "%s: a word is expected: %s", what, choices);
+        return otherwise;
+    }
+    const scope *known = scope_find(f->names, n->text, strlen(n->text));
+    const int index =
+        choice_index(choices, known != NULL && known->word != NULL ? known->word : n->text);
+    if (index >= 0)
+        return index;
+    char remedy[FAULT_TEXT], all[FAULT_TEXT];
+    word_list those;
+    snprintf(all, sizeof all, "; give one of %s", choices);
+    if (known != NULL && known->word != NULL)
+        document_mistake(f->b->mistakes, n, 0, "%s: the parameter %s is '%.40s'%s", what, n->text,
+                         known->word, all);
+    else
+        document_mistake(f->b->mistakes, n, 0, "%s: no '%.40s' here%s", what, n->text,
+                         mistakes_remedy(nearest_word(n->text, choices, &those), all, remedy));
+    return otherwise;
+}
+
+int fields_word(const fields *f, const char *key, const char *choices, int otherwise)
+{
+    const document_node *n = document_find(f->map, key);
+    return n != NULL ? fields_word_of(f, n, key, choices, otherwise) : otherwise;
+}
+
+unsigned fields_words(const fields *f, const char *key, const char *choices)
+{
+    const document_node *n = document_find(f->map, key);
+    unsigned bits = 0;
+    if (n != NULL && n->kind == DOCUMENT_TEXT) {
+        const int index = fields_word_of(f, n, key, choices, -1);
+        bits = index >= 0 ? 1u << index : 0;
+    }
+    if (n != NULL && n->kind == DOCUMENT_LIST)
+        for (int i = 0; i < n->count; i++) {
+            const int index = fields_word_of(f, n->item[i], key, choices, -1);
+            bits |= index >= 0 ? 1u << index : 0;
+        }
+    return bits;
+}
+
+void builder_call(builder *b, scene_list what, int index, builder_list list, int i)
+{
+    scene_set_name(b->scene, what, index, b->list[list].entry[i].name);
+}
+
+/* One list of a builder, for the nearest name in it. */
+typedef struct named_list {
+    const builder *b;
+    builder_list list;
+} named_list;
+
+static const char *entry_at(const void *context, int i)
+{
+    const named_list *those = context;
+    return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
+}
+
+/* Of an instance its own entries are found first. */
+static int find_entry(const fields *f, const char *text, builder_list list, int own)
+{
+    const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;
+    int found = SCENE_NONE;
+    for (int i = 0; i < f->b->list[list].count; i++) {
+        const char *name = f->b->list[list].entry[i].name;
+        if (prefix > 0 && strncmp(name, f->placed->name, prefix) == 0 && name[prefix] == '.' &&
+            strcmp(name + prefix + 1, text) == 0)
+            return i;
+        if (found < 0 && strcmp(name, text) == 0)
+            found = i;
+    }
+    return found;
+}
+
+/* The name that a node of the tree says: of a loop, of a port, or as it is; *port: of a port. */
+static const char *name_of(const fields *f, const document_node *n, builder_list list, int *port)
+{
+    const scope *known = scope_find(f->names, n->text, strlen(n->text));
+    const char *text = known != NULL && known->word != NULL ? known->word : n->text;
+    const document_node *to = list == LIST_NODES ? placement_port(f->placed, text) : NULL;
+    *port = to != NULL;
+    return to != NULL ? to->text : text;
+}
+
+int fields_names(const fields *f, const char *key, builder_list list)
+{
+    const document_node *n = document_find(f->map, key);
+    int port;
+    if (n == NULL || n->kind != DOCUMENT_TEXT)
+        return 0;
+    const char *text = name_of(f, n, list, &port);
+    return find_entry(f, text, list, !port) >= 0;
+}
+
+int fields_entry_of(const fields *f, const document_node *n, builder_list list)
+{
+    static const char *const what[] = {"section", "node", "member",   "spring",
+                                       "motion",  "load", "analysis", "quantity"};
+    const named_list those = {f->b, list};
+    char remedy[FAULT_TEXT];
+    if (n->kind != DOCUMENT_TEXT) {
+        document_mistake(f->b->mistakes, n, 0, "the name of a %s is expected", what[list]);
+        return SCENE_NONE;
+    }
+    int port;
+    const char *text = name_of(f, n, list, &port);
+    const int found = find_entry(f, text, list, !port);
+    if (found >= 0)
+        return found;
+    if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is told already */
+        document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
+                         mistakes_remedy(choice_nearest(text, entry_at, &those),
+                                         "; add it, or mend the name", remedy));
+    return SCENE_NONE;
+}
+
+int fields_entry(const fields *f, const char *key, builder_list list)
+{
+    const document_node *n = document_find(f->map, key);
+    return n != NULL ? fields_entry_of(f, n, list) : SCENE_NONE;
+}

@@ -1,0 +1,114 @@
+#include "cases/format/key_list.h"
+
+#include <string.h>
+
+#include "cases/format/keys.h"
+
+enum { DESCRIPTION = 1000 };
+
+static const char *form_of(const scene_key *k, char text[32])
+{
+    switch (k->kind) {
+    case KEY_TEXT:
+        return "TEXT";
+    case KEY_NAME:
+        return "NAME";
+    case KEY_WORD:
+        return "WORD";
+    case KEY_WORDS:
+        return "[WORD, ...]";
+    case KEY_NUMBER:
+        return "EXPR";
+    case KEY_VECTOR:
+        snprintf(text, 32, "[EXPR x%d]", k->count);
+        return text;
+    case KEY_NUMBERS:
+        return "[EXPR, ...]";
+    case KEY_MAP:
+        return "{...}";
+    case KEY_ENTRIES:
+        return "NAME: {...}";
+    case KEY_LIST:
+        return "- {...}";
+    case KEY_NAMES:
+        return "NAME: VALUE";
+    case KEY_FORMS:
+    case KEY_LATER:
+        break;
+    }
+    return "...";
+}
+
+/* "summary [unit] (word, word); left out: 0", or "... *". */
+static void describe(const scene_key *k, char text[DESCRIPTION])
+{
+    int used = snprintf(text, DESCRIPTION, "%s%s%s%s", k->summary, k->unit != NULL ? " [" : "",
+                        k->unit != NULL ? k->unit : "", k->unit != NULL ? "]" : "");
+    const char *joint = " (";
+    for (const char *at = k->words; at != NULL && used < DESCRIPTION; joint = ", ") {
+        const size_t length = strcspn(at, "|");
+        used +=
+            snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%.*s", joint, (int)length, at);
+        at = at[length] != '\0' ? at + length + 1 : NULL;
+    }
+    const char *without = k->usual != NULL ? k->usual : k->left_out;
+    if (used < DESCRIPTION)
+        snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%s%s%s", k->words != NULL ? ")" : "",
+                 without != NULL ? "; left out: " : "", without != NULL ? without : "",
+                 !k->needed     ? ""
+                 : k->group > 0 ? "; one of these *"
+                                : " *");
+}
+
+static void walk(const scene_key *table, int depth, key_list_take *take, void *context)
+{
+    for (; table != NULL && table->name != NULL; table++) {
+        char form[32], text[DESCRIPTION];
+        if (table->kind == KEY_LATER)
+            continue;
+        describe(table, text);
+        take(context, depth, table->name, form_of(table, form), text);
+        if (table->kind == KEY_MAP || table->kind == KEY_ENTRIES || table->kind == KEY_LIST)
+            walk(table->below, depth + 1, take, context);
+    }
+}
+
+void key_list_loops(key_list_take *take, void *context)
+{
+    walk(keys_loop, 0, take, context);
+}
+
+void key_list_all(key_list_take *take, void *context)
+{
+    walk(keys_root, 0, take, context);
+}
+
+const char *const key_list_head[2] = {
+    "Scene files, version 1. *: must be there. EXPR: number, + - * / ^ ( ), names, pi, deg, abs "
+    "sign sqrt exp log sin cos tan asin acos atan atan2 hypot floor ceil mod min max; SI only. "
+    "[EXPR, ...] may be a range: a..b, a..b step c, a..b/n. A word may be the name of a parameter.",
+    "Every entry (NAME: {...}, - {...}) may have these; $i in its name and texts is replaced:"};
+
+typedef struct list {
+    FILE *to;
+    int depth; /* of what stands at the root of what is walked */
+    key_list_say *say;
+} list;
+
+static void write_key(void *context, int depth, const char *name, const char *form,
+                      const char *text)
+{
+    const list *l = context;
+    const int indent = 2 * (l->depth + depth);
+    const int at = fprintf(l->to, "%*s%-*s %-12s ", indent, "", 26 - indent, name, form);
+    l->say(l->to, at, at, text);
+}
+
+void key_list_write(FILE *to, key_list_say *say)
+{
+    list loops = {to, 1, say}, all = {to, 0, say};
+    for (int i = 0; i < 2; i++)
+        say(to, 0, 2, key_list_head[i]);
+    key_list_loops(write_key, &loops);
+    key_list_all(write_key, &all);
+}

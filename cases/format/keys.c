@@ -1,0 +1,278 @@
+#include "cases/format/keys.h"
+
+#include <string.h>
+
+#include "cases/format/range.h"
+#include "cases/scene/scene.h"
+#include "elements/shared/choice.h"
+
+static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
+
+#define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping"
+
+const scene_key keys_root[] = {
+    {"beamwork", KEY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
+    {"name", KEY_TEXT, .summary = "of the scene", .left_out = "that of the file"},
+    {"summary", KEY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
+    {"source", KEY_TEXT, .summary = "where it comes from", .left_out = "none"},
+    {"units", KEY_FORMS,
+     .summary = "of its numbers and values: length, force, stress, as mm, N, MPa; masses are then "
+                "in force s^2/length (t), seconds and radians stay",
+     .left_out = "SI"},
+    {"parameters", KEY_ENTRIES, .below = keys_parameter, .summary = "what --set may change",
+     .left_out = "none"},
+    {"let", KEY_NAMES, .below = number, .summary = "derived values, in order", .left_out = "none"},
+    {"sections", KEY_ENTRIES, .needed = 1, .below = keys_section, .summary = "cross-sections"},
+    {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "ends, supports, bodies",
+     .left_out = "those of the instances"},
+    {"members", KEY_ENTRIES, .below = keys_member, .summary = "beams",
+     .left_out = "those of the instances"},
+    {"springs", KEY_ENTRIES, .below = keys_spring, .summary = "between nodes, or to the ground",
+     .left_out = "none"},
+    {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along a path or in time",
+     .left_out = "none"},
+    {"loads", KEY_ENTRIES, .below = keys_load, .summary = "forces and moments", .left_out = "none"},
+    {"analyses", KEY_ENTRIES, .below = keys_analysis, .summary = "what is computed",
+     .left_out = "static to the end of the motions' paths, without these linear"},
+    {"quantities", KEY_ENTRIES, .below = keys_quantity, .summary = "what is wanted of it",
+     .left_out = "of each analysis what is usual: displacements where it is loaded or driven, the "
+                 "first eigenvalue"},
+    {"truths", KEY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
+    {"plane", KEY_WORD, .words = SCENE_PLANE_CHOICES,
+     .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
+    {"omit", KEY_WORDS, .words = PHYSICS "|all|none", .summary = "physics that is left out",
+     .left_out = "none: all that sections, loads and analyses call for is there"},
+    {"shear_theory", KEY_WORD, .words = "haringx|engesser|own",
+     .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
+    {"mass", KEY_WORD, .words = "consistent|lumped",
+     .summary = "of members in vibration and steady rotation: along them, or at their nodes "
+                "(and in motions in time that say nothing else)",
+     .usual = "consistent"},
+    {"needs", KEY_WORDS, .words = PHYSICS "|engesser|haringx",
+     .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "
+                "omit stands for it now",
+     .left_out = "omit says it"},
+    {"meshes", KEY_NUMBERS, .summary = "elements per member", .usual = "[1, 2, 4, 8]"},
+    {"parts", KEY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
+     .left_out = "none"},
+    {"instances", KEY_ENTRIES, .below = keys_instance, .summary = "parts placed in the scene",
+     .left_out = "none"},
+    {.name = NULL}};
+
+/* Both tables as one list of names. */
+typedef struct known_keys {
+    const scene_key *table, *loop; /* loop NULL: no entry that may have loops */
+} known_keys;
+
+static const char *name_at(const void *context, int i)
+{
+    const known_keys *known = context;
+    const scene_key *table = known->table;
+    for (; table->name != NULL && i > 0; i--)
+        table++;
+    return table->name != NULL || known->loop == NULL || i > 1 ? table->name : known->loop[i].name;
+}
+
+static const scene_key *find(const scene_key *table, const char *name)
+{
+    for (; table != NULL && table->name != NULL; table++)
+        if (strcmp(table->name, name) == 0)
+            return table;
+    return NULL;
+}
+
+static void check_map(const document_node *map, const known_keys *known, const document_node *name,
+                      mistakes *m);
+
+static void tell_kind(const document_node *n, const document_node *name, const char *expected,
+                      mistakes *m)
+{
+    static const char *const is[] = {"a text", "a list", "a map"};
+    const int empty = n->kind == DOCUMENT_TEXT && n->text[0] == '\0';
+    document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text,
+                     empty ? "empty" : is[n->kind], expected);
+}
+
+int keys_loops(const scene_key *table)
+{
+    return table != keys_parameter && table != keys_part;
+}
+
+static void check_entries(const document_node *n, const scene_key *k, const document_node *name,
+                          mistakes *m)
+{
+    const known_keys known = {k->below, keys_loops(k->below) ? keys_loop : NULL};
+    if (n->kind != (k->kind == KEY_LIST ? DOCUMENT_LIST : DOCUMENT_MAP)) {
+        tell_kind(n, name, k->kind == KEY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}",
+                  m);
+        return;
+    }
+    for (int i = 0; i < n->count; i++)
+        check_map(n->item[i], &known, k->kind == KEY_LIST ? name : n->key[i], m);
+}
+
+static void check_words(const document_node *n, const document_node *name, mistakes *m)
+{
+    if (n->kind == DOCUMENT_MAP)
+        tell_kind(n, name, "a word or a list of words", m);
+    if (n->kind == DOCUMENT_LIST)
+        for (int i = 0; i < n->count; i++)
+            if (n->item[i]->kind != DOCUMENT_TEXT)
+                tell_kind(n->item[i], name, "a word", m);
+}
+
+static void check_value(const document_node *n, const scene_key *k, const document_node *name,
+                        mistakes *m)
+{
+    const known_keys below = {k->below, NULL};
+    switch (k->kind) {
+    case KEY_TEXT:
+    case KEY_NAME:
+    case KEY_WORD:
+    case KEY_NUMBER:
+        if (n->kind != DOCUMENT_TEXT)
+            tell_kind(n, name, k->kind == KEY_NUMBER ? "a number" : "a text", m);
+        break;
+    case KEY_WORDS:
+        check_words(n, name, m);
+        break;
+    case KEY_VECTOR:
+        if (n->kind != DOCUMENT_LIST || n->count != k->count)
+            document_mistake(m, n, 0, "%.60s: a list of %d numbers is expected: [a, b, ...]",
+                             name->text, k->count);
+        break;
+    case KEY_NUMBERS:
+        if (n->kind != DOCUMENT_LIST && !range_is(n))
+            tell_kind(n, name, "a list of numbers or a range a..b", m);
+        break;
+    case KEY_MAP:
+        check_map(n, &below, name, m);
+        break;
+    case KEY_ENTRIES:
+    case KEY_LIST:
+        check_entries(n, k, name, m);
+        break;
+    case KEY_NAMES:
+        if (n->kind != DOCUMENT_MAP)
+            tell_kind(n, name, "a map: NAME: value", m);
+        if (n->kind == DOCUMENT_MAP && k->below->name != NULL)
+            for (int i = 0; i < n->count; i++)
+                check_value(n->item[i], k->below, n->key[i], m);
+        break;
+    case KEY_LATER:
+        document_mistake(m, name, 0, "'%s' is not carried yet; leave it out", name->text);
+        break;
+    case KEY_FORMS:
+        break;
+    }
+}
+
+/* Keys of other programs that no key here resembles, and what says the same. */
+static const char *elsewhere(const scene_key *table, const char *name)
+{
+    static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
+    for (size_t i = 0; table == keys_section && i < sizeof poisson / sizeof poisson[0]; i++)
+        if (strcmp(name, poisson[i]) == 0)
+            return "; give shear_modulus: E/(2*(1 + nu))";
+    return NULL;
+}
+
+/* Of an unknown key: the one that is meant, or where all are. */
+static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
+{
+    const char *other = elsewhere(known->table, name);
+    const char *near = other == NULL ? choice_nearest(name, name_at, known) : NULL;
+    return mistakes_remedy(near, other != NULL ? other : "; 'beamwork scene --schema' lists all",
+                           text);
+}
+
+/* A key that is not there: unless it is what a misspelt one means. */
+static int is_meant(const document_node *map, const known_keys *known, const char *name)
+{
+    for (int i = 0; i < map->count; i++) {
+        const char *text = map->key[i]->text;
+        const char *near = find(known->table, text) == NULL && elsewhere(known->table, text) == NULL
+                               ? choice_nearest(text, name_at, known)
+                               : NULL;
+        if (near != NULL && strcmp(near, name) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* The names of a group, for messages. */
+static void group_words(const scene_key *table, int group, char text[FAULT_TEXT])
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (; table->name != NULL; table++)
+        if (table->group == group && table->kind != KEY_LATER && used + 40 < FAULT_TEXT) {
+            const size_t length = strlen(table->name);
+            memcpy(text + used, ", ", 2);
+            memcpy(text + used + (used > 0 ? 2 : 0), table->name, length + 1);
+            used += length + (used > 0 ? 2 : 0);
+        }
+}
+
+static void check_missing(const document_node *map, const known_keys *known,
+                          const document_node *name, mistakes *m)
+{
+    for (const scene_key *k = known->table; k->name != NULL; k++) {
+        const document_node *first = NULL;
+        int there = 0, meant = 0;
+        for (const scene_key *other = known->table; other->name != NULL; other++) {
+            if (other != k && (k->group == 0 || other->group != k->group))
+                continue;
+            for (int i = 0; i < map->count; i++)
+                if (strcmp(map->key[i]->text, other->name) == 0) {
+                    first = map->key[i];
+                    there++;
+                }
+            meant |= is_meant(map, known, other->name);
+        }
+        char group[FAULT_TEXT];
+        group_words(known->table, k->group, group);
+        if (there > 1 && k->group > 0)
+            document_mistake(m, first, 0, "%.40s: only one of %.200s can be there", name->text,
+                             group);
+        if (there > 0 || meant || !k->needed)
+            continue;
+        if (k->group > 0)
+            document_mistake(m, name, 0, "%.40s: one of %.200s is missing", name->text, group);
+        else
+            document_mistake(m, name, 0, "%.40s: '%s' is missing (%s)", name->text, k->name,
+                             k->summary);
+    }
+}
+
+static void check_map(const document_node *map, const known_keys *known, const document_node *name,
+                      mistakes *m)
+{
+    if (map->kind != DOCUMENT_MAP) {
+        tell_kind(map, name, "a map: {key: value, ...}", m);
+        return;
+    }
+    for (int i = 0; i < map->count; i++) {
+        const char *text = map->key[i]->text;
+        const scene_key *k = find(known->table, text);
+        if (k == NULL && known->loop != NULL)
+            k = find(known->loop, text);
+        char remedy[FAULT_TEXT];
+        if (k != NULL)
+            check_value(map->item[i], k, map->key[i], m);
+        else
+            document_mistake(m, map->key[i], 0, "%.40s has no key '%.40s'%s", name->text, text,
+                             remedy_of(known, text, remedy));
+    }
+    check_missing(map, known, name, m);
+}
+
+int keys_check(const document_node *root, mistakes *m)
+{
+    static const document_node place = {
+        .kind = DOCUMENT_TEXT, .line = 1, .column = 1, .text = "the scene"};
+    const known_keys known = {keys_root, NULL};
+    const int before = m->count;
+    check_map(root, &known, &place, m);
+    return m->count == before;
+}

@@ -1,0 +1,264 @@
+"""What a scene file can hold: loads, sections, resultants, bodies; written with the same bits."""
+import re
+import unittest
+
+from cases.format.test.scene_case import EXAMPLES, SceneCase, values
+from harness.test.scenes import LEAF
+
+# Every way to give a section; the constants of three place a node.
+SHAPES = """\
+beamwork: 1
+parameters: {h: {value: 0.2, unit: m}}
+let: {E: 210e9, G: 81e9}
+sections:
+  zed:  {zed: {depth: h, flange: 0.06, flange_thickness: 3e-3, web_thickness: 3e-3}, young: E, shear_modulus: G}
+  rail: {channel: {depth: h, flange: 0.06, flange_thickness: 6e-3, web_thickness: 4e-3}, given: {Iw: 1e-8}, young: E, shear_modulus: G}
+  tri_$i: {for: {i: 1..2}, points: {a: [0, 0], b: [0.1, 0], c: [0, 0.05]}, cells: 1, walls: [{from: a, to: b, thickness: i*1e-3}, {from: b, to: c, thickness: i*1e-3}, {from: c, to: a, thickness: i*1e-3}], young: E, shear_modulus: G}
+  pipe: {tube: {diameter: 0.05, thickness: 3e-3}, young: E, shear_modulus: G}
+  hollow: {box: {depth: h, flange: 0.1, flange_thickness: 3e-3, web_thickness: 3e-3}, young: E, shear_modulus: G}
+  beam: {i: {depth: h, flange: 0.1, flange_thickness: 6e-3, web_thickness: 4e-3}, thickness_terms: yes, young: E, shear_modulus: G}
+  leg:  {angle: {along_z: 0.08, along_y: 0.05, thickness: 4e-3}, young: E, shear_modulus: G}
+nodes:
+  n_0: {at: [-1, 0, 0], hold: all}
+  n_1: {at: [rail.ey + rail.yc, pipe.It*1e6, tri_2.It*1e6]}
+  n_$i: {for: {i: 2..6}, at: [i, 0, 0]}
+members:
+  a: {from: n_0, to: n_1, section: zed, y: [0, 1, 0]}
+  b: {from: n_1, to: n_2, section: rail, y: [0, 1, 0]}
+  c: {from: n_2, to: n_3, section: tri_1, y: [0, 1, 0]}
+  d: {from: n_3, to: n_4, section: pipe, y: [0, 1, 0]}
+  e: {from: n_4, to: n_5, section: hollow, y: [0, 1, 0]}
+  f: {from: n_5, to: n_6, section: beam, y: [0, 1, 0]}
+loads:
+  push: {force: [0, rail.Iy*1e6, 1], on: n_6}
+"""
+
+
+class ContentsTest(SceneCase):
+    LOADS = """\
+beamwork: 1
+sections:
+  bar: {rectangle: {width: 0.05, thickness: 0.02}, young: 1e9, shear_modulus: 4e8, density: 900}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip:  {at: TIP}
+members:
+  bar: {from: base, to: tip, section: bar, y: Y}
+loads:
+  push:   {force: FORCE, on: tip, at: AT, follower: true}
+  turn:   {moment: TURN, on: tip, follower: true, path: [0], factor: [1]}
+  wind:   {distributed: [1, 20, 3], on: bar, axes: member, at: [0, 0.01, 0.02], follower: yes}
+  twist:  {distributed_moment: [2, 0.3, 0.4], on: bar, axes: member}
+  weight: {gravity: GRAVITY, on: bar}
+analyses:
+  path: {static: {stations: [0.5, 1]}}
+quantities:
+  along:  {displacement: {analysis: path, node: tip, component: X}, unit: m}
+  across: {displacement: {analysis: path, node: tip, component: Z}, unit: m}
+omit: [wagner_torque]
+"""
+
+    def loads(self, name, **words):
+        text = self.LOADS
+        for key, word in words.items():
+            text = re.sub(rf"\b{key}\b", word, text)
+        return self.scene(text, name)
+
+    def test_loads(self):
+        """Loads of every kind and key: written and read they give the same bits; a turned structure moves as before."""
+        first = self.loads("first.yaml", TIP="[1, 0, 0]", Y="[0, 1, 0]", FORCE="[1, 2, 3]", AT="[0.1, 0.2, 0.3]", TURN="[0, 4, 1]",
+                           GRAVITY="[0, 0, -9.81]", X="ux", Z="uz")
+        turned = self.loads("turned.yaml", TIP="[0, 1, 0]", Y="[0, 0, 1]", FORCE="[3, 1, 2]", AT="[0.3, 0.1, 0.2]", TURN="[1, 0, 4]",
+                            GRAVITY="[-9.81, 0, 0]", X="uy", Z="ux")
+        again = self.scene(self.answered("scene", "--scene", first).stdout, "again.yaml")
+        for formulation in ("collocation", "beamw"):
+            result = [values(self.record("solve", "--scene", path, "-f", formulation, "-n", 3)) for path in (first, again, turned)]
+            self.assertEqual(result[0], result[1])
+            for quantity, value in result[0].items():
+                self.assertAlmostEqual(value, result[2][quantity], delta=1e-11)
+                self.assertGreater(abs(value), 1e-4)
+
+    def test_shapes(self):
+        """Shapes by sizes, tubes and cells: written with the same bits; their constants are names."""
+        path = self.scene(SHAPES, "shapes.yaml")
+        text = self.answered("scene", "--scene", path).stdout
+        again = self.scene(text, "again.yaml")
+        self.assertEqual(self.answered("scene", "--scene", again).stdout, text)
+        where = ("-f", "collocation", "-n", 1)
+        once, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
+        self.assertEqual(once, twice)
+        # e = 3 b^2 t_f/(h t_w + 6 b t_f) of a channel by its mid-lines; a ring; a polygon of Bredt's
+        height, width, flange, web = 0.2, 0.06, 6e-3, 4e-3
+        centre = 3*width**2*flange/(height*web + 6*width*flange)
+        ring = (0.05**4 - 0.044**4)*3.141592653589793/32
+        tri = 4*(0.1*0.05/2)**2*2e-3/(0.15 + 0.0125**0.5) + (0.15 + 0.0125**0.5)*8e-9/3
+        at = [float(x) for x in re.search(r"n_1: \{at: \[([^]]*)", text).group(1).split(",")]
+        for got, exact in zip(at, (centre, ring*1e6, tri*1e6)):
+            self.assertAlmostEqual(got/exact, 1, delta=1e-12)
+
+    INTERNAL = """\
+beamwork: 1
+sections:
+  rail: {channel: {depth: 0.1, flange: 0.05, flange_thickness: 3e-3, web_thickness: 2e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip: {at: [2, 0, 0]}
+members:
+  bar: {from: base, to: tip, section: rail, y: [0, 1, 0], warping: [fixed, free]}
+loads:
+  push: {force: [5, 0.7, 0.3], on: tip}
+  torque: {moment: [1, 0, 0], on: tip}
+  wind: {distributed: [0, 0, 0.2], on: bar}
+analyses:
+  linear: {linear: {}}
+quantities:
+  ${r}_$e: {for: {r: [N, Qy, Qz, Mx, My, Mz, bimoment], e: [from, to]}, internal: {analysis: linear, member: bar, end: $e, resultant: $r}}
+  ${r}_at_$p: {for: {r: [Qy, Qz, Mx, My, bimoment, Mx_saint_venant, Mx_warping], p: 0..1}, internal: {analysis: linear, member: bar, where: 1/4 + p/2, resultant: $r}}
+  ${r}_$a: {for: {r: [My, Qz], a: [max, min, largest]}, internal: {analysis: linear, member: bar, along: $a, resultant: $r}}
+  ys: {internal: {analysis: linear, member: bar, end: to, resultant: N}, unit: m, factor: rail.ys/5}
+  zs: {internal: {analysis: linear, member: bar, end: to, resultant: N}, unit: m, factor: rail.zs/5}
+"""
+
+    def test_internal(self):
+        """Resultants at both ends by statics, of every formulation that takes a channel; the same bits when written."""
+        path = self.scene(self.INTERNAL, "internal.yaml")
+        exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
+        for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
+            for elements in (1, 3):
+                got = values(self.record("solve", "--scene", path, "-f", formulation, "-n", elements))
+                for name, ends in exact.items():
+                    for end, value in zip(("from", "to"), ends):
+                        self.assertAlmostEqual(got[f"{name}_{end}"], value, delta=1e-10)
+                self.assertAlmostEqual(got["bimoment_to"], 0, delta=1e-10)
+                for place, b in ((0, 1.5), (1, 0.5)):
+                    inside = {"Qy": 0.7, "Qz": 0.3 + 0.2*b, "Mx": 1, "My": -0.3*b - 0.1*b*b}
+                    for name, value in inside.items():
+                        self.assertAlmostEqual(got[f"{name}_at_{place}"], value, delta=1e-10)
+                    # the parts: of the torque about the shear centre
+                    self.assertAlmostEqual(got[f"Mx_saint_venant_at_{place}"] + got[f"Mx_warping_at_{place}"] +
+                                           got["ys"]*inside["Qz"] - got["zs"]*inside["Qy"], 1, delta=1e-9)
+                for name, value in {"My_max": 0, "My_min": -1, "My_largest": 1, "Qz_max": 0.7, "Qz_min": 0.3}.items():
+                    self.assertAlmostEqual(got[name], value, delta=1e-10)
+        again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
+        self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 3)), got)
+
+    STRESS = """\
+beamwork: 1
+sections:
+  box: {box: {depth: 0.1, flange: 0.06, flange_thickness: 2e-3, web_thickness: 3e-3}, young: 210e9, shear_modulus: 81e9}
+nodes:
+  base: {at: [0, 0, 0], hold: all}
+  tip: {at: [2, 0, 0]}
+members:
+  bar: {from: base, to: tip, section: box, y: [0, 1, 0], warping: free}
+loads:
+  push: {force: [500, 0, 0], on: tip}
+  bend: {moment: [300, 0, 0], on: tip}
+analyses:
+  linear: {linear: {}}
+  pulled: {static: {stations: [0.5, 1]}}
+quantities:
+  ${m}_$a: {for: {m: [von_mises, normal_max, normal_min], a: [linear, pulled]}, stress: {analysis: $a, member: bar, measure: $m}}
+  middle: {stress: {analysis: linear, member: bar, where: 0.5}}
+  path: {stress: {analysis: pulled, member: bar, take: max}, unit: MPa, factor: 1e-6}
+"""
+
+    def test_stress(self):
+        """A box, free to warp, pulled and twisted: Bredt's flow and what varies through its thinnest wall; the same bits when written."""
+        area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
+        It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
+        tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
+        mises = ((500/area)**2 + 3*tau**2)**0.5
+        path = self.scene(self.STRESS, "stress.yaml")
+        for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
+            got = values(self.record("solve", "--scene", path, "-f", formulation, "-n", 2))
+            self.assertAlmostEqual(got["von_mises_linear"]/mises, 1, delta=1e-9)
+            self.assertAlmostEqual(got["middle"]/mises, 1, delta=1e-9)
+            self.assertAlmostEqual(got["normal_max_linear"]*area/500, 1, delta=1e-9)
+            self.assertAlmostEqual(got["normal_min_linear"]*area/500, 1, delta=1e-9)
+            self.assertAlmostEqual(got["path"]*1e6/got["von_mises_pulled"], 1, delta=1e-12)
+            self.assertAlmostEqual(got["von_mises_pulled"]/mises, 1, delta=1e-3)
+        again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
+        self.assertEqual(values(self.record("solve", "--scene", again, "-f", formulation, "-n", 2)), got)
+
+    def test_sections_by_sizes(self):
+        """Channel, Z, I and angle by their sizes are the walls that one would write."""
+        sizes = {"channel_portal": "channel: {depth: depth, flange: flange, flange_thickness: t_f, "
+                                   "web_thickness: t_w}",
+                 "zed_purlin": "zed: {depth: depth, flange: flange, flange_thickness: thickness, "
+                               "web_thickness: thickness}"}
+        for name, words in sizes.items():
+            text = (EXAMPLES / f"{name}.yaml").read_text(encoding="utf-8")
+            short = re.sub(r"    points:.*\n    walls:\n(      - .*\n)+", f"    {words}\n", text)
+            self.assertNotEqual(short, text)
+            written = [re.sub("p[0-9]+", "p", self.answered("scene", "--scene", path).stdout)
+                       for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
+            self.assertEqual(*written)
+        # an I under a tip force along its web, rigid in shear: P L^3/3 E I
+        text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
+                             "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
+                             "web_thickness: 5e-3}")
+        text = text.replace("[0, 1, 0], on", "[0, 0, 1], on") + "omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]\n"
+        got = values(self.record("solve", "--scene", self.scene(text), "-f", "beamw_vlasov", "-n",
+                                 1))
+        inertia = 2 * 0.1 * 8e-3 * 0.1**2 + 5e-3 * 0.2**3 / 12
+        self.assertAlmostEqual(got["tip_uz"] / (1e-3 / (3 * 210e9 * inertia)), 1, delta=1e-9)
+        written = []
+        for shape in ("angle: {along_y: 0.1, along_z: 0.08, thickness: 5e-3}",
+                      "points: {a: [0.1, 0], b: [0, 0], c: [0, 0.08]}, walls: [{from: a, to: b, "
+                      "thickness: 5e-3}, {from: b, to: c, thickness: 5e-3}]"):
+            text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}", shape)
+            written.append(self.answered("scene", "--scene", self.scene(text)).stdout)
+        self.assertEqual(*written)
+
+    def test_weight_of_a_body(self):
+        """A force at its centre of mass, which turns with it: P L^3/3 E I + P a L^2/2 E I, and the bits of that force."""
+        heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
+        body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
+        self.assertNotIn("push", body)
+        self.assertIn("mass", body)
+        stiff = ("omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]\n", "-f", "beamw_vlasov", "-n", 1)
+        got = self.same_again(self.scene(body + stiff[0], "body.yaml"), *stiff[1:])
+        force = repr(-9.81*0.01)
+        plain = body.replace("gravity: [0, -9.81, 0], on: tip", f"force: [0, {force}, 0], at: [0.02, 0, 0], on: tip")
+        self.assertEqual(got, values(self.record("solve", "--scene", self.scene(plain + stiff[0], "plain.yaml"), *stiff[1:])))
+        EI = 210e9 * 50e-3 * 0.5e-3**3 / 12
+        self.assertAlmostEqual(got["tip_uy"] / (-9.81*0.01 * (0.1**3/3 + 0.02*0.1**2/2) / EI), 1, delta=1e-9)
+        for change, words in ((("mass: 0.01, ", ""), "has no mass"), (("on: tip", "on: tip, at: [1, 0, 0]"), "leave out 'at'")):
+            self.refused(2, words, "scene", "--scene", self.scene(body.replace(*change)))
+
+    def test_weight_of_all(self):
+        """Members that have a density and bodies that have a mass, each once; a massless member stays weightless."""
+        one = LEAF.replace("push: {force: [0, 1, 0], on: tip}", "weight: {gravity: [0, -9.81, 0], on: all}").replace(
+            "tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}\n  end:  {at: [0.2, 0, 0]}").replace(
+            "loads:", "  more: {from: tip, to: end, section: light, y: [0, 1, 0]}\nloads:").replace(
+            "nodes:", "  light: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}\nnodes:").replace(
+            "shear_modulus: 81e9}", "shear_modulus: 81e9, density: 7800}", 1)
+        each = one.replace("weight: {gravity: [0, -9.81, 0], on: all}",
+                           "weight: {gravity: [0, -9.81, 0], on: leaf}\n  load_1: {gravity: [0, -9.81, 0], on: tip}")
+        self.assertEqual(self.answered("scene", "--scene", self.scene(one, "one.yaml")).stdout,
+                         self.answered("scene", "--scene", self.scene(each, "one.yaml")).stdout)
+        self.same_again(self.scene(one, "again.yaml"), "-f", "collocation", "-n", 1)
+        bare = one.replace(", density: 7800", "").replace("mass: 0.01, centre: [0.02, 0, 0]", "hold: []")
+        for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "in 'weight' already"),
+                            (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "in 'weight' already"),
+                            (one.replace("on: all", "on: all, follower: true"), "leave out 'at', 'axes' and 'follower'"),
+                            (one.replace("gravity:", "force:"), "no node 'all'"),
+                            (bare, "nothing of the scene has a mass")):
+            self.refused(2, words, "scene", "--scene", self.scene(text))
+
+    def test_the_analysis_that_was_made_up(self):
+        """Said where the scene states none."""
+        where = ("-f", "collocation", "-n", 1)
+        done = self.answered("solve", "--scene", self.scene(LEAF), *where)
+        self.assertIn("states no analysis; this is a linear one", done.stderr)
+        driven = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
+            "loads:", "motions:\n  pushed: {unit: m, path: [0, 0.5], value: [0, 1e-3]}\nloads:")
+        done = self.answered("solve", "--scene", self.scene(driven), *where)
+        self.assertIn("analyses: {run: {static: {stations: [0.5]}}}", done.stderr)
+        done = self.answered("solve", "--scene", self.scene(LEAF + "analyses:\n  run: {linear: {}}\n"), *where)
+        self.assertEqual(done.stderr, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
