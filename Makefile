@@ -120,8 +120,8 @@ paces: all ## integrators on all cases of motion with all formulations, for prof
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
 
-prices: all needs-report ## what counted work costs, fitted to measured times: five minutes on a quiet machine; harness/timing/prices.csv
-	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/timing/prices.csv
+prices: all needs-report ## what counted work costs, fitted to measured times: five minutes on a quiet machine; harness/study/prices.csv
+	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/study/prices.csv
 
 .PHONY: expense
 expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; harness/study/expense.csv
@@ -233,7 +233,7 @@ needs-report needs-test needs-truths needs-layout:
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
 
-$(PRICES): harness/timing/prices.csv harness/tools/price_table.sh
+$(PRICES): harness/study/prices.csv harness/tools/price_table.sh
 	@harness/tools/price_table.sh $@ $<
 
 $(EXPENSES): harness/study/expense.csv harness/tools/expense_table.sh
@@ -265,7 +265,7 @@ $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	$(call SAY,compile $< for AVX2)$(CC) $(BASE_CFLAGS) -mavx2 -DREAL_AVX2 $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
-$(PRICES:.c=.o): harness/timing/price.h
+$(PRICES:.c=.o): harness/study/price.h
 $(EXPENSES:.c=.o): harness/study/expense.h
 $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@

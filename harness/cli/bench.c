@@ -13,8 +13,8 @@
 #include "harness/spread/timing_work.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/study/timing.h"
 #include "harness/tables/table_timing.h"
-#include "harness/timing/timing.h"
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
 

@@ -10,8 +10,8 @@
 #include "harness/cli/cli.h"
 #include "harness/formulations/registry.h"
 #include "harness/study/cell.h"
+#include "harness/study/glossary.h"
 #include "harness/tables/paragraph.h"
-#include "harness/truth/glossary.h"
 
 enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4 };
 

@@ -3,7 +3,7 @@
 #define BEAMWORK_LIST_FORMULATION_H
 
 #include "harness/formulations/formulation.h"
-#include "harness/truth/rules.h"
+#include "harness/study/rules.h"
 
 /* rules NULL: the ledger is not known. */
 void list_formulation(const formulation *chosen, const rule *rules, int count);

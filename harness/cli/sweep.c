@@ -18,7 +18,7 @@
 #include "harness/shards/shard.h"
 #include "harness/spread/identity.h"
 #include "harness/spread/spread.h"
-#include "harness/truth/derive.h"
+#include "harness/study/derive.h"
 
 /* A sweep and what it needs while it runs. */
 typedef struct sweeping {

@@ -7,9 +7,9 @@
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
 #include "harness/study/cell.h"
+#include "harness/study/derive.h"
+#include "harness/study/truth.h"
 #include "harness/tables/paragraph.h"
-#include "harness/truth/derive.h"
-#include "harness/truth/truth.h"
 
 enum { NAME = 28, INDENT = 6 };
 

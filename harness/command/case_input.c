@@ -11,9 +11,9 @@
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/parameters.h"
 #include "harness/model/features.h"
-#include "harness/project/scene_truths.h"
 #include "harness/study/cell.h"
-#include "harness/truth/data_place.h"
+#include "harness/study/data_place.h"
+#include "harness/study/scene_truths.h"
 
 /* All mistakes, a line each; as JSON where that is the form of the output. */
 static void tell_mistakes(const command_request *r, const mistakes *m, status outcome,

@@ -3,7 +3,7 @@
 #define BEAMWORK_CASE_INPUT_H
 
 #include "harness/command/command.h"
-#include "harness/truth/truths.h"
+#include "harness/study/truths.h"
 
 /* A name that is no built-in case but that of an example (cases/examples/NAME.yaml) becomes --scene
  * of that file. */
@@ -23,7 +23,7 @@ status case_input_truths(const command_request *r, truths *t, fault *f);
 void case_input_tell_units(const scene_file *, const double parameter[]);
 /* One line on stderr: which analysis was made up where the scene file states none. */
 void case_input_tell_analysis(const command_request *r, const scene *s);
-/* The packed truths: --truths, or their place (harness/truth/data_place.h). */
+/* The packed truths: --truths, or their place (harness/study/data_place.h). */
 const char *case_input_truths_path(const command_request *r);
 
 #endif

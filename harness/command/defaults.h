@@ -1,4 +1,4 @@
-/* Formulation and number of elements where the command line gives none (judge/preference.h). */
+/* Formulation and number of elements where the command line gives none (study/preference.h). */
 #ifndef BEAMWORK_DEFAULTS_H
 #define BEAMWORK_DEFAULTS_H
 

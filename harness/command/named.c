@@ -8,7 +8,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/plugin.h"
 #include "harness/formulations/process.h"
-#include "harness/truth/data_place.h"
+#include "harness/study/data_place.h"
 
 void named_add(command_request *r, const char *text)
 {

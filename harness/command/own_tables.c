@@ -1,8 +1,8 @@
 #include "harness/command/own_tables.h"
 
 #include "harness/command/files.h"
-#include "harness/project/own_findings.h"
-#include "harness/project/own_truths.h"
+#include "harness/study/own_findings.h"
+#include "harness/study/own_truths.h"
 
 static status refuse(const mistakes *m, fault *f)
 {

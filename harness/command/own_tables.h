@@ -3,7 +3,7 @@
 #define BEAMWORK_OWN_TABLES_H
 
 #include "harness/command/command.h"
-#include "harness/truth/truths.h"
+#include "harness/study/truths.h"
 
 /* Adds the truths of --truths FILE.csv, of one case where only is not NULL. run: the cases of the
  * run, NULL behind the last. REFUSED: the first mistake, as file:line:column, and how many there

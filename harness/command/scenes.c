@@ -9,7 +9,7 @@
 #include "harness/command/message.h"
 #include "harness/command/own_tables.h"
 #include "harness/formulations/registry.h"
-#include "harness/project/scene_truths.h"
+#include "harness/study/scene_truths.h"
 
 static status add_path(const char *path, scenes *out, fault *f)
 {

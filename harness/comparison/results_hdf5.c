@@ -7,7 +7,7 @@
 #include "harness/comparison/results_case.h"
 #include "harness/comparison/results_sweep.h"
 #include "harness/comparison/table_reader.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 enum { NAME = 200 };
 

@@ -9,7 +9,7 @@
 #include "harness/formulations/assignment.h"
 #include "harness/formulations/select.h"
 #include "harness/numerics/memory.h"
-#include "harness/truth/handles.h"
+#include "harness/study/handles.h"
 
 enum {
     VERSION = 1,

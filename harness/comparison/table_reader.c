@@ -1,5 +1,5 @@
 #include "harness/comparison/table_reader.h"
-#include "harness/truth/handles.h"
+#include "harness/study/handles.h"
 
 #include <stdlib.h>
 #include <string.h>

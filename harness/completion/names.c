@@ -8,8 +8,8 @@
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/registry.h"
-#include "harness/truth/glossary.h"
-#include "harness/truth/truths.h"
+#include "harness/study/glossary.h"
+#include "harness/study/truths.h"
 
 void names_cases(const offer *o)
 {

@@ -7,7 +7,7 @@
 
 #include "harness/command/command.h"
 #include "harness/schema/schema.h"
-#include "harness/timing/against.h"
+#include "harness/study/against.h"
 
 enum { CONTESTANT_ARGUMENTS = 12 + 2 * CASE_MAX_PARAMETERS };
 

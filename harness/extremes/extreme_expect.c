@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/truth/columns.h"
+#include "harness/study/columns.h"
 
 static status read_rows(columns *r, extreme_sweep *out)
 {

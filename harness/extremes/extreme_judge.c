@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/judge/verdict.h"
-#include "harness/truth/truth.h"
+#include "harness/study/truth.h"
+#include "harness/study/verdict.h"
 
 static int quantity_index(const extreme_outcome *o, const point *p)
 {

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "harness/extremes/extreme_record.h"
-#include "harness/judge/rounding.h"
 #include "harness/record/csv_record.h"
+#include "harness/study/rounding.h"
 #include "harness/tables/paragraph.h"
 
 enum { NAME_WIDTH = 23, INDENT = 4, WIDEST_CELL = 10, CONDITION_WIDTH = 7 };

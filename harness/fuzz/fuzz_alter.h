@@ -7,7 +7,7 @@
 #include <hdf5.h>
 
 #include "harness/fuzz/fuzz_file.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 enum { ALTER_OBJECTS = 400, ALTER_NAME = 200, ALTER_BYTES = 1 << 20, ALTER_STEP = 4 };
 

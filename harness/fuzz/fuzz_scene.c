@@ -8,7 +8,7 @@
 #include "cases/format/scene_file.h"
 #include "cases/format/write.h"
 #include "harness/fuzz/fuzz.h"
-#include "harness/project/scene_truths.h"
+#include "harness/study/scene_truths.h"
 
 /* The scene at its defaults as text, malloced; NULL: it cannot be written. */
 static char *written(const scene_file *file, size_t *size)

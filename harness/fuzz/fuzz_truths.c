@@ -1,7 +1,7 @@
 /* A truths.h5 with contents that nobody expects (even first byte), or any bytes as one. */
 #include "harness/fuzz/fuzz_alter.h"
-#include "harness/truth/glossary.h"
-#include "harness/truth/truths.h"
+#include "harness/study/glossary.h"
+#include "harness/study/truths.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -7,7 +7,7 @@
 
 #include "harness/comparison/table_reader.h"
 #include "harness/imports/import_cells.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 typedef struct point_row {
     char point[16], parameters[PARAMETERS_TEXT];

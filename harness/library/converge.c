@@ -1,19 +1,19 @@
 #include <limits.h>
 
-#include "harness/judge/families.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
 #include "harness/library/known.h"
 #include "harness/library/options.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
-#include "harness/project/scene_truths.h"
 #include "harness/record/json_convergence.h"
 #include "harness/record/reach_line.h"
 #include "harness/request/meshes.h"
+#include "harness/study/families.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
+#include "harness/study/scene_truths.h"
 #include "harness/study/worker.h"
 
 /* What is asked, and what answers it; converge frees it. */

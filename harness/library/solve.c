@@ -6,9 +6,9 @@
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"
 #include "harness/numerics/team.h"
-#include "harness/project/scene_truths.h"
 #include "harness/request/meshes.h"
 #include "harness/request/solution.h"
+#include "harness/study/scene_truths.h"
 
 enum { STEPS_MOST = 1000000 };
 

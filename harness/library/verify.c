@@ -6,13 +6,13 @@
 #include "harness/library/options.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
-#include "harness/project/scene_truths.h"
 #include "harness/record/json.h"
 #include "harness/record/output.h"
 #include "harness/record/store.h"
 #include "harness/request/regressions.h"
 #include "harness/request/verification.h"
 #include "harness/study/plan.h"
+#include "harness/study/scene_truths.h"
 #include "harness/study/worker.h"
 
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };

@@ -7,8 +7,8 @@
 #include "harness/pace/pace_distance.h"
 #include "harness/pace/pace_drift.h"
 #include "harness/pace/pace_order.h"
+#include "harness/study/price.h"
 #include "harness/study/run.h"
-#include "harness/timing/price.h"
 
 static double distance_of_check(const pace *p, const pace_group *g, int check)
 {

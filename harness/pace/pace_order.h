@@ -21,7 +21,7 @@ typedef struct pace_ladder {
     pace_order_kind kind;
 } pace_ladder;
 
-/* The order is below the nominal one by less than this: as of meshes (harness/judge). */
+/* The order is below the nominal one by less than this: as of meshes (harness/study). */
 extern const double pace_order_slack;
 
 /* 1: what its steps do not resolve stops the order of the reference. */

@@ -10,7 +10,7 @@
 #define BEAMWORK_PACE_VERDICT_H
 
 #include "harness/pace/pace.h"
-#include "harness/project/own_table.h"
+#include "harness/study/own_table.h"
 
 enum { PACE_FOUND = 128 };
 

@@ -7,9 +7,9 @@
 #include "cases/format/write.h"
 #include "harness/formulations/parameters.h"
 #include "harness/model/features.h"
-#include "harness/project/scene_truths.h"
-#include "harness/truth/derive.h"
-#include "harness/truth/truth.h"
+#include "harness/study/derive.h"
+#include "harness/study/scene_truths.h"
+#include "harness/study/truth.h"
 
 /* Rows of the request that hold at the point: few of many, which every quantity looks through. */
 static status borrow(const truths *all, const point *p, known *out, fault *f)

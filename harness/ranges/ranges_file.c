@@ -6,7 +6,7 @@
 
 #include "harness/model/missing.h"
 #include "harness/ranges/ranges_file_impl.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;

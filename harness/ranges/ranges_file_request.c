@@ -3,7 +3,7 @@
 #include "harness/formulations/environment.h"
 #include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_file_impl.h"
-#include "harness/timing/price.h"
+#include "harness/study/price.h"
 
 enum { TEXT = 64, LONG_TEXT = 128 };
 

@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/reach.h"
 #include "harness/ranges/known.h"
 #include "harness/ranges/ranges_points.h"
 #include "harness/ranges/reference.h"
 #include "harness/study/plan.h"
+#include "harness/study/price.h"
+#include "harness/study/reach.h"
 #include "harness/study/run.h"
-#include "harness/timing/price.h"
 
 /* A batch that is being made. */
 typedef struct making {

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "harness/judge/verdict.h"
 #include "harness/model/features.h"
+#include "harness/study/verdict.h"
 
 enum { MOST = 64 };
 

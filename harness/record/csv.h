@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-#include "harness/judge/judgement.h"
-#include "harness/timing/timing.h"
+#include "harness/study/judgement.h"
+#include "harness/study/timing.h"
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);

@@ -10,7 +10,7 @@
 #include "harness/record/json_record.h"
 #include "harness/schema/gather.h"
 #include "harness/study/noise.h"
-#include "harness/truth/truth.h"
+#include "harness/study/truth.h"
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
 static const char unwritten[] = "the JSON could not be written (full disk or out of memory)";

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/judge/curve_error.h"
 #include "harness/record/json.h"
 #include "harness/record/json_record.h"
 #include "harness/record/reach_line.h"
 #include "harness/schema/gather.h"
+#include "harness/study/curve_error.h"
 
 /* Of one quantity on every mesh: what was found, and the cell it was found by. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)

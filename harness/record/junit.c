@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "cases/scene/omission.h"
-#include "harness/judge/sentence.h"
 #include "harness/model/features.h"
 #include "harness/schema/assumptions.h"
+#include "harness/study/sentence.h"
 
 static void escaped(FILE *to, const char *text)
 {

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "cases/scene/omission.h"
-#include "harness/judge/sentence.h"
 #include "harness/model/features.h"
 #include "harness/schema/assumptions.h"
+#include "harness/study/sentence.h"
 
 enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/environment.h"
-#include "harness/judge/overview.h"
+#include "harness/study/overview.h"
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
                     const environment *e);

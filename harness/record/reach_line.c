@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/rounding.h"
-#include "harness/timing/price.h"
+#include "harness/study/price.h"
+#include "harness/study/rounding.h"
 
 static void write_reached(FILE *to, const sweep *s, const reached *r)
 {

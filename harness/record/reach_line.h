@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/judge/reach.h"
+#include "harness/study/reach.h"
 
 #define REACH_LINE_LEVEL 0.01 /* where none is asked for */
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/record/output.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
 

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "cases/format/write.h"
-#include "harness/judge/sentence.h"
 #include "harness/record/record_rows.h"
 #include "harness/record/store_shapes.h"
 #include "harness/record/vtkhdf.h"
 #include "harness/schema/gather.h"
-#include "harness/timing/price.h"
+#include "harness/study/price.h"
+#include "harness/study/sentence.h"
 
 static void put_environment(record *r, const environment *e)
 {

@@ -5,8 +5,8 @@
 #define BEAMWORK_STORE_H
 
 #include "harness/formulations/environment.h"
-#include "harness/judge/judgement.h"
 #include "harness/record/record.h"
+#include "harness/study/judgement.h"
 
 /* A file that is filled case by case, while others are still run. */
 typedef struct store {

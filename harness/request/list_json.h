@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/formulation.h"
-#include "harness/truth/rules.h"
+#include "harness/study/rules.h"
 
 /* Of all cases, and of all formulations with the physics that they can offer: 1: wanted. */
 status list_json_all(FILE *to, int cases, int formulations, fault *f);

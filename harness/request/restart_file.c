@@ -8,8 +8,8 @@
 #include "harness/record/record.h"
 #include "harness/request/restart.h"
 #include "harness/request/restart_text.h"
-#include "harness/truth/checksum.h"
-#include "harness/truth/handles.h"
+#include "harness/study/checksum.h"
+#include "harness/study/handles.h"
 
 static const char kind[] = "beamwork-motion-end-4";
 enum { RUN = 3, NUMBERS = 21, FIRST_COUNT = 11, COUNTS = 5, MOST_ENDS = 1000 };

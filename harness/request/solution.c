@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/preference.h"
 #include "harness/model/features.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
+#include "harness/study/preference.h"
 
 static cell_request cell_of(const solution_request *r, const scene *s)
 {

@@ -28,7 +28,7 @@ typedef struct solution_choice {
 } solution_choice;
 void solution_choice_free(solution_choice *);
 
-/* Fills the formulation (harness/judge/preference.h), and the elements where they are wanted; rules
+/* Fills the formulation (harness/study/preference.h), and the elements where they are wanted; rules
  * NULL: the ledger is not known. REFUSED: no formulation offers what the case needs.
  * solution_choice_free in any case. */
 status solution_choose(solution_request *, const rule *rules, int count, int elements,

@@ -5,8 +5,8 @@
 
 #include "harness/certificate/certificate.h"
 #include "harness/formulations/formulations.h"
-#include "harness/judge/families.h"
 #include "harness/numerics/memory.h"
+#include "harness/study/families.h"
 #include "harness/study/run.h"
 
 typedef struct verification {

@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_VERIFICATION_H
 #define BEAMWORK_VERIFICATION_H
 
-#include "harness/judge/judgement.h"
+#include "harness/study/judgement.h"
 
 /* Who takes what is judged while the rest is run. */
 typedef struct verification_reader {

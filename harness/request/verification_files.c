@@ -3,10 +3,10 @@
 #include <limits.h>
 #include <stdio.h>
 
-#include "harness/judge/proposal.h"
 #include "harness/record/junit.h"
 #include "harness/record/markdown.h"
 #include "harness/record/output.h"
+#include "harness/study/proposal.h"
 
 status verification_files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)
 {

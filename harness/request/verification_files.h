@@ -3,9 +3,9 @@
 #ifndef BEAMWORK_VERIFICATION_FILES_H
 #define BEAMWORK_VERIFICATION_FILES_H
 
-#include "harness/judge/overview.h"
 #include "harness/record/json.h"
 #include "harness/record/store.h"
+#include "harness/study/overview.h"
 
 typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* NULL: none */

@@ -9,7 +9,7 @@
 #include "harness/model/on_nodes.h"
 #include "harness/model/warping_ends.h"
 #include "harness/schema/fields_keys.h"
-#include "harness/timing/price.h"
+#include "harness/study/price.h"
 
 static void get_features(const subject *s, field_value *out)
 {

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "harness/schema/fields_keys.h"
-#include "harness/timing/timing.h"
+#include "harness/study/timing.h"
 
 static const cell_timing *timing_of(const subject *s)
 {

@@ -1,10 +1,10 @@
 /* Records of the judge: verdicts and agreements with stored discrete values. */
 #include <math.h>
 
-#include "harness/judge/reach.h"
-#include "harness/judge/sentence.h"
 #include "harness/model/features.h"
 #include "harness/schema/fields_keys.h"
+#include "harness/study/reach.h"
+#include "harness/study/sentence.h"
 
 static const char *word_of_verdict(int kind)
 {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/schema/assumptions.h"
-#include "harness/timing/timing.h"
+#include "harness/study/timing.h"
 
 static void add(subjects *list, const subject *one)
 {

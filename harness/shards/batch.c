@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "harness/record/output.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 void batch_stem(const work *w, char out[BATCH_STEM])
 {

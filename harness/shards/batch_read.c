@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/shards/batch.h"
-#include "harness/truth/checksum.h"
+#include "harness/study/checksum.h"
 
 static status no_batch(const char *path, fault *f)
 {

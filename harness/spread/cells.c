@@ -5,7 +5,7 @@
 
 #include "harness/study/expense.h"
 #include "harness/study/serialise.h"
-#include "harness/timing/timing.h"
+#include "harness/study/timing.h"
 
 int cells_runs(const sweep *s, int index)
 {

@@ -4,7 +4,7 @@
 
 #include "harness/spread/spread.h"
 #include "harness/study/sweep.h"
-#include "harness/truth/truths.h"
+#include "harness/study/truths.h"
 
 typedef struct sweep_work sweep_work;
 struct sweep_work {

@@ -1,7 +1,7 @@
 #include "harness/spread/timing_work.h"
 
 #include "harness/study/run.h"
-#include "harness/timing/timing.h"
+#include "harness/study/timing.h"
 
 static status run(const sweep_work *of, sweep *part, fault *f)
 {

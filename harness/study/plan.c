@@ -8,7 +8,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/registry.h"
 #include "harness/model/missing.h"
-#include "harness/truth/truth.h"
+#include "harness/study/truth.h"
 
 static status add_point(sweep *s, const case_type *type, const double value[],
                         const scene_edit *edit, fault *f)

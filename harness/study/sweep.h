@@ -10,7 +10,7 @@
 #include "harness/study/cell.h"
 #include "harness/study/imported.h"
 #include "harness/study/omission.h"
-#include "harness/truth/truths.h"
+#include "harness/study/truths.h"
 
 enum { SERIES_MAX_MESHES = SCENE_MESHES };
 
@@ -39,7 +39,7 @@ typedef struct series {
     cell_result *cell; /* [meshes]; their scenes are empty: the point has it */
     /* [quantities] relative, of the finest mesh (harness/study/noise.h); NULL: not measured */
     double *noise;
-    struct cell_timing *timing; /* [meshes] of a benchmark (harness/timing); else NULL */
+    struct cell_timing *timing; /* [meshes] of a benchmark (harness/study); else NULL */
     imported *imported;         /* another program's: its cells were not run here; else NULL */
 } series;
 

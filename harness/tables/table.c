@@ -5,11 +5,11 @@
 
 #include "cases/scene/omission.h"
 #include "harness/formulations/parameters.h"
-#include "harness/judge/rounding.h"
 #include "harness/model/division_words.h"
 #include "harness/model/features.h"
 #include "harness/schema/assumptions.h"
 #include "harness/study/cell.h"
+#include "harness/study/rounding.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 2 };

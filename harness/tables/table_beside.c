@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/rounding.h"
-#include "harness/judge/sentence.h"
+#include "harness/study/rounding.h"
+#include "harness/study/sentence.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_curves.h"

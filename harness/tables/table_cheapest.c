@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/study/timing.h"
 #include "harness/tables/paragraph.h"
-#include "harness/timing/timing.h"
 
 static const rounds_reading *time_of(const sweep *s, const reached *r)
 {

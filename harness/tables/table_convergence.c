@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "harness/judge/rounding.h"
-#include "harness/judge/sentence.h"
+#include "harness/study/rounding.h"
+#include "harness/study/sentence.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_curves.h"

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/judge/curve_error.h"
-#include "harness/judge/rounding.h"
 #include "harness/newton/history.h"
+#include "harness/study/curve_error.h"
+#include "harness/study/rounding.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_stability.h"

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/judge/judgement.h"
+#include "harness/study/judgement.h"
 #include "harness/tables/screen.h"
 
 /* Behind the long table: published values that limits contradict, cells without a solution, how

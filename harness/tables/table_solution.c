@@ -3,16 +3,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/judge/change.h"
 #include "harness/model/on_nodes.h"
 #include "harness/model/warping_ends.h"
+#include "harness/study/change.h"
+#include "harness/study/truth.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_curves.h"
 #include "harness/tables/table_motion.h"
 #include "harness/tables/table_path.h"
 #include "harness/tables/table_stability.h"
-#include "harness/truth/truth.h"
 
 enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
 static const double least_rounding = 1e-11, /* of any value that is computed */

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/study/timing.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 #include "harness/tables/table_cheapest.h"
-#include "harness/timing/timing.h"
 
 enum { NAME = 23 };
 

@@ -8,8 +8,8 @@
 #include "cases/format/scene_file.h"
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/words.h"
-#include "harness/judge/rounding.h"
-#include "harness/judge/sentence.h"
+#include "harness/study/rounding.h"
+#include "harness/study/sentence.h"
 #include "harness/tables/paragraph.h"
 
 enum { INDENT = 4 };

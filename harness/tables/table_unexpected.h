@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/judge/judgement.h"
+#include "harness/study/judgement.h"
 #include "harness/tables/screen.h"
 
 /* Nothing where all is as expected. */

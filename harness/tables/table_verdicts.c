@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/rounding.h"
+#include "harness/study/rounding.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/truth/truths.h"
+#include "harness/study/truths.h"
 
 static void read_table(void)
 {

@@ -17,7 +17,7 @@ import json
 import math
 
 PREDICTED = "wrong limit, as predicted"
-SURELY, KNOWN = 3, 1e-9  # uncertainties of a limit (judge/verdict.c); relative one of a prediction
+SURELY, KNOWN = 3, 1e-9  # uncertainties of a limit (study/verdict.c); relative one of a prediction
 STEPS, FINE_STEPS = (1, 2, 5, 10), (1, 1.5, 2, 3, 4, 5, 7, 10)
 LOOSE, FINE_LOOSE = 10, 1.5  # so many times what is seen
 

@@ -242,7 +242,7 @@ BESIDE = {
     "harness/(timing|contest|study)/": "timing|cli/beside",
     "harness/(pace|motion|radau|scheme|explicit|conserving)/":
         "pace/motion|cli/(restart|own_motion|motion_error)",
-    "harness/project/": "cli/new_formulation|project",
+    "harness/study/": "cli/new_formulation|project",
     "harness/(turning|flutter|solver|algebra|equations|model|recovery)/":
         "analysis/(shapes|flutter|rotor|about|along|turns|sym|divided)",
     "cases/scene/|harness/(model|scene_writer|language|truth|comparison)/":

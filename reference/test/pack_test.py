@@ -224,7 +224,7 @@ class Pack(unittest.TestCase):
 class Words(unittest.TestCase):
 
     def test_the_program_knows_the_same_words(self):
-        text = "".join((ROOT / "harness" / "truth" / name).read_text(encoding="utf-8")
+        text = "".join((ROOT / "harness" / "study" / name).read_text(encoding="utf-8")
                        for name in ("truths.h", "truths.c", "truth.c", "truth_rows.c"))
         text += (ROOT / "cases" / "scene" / "scene.h").read_text(encoding="utf-8")
         for name, words in (("truth_kinds", pack.KINDS), ("SCENE_SHEAR_THEORIES", pack.THEORIES[1:]),

@@ -6,10 +6,10 @@
 #include "elements/shared/choice.h"
 #include "harness/comparison/comparison.h"
 #include "harness/extremes/outcome.h"
-#include "harness/judge/verdict.h"
-#include "harness/timing/against.h"
-#include "harness/truth/glossary.h"
-#include "harness/truth/truth.h"
+#include "harness/study/against.h"
+#include "harness/study/glossary.h"
+#include "harness/study/truth.h"
+#include "harness/study/verdict.h"
 
 static glossary words;
 

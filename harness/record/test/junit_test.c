@@ -136,7 +136,7 @@ static void bench_make(bench *b)
     b->j.agreement = b->a;
 }
 
-/* As the judge counts (harness/judge): the sums that the other reports show. */
+/* As the judge counts (harness/study): the sums that the other reports show. */
 static void add_verdict(bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/judge/families.h"
 #include "harness/record/reach_line.h"
-#include "harness/timing/price.h"
+#include "harness/study/families.h"
+#include "harness/study/price.h"
 
 enum { MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "harness/schema/gather.h"
-#include "harness/timing/price.h"
-#include "harness/timing/timing.h"
+#include "harness/study/price.h"
+#include "harness/study/timing.h"
 
 enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
 static const case_type made_up = {.name = "made_up"};

@@ -8,7 +8,7 @@
 #include "harness/spread/cells.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
-#include "harness/timing/timing.h"
+#include "harness/study/timing.h"
 
 /* Two meshes of a path with a curve, run; noise and times as if they were measured. */
 static void make(sweep *s)

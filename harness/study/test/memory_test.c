@@ -12,9 +12,9 @@
 #include "cases/format/scene_file.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/registry.h"
-#include "harness/project/scene_truths.h"
 #include "harness/record/store.h"
 #include "harness/study/plan.h"
+#include "harness/study/scene_truths.h"
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);

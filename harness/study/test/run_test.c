@@ -11,7 +11,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"
-#include "harness/truth/truth.h"
+#include "harness/study/truth.h"
 
 /* Points one behind the other have the hash that each has alone. */
 static void hashes_of_neighbours(void)

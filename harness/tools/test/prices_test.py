@@ -71,7 +71,7 @@ class Fit(unittest.TestCase):
 class Table(unittest.TestCase):
 
     def test_the_committed_one(self):
-        lines = (ROOT / "harness/timing/prices.csv").read_text(encoding="utf-8").splitlines()
+        lines = (ROOT / "harness/study/prices.csv").read_text(encoding="utf-8").splitlines()
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         self.assertTrue(any("took no part" in line for line in lines if line.startswith("#")))
         known = set(prices.SHARED + prices.ANY)

@@ -1,0 +1,148 @@
+#include "harness/study/change.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "elements/section/section.h"
+#include "harness/study/curve_error.h"
+#include "harness/study/verdict.h"
+
+/* Round-off is below a thousandth of these: of strains, of places and turns; and of other values.
+ */
+static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
+
+/* Largest extent of the places of nodes [m]. */
+static double size_of(const scene *s)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        double least = INFINITY, most = -INFINITY;
+        for (int i = 0; i < s->nodes; i++) {
+            least = fmin(least, s->node[i].position[k]);
+            most = fmax(most, s->node[i].position[k]);
+        }
+        sum += s->nodes > 0 ? (most - least) * (most - least) : 0;
+    }
+    return sqrt(sum);
+}
+
+/* Largest EA [N]. */
+static double stiffness_of(const scene *s)
+{
+    double largest = 0;
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (section_compute(&s->section[i], &c, NULL) == STATUS_OK)
+            largest = fmax(largest, c.matrices ? c.stiffness[0] : c.young * c.A);
+    }
+    return largest;
+}
+
+static double youngs_of(const scene *s)
+{
+    double largest = 0;
+    for (int i = 0; i < s->sections; i++)
+        largest = fmax(largest, fmax(s->section[i].young, s->section[i].constants.young));
+    return largest;
+}
+
+static double of_compliance(const scene *s, const scene_entry *e)
+{
+    const double size = size_of(s), EA = stiffness_of(s);
+    double out = EA > 0 ? small_part / EA : 0;
+    if (e->row < SCENE_RX && e->column < SCENE_RX)
+        out *= size;
+    if (e->row >= SCENE_RX && e->column >= SCENE_RX && size > 0)
+        out /= size;
+    return out;
+}
+
+static double of_resultant(const scene *s, scene_resultant which)
+{
+    const double force = small_strain * stiffness_of(s), size = size_of(s);
+    if (which == SCENE_BIMOMENT)
+        return force * size * size;
+    return which <= SCENE_QZ ? force : force * size;
+}
+
+/* By what it is, in SI units. */
+static double physical_scale(const scene *s, const scene_quantity *q)
+{
+    switch (q->what.kind) {
+    case SCENE_COORDINATE:
+        return scene_component_of(q)->component < SCENE_RX ? small_part * size_of(s) : small_part;
+    case SCENE_RELATIVE:
+        return scene_relative_of(q)->component < SCENE_RX ? small_part * size_of(s) : small_part;
+    case SCENE_REACTION:
+        return of_resultant(s, scene_component_of(q)->component < SCENE_RX ? SCENE_N : SCENE_MX);
+    case SCENE_INTERNAL:
+        return of_resultant(s, scene_internal_of(q)->resultant);
+    case SCENE_STRESS:
+        return small_strain * youngs_of(s);
+    case SCENE_COMPLIANCE_ENTRY:
+        return of_compliance(s, scene_entry_of(q));
+    case SCENE_ORIENTATION:
+        return small_part;
+    default:
+        return 0;
+    }
+}
+
+/* Is it the time or the number at which something is met? */
+static int is_of_time(const scene_quantity *q)
+{
+    return q->reduction >= SCENE_MAX_TIME && q->reduction <= SCENE_PER_SECOND;
+}
+
+double change_scale(const scene *s, int quantity, const solve_result *r)
+{
+    const scene_quantity *q = &s->quantity[quantity];
+    double out = q->near_zero;
+    for (int i = 0; i < s->quantities && i < r->quantities; i++) {
+        const scene_quantity *other = &s->quantity[i];
+        if (other->analysis == q->analysis && strcmp(other->unit, q->unit) == 0 &&
+            isfinite(r->quantity[i].value))
+            out = fmax(out, small_beside * fabs(r->quantity[i].value));
+    }
+    return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
+}
+
+/* NAN: neither has a value. */
+static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
+{
+    const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
+                 y = index < b->quantities ? b->quantity[index].value : (double)NAN;
+    if (s->quantity[index].reduction == SCENE_CURVE)
+        return curve_error_between(s, index, a, b, NULL);
+    if (isnan(x) && isnan(y))
+        return NAN;
+    if (isnan(x) || isnan(y))
+        return INFINITY;
+    const double scale = fmax(fabs(x), change_scale(s, index, a));
+    return scale > 0 ? fabs(y - x) / scale : fabs(y - x);
+}
+
+static int tells_errors(const scene_quantity *q)
+{
+    return q->what.kind == SCENE_BALANCE && q->what.of.balance == SCENE_DRIFT;
+}
+
+void change_between(const scene *s, const cell_result *before, const cell_result *now, change *out)
+{
+    const int values = cell_values(before) > 0 && cell_values(now) > 0;
+    out->largest = values ? -1 : INFINITY;
+    out->which = -1;
+    out->missing = 0;
+    for (int q = 0; q < s->quantities; q++) {
+        const int judged = values && !tells_errors(&s->quantity[q]);
+        const double one = judged ? change_of(s, q, &before->solve, &now->solve) : (double)NAN;
+        out->of_each[q] = one;
+        out->missing |= judged && isnan(one) && s->quantity[q].reduction != SCENE_CURVE;
+        if (one > out->largest) {
+            out->largest = one;
+            out->which = q;
+        }
+    }
+    if (out->largest < 0)
+        out->largest = INFINITY;
+}

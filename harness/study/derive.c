@@ -1,0 +1,183 @@
+#include "harness/study/derive.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/study/data_place.h"
+
+static const char python[] = "/usr/bin/python3";
+enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as of reference/derive/at.py */
+
+status derive_script(const char *name, char out[PATH_MAX], fault *f)
+{
+    char folder[PATH_MAX];
+    const char *given = getenv("BEAMWORK_REFERENCE");
+    if (given == NULL)
+        data_place("reference", folder);
+    const int length =
+        snprintf(out, PATH_MAX, "%s/derive/%s", given != NULL ? given : folder, name);
+    return length < PATH_MAX ? STATUS_OK
+                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
+}
+
+/* Its two streams as files. */
+typedef struct script {
+    pid_t process;
+    FILE *says, *complains;
+} script;
+
+/* What is asked of a program of reference/derive. */
+typedef struct question {
+    const char *path;
+    const char *case_name, *parameters; /* NULL: none */
+    FILE *input;                        /* a scene; NULL: none */
+} question;
+
+static status start(const question *q, script *s, fault *f)
+{
+    int out[2] = {-1, -1}, error[2] = {-1, -1};
+    if (pipe(out) != 0 || pipe(error) != 0 || (s->process = fork()) < 0) {
+        for (int i = 0; i < 2; i++) {
+            close(out[i]);
+            close(error[i]);
+        }
+        fault_set(f, STATUS_FAULT, "the deriving program cannot be started");
+        return STATUS_FAULT;
+    }
+    if (s->process == 0) {
+        dup2(out[1], STDOUT_FILENO);
+        dup2(error[1], STDERR_FILENO);
+        for (int i = 0; i < 2; i++) {
+            close(out[i]);
+            close(error[i]);
+        }
+        if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
+            _exit(127);
+        /* By its full name: it takes its libraries from beside the name it is called by, looked up
+         * in PATH; and isolated
+         * (-I) from the environment of whoever works in a virtual one. */
+        execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
+        _exit(127);
+    }
+    close(out[1]);
+    close(error[1]);
+    s->says = fdopen(out[0], "r");
+    s->complains = fdopen(error[0], "r");
+    if (s->says != NULL && s->complains != NULL)
+        return STATUS_OK;
+    fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
+    return STATUS_FAULT;
+}
+
+static int take_text(char **rest, char *to, size_t size)
+{
+    const char *field = strsep(rest, "\t");
+    if (field == NULL || strlen(field) >= size)
+        return 0;
+    snprintf(to, size, "%s", field);
+    return 1;
+}
+
+static int take_number(char **rest, double *to)
+{
+    const char *field = strsep(rest, "\t");
+    char *end;
+    if (field == NULL || *field == '\0')
+        return 0;
+    *to = strtod(field, &end);
+    return *end == '\0' && isfinite(*to);
+}
+
+static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
+{
+    char line[LINE];
+    while (fgets(line, sizeof line, from) != NULL) {
+        derived_value *more = realloc(*out, ((size_t)*count + 1) * sizeof *more);
+        if (more == NULL)
+            return fault_set(f, STATUS_FAULT, "out of memory for derived values");
+        *out = more;
+        derived_value *v = &more[*count];
+        char *rest = line;
+        line[strcspn(line, "\n")] = '\0';
+        if (!take_text(&rest, v->quantity, sizeof v->quantity) || !take_number(&rest, &v->value) ||
+            !take_text(&rest, v->unit, sizeof v->unit) || !take_number(&rest, &v->uncertainty) ||
+            !take_text(&rest, v->convention, sizeof v->convention) ||
+            !take_text(&rest, v->source, sizeof v->source))
+            return fault_set(f, STATUS_FAULT,
+                             "the deriving program says '%.80s', which is not a value", line);
+        ++*count;
+    }
+    return STATUS_OK;
+}
+
+/* Closes its streams and waits for its end; how that was, as of waitpid. */
+static int stop(script *s)
+{
+    int how = 0;
+    if (s->says != NULL)
+        fclose(s->says);
+    if (s->complains != NULL)
+        fclose(s->complains);
+    if (s->process > 0)
+        waitpid(s->process, &how, 0);
+    *s = (script){0};
+    return how;
+}
+
+/* With what derive_asked stops and frees. */
+static status derive(const question *q, script *s, derived_value **out, int *count, fault *f)
+{
+    char complaint[LINE] = "", more[LINE];
+    TRY(start(q, s, f));
+    TRY(read_lines(s->says, out, count, f));
+    while (fgets(more, sizeof more, s->complains) != NULL) {
+        memcpy(complaint, more, sizeof complaint); /* the last line says it */
+        if (*count > 0)
+            fputs(complaint, stderr); /* what of a scene is beyond the program */
+    }
+    complaint[strcspn(complaint, "\n")] = '\0';
+    const int how = stop(s);
+    if (how == 0)
+        return STATUS_OK;
+    return WIFEXITED(how) && WEXITSTATUS(how) == NOT_DERIVABLE
+               ? fault_set(f, STATUS_REFUSED, "%.300s", complaint)
+               : fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
+}
+
+static status derive_asked(const question *q, derived_value **out, int *count, fault *f)
+{
+    script s = {0};
+    *out = NULL;
+    *count = 0;
+    if (access(q->path, R_OK) != 0)
+        return fault_set(f, STATUS_FAULT,
+                         "%.200s: the deriving programs are not here; run from a clone, or set "
+                         "BEAMWORK_REFERENCE",
+                         q->path);
+    const status outcome = derive(q, &s, out, count, f);
+    stop(&s);
+    if (outcome != STATUS_OK) {
+        free(*out);
+        *out = NULL;
+        *count = 0;
+    }
+    return outcome;
+}
+
+status derive_values(const char *path, const char *case_name, const char *parameters,
+                     derived_value **out, int *count, fault *f)
+{
+    const question q = {path, case_name, parameters, NULL};
+    return derive_asked(&q, out, count, f);
+}
+
+status derive_scene(const char *path, FILE *scene_text, derived_value **out, int *count, fault *f)
+{
+    const question q = {path, NULL, NULL, scene_text};
+    rewind(scene_text);
+    return derive_asked(&q, out, count, f);
+}

@@ -1,0 +1,329 @@
+#include "harness/study/families.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/features.h"
+#include "harness/study/truth.h"
+
+enum { MOST_SERIES = 64 };
+
+/* A limit that is known. */
+typedef struct known_limit {
+    int series;
+    const char *family;
+    unsigned theory;
+    double value, uncertainty;
+} known_limit;
+
+/* Is it known to have another limit in what the scene has? */
+static int is_known_wrong(const truths *t, unsigned features, const char *key)
+{
+    for (int i = 0; i < t->rules; i++) {
+        const rule *r = &t->rule[i];
+        const unsigned of = rules_features(r);
+        if (of != 0 && (of & features) == of && verdict_tells_defect(r) && rules_speak_of(r, key))
+            return 1;
+    }
+    return 0;
+}
+
+/* May what it finds count as a witness? */
+static int may_vote(const sweep *s, const series *one, const truths *t)
+{
+    const element_type *type = one->formulation.type;
+    return one->missing[0] == '\0' && !one->without.other && type->family != NULL &&
+           type->misprint == NULL &&
+           !is_known_wrong(t, features_needed(&s->point[one->point].scene), one->formulation.key);
+}
+
+static int known_limits(const sweep *s, int point_index, int quantity, const truths *t,
+                        known_limit out[MOST_SERIES])
+{
+    const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
+    int count = 0;
+    for (int i = 0; i < s->seriess && count < MOST_SERIES; i++) {
+        const series *one = &s->series[i];
+        if (one->point != point_index || !may_vote(s, one, t))
+            continue;
+        const mesh_limit fit = verdict_limit(s, i, quantity, 0);
+        const double unmodelled =
+            one->without.what != 0 ? one->without.change * fabs(fit.limit) : 0;
+        if (isfinite(fit.limit) && isfinite(fit.limit_uncertainty))
+            out[count++] = (known_limit){
+                i, one->formulation.type->family,
+                features_needed_of(&s->point[point_index].scene, one->formulation.type) & theories,
+                fit.limit, fit.limit_uncertainty + unmodelled};
+    }
+    return count;
+}
+
+/* How far two limits are apart, and what both are uncertain by. */
+typedef struct difference {
+    double apart, unknown;
+} difference;
+
+static difference difference_of(const known_limit *a, const known_limit *b)
+{
+    return (difference){fabs(a->value - b->value), a->uncertainty + b->uncertainty};
+}
+
+static int agree(const scene_quantity *q, const known_limit *a, const known_limit *b)
+{
+    const difference d = difference_of(a, b);
+    if (a->theory != b->theory)
+        return 0;
+    const double size = fmax(fmax(fabs(a->value), fabs(b->value)), q->near_zero);
+    return d.apart + d.unknown <= FAMILIES_APART * size;
+}
+
+/* What agrees with one limit: of each family the nearest. */
+static families_limit around(const scene_quantity *q, const known_limit *all, int count, int centre)
+{
+    families_limit out = {.value = all[centre].value, .theory = all[centre].theory};
+    double nearest[FAMILIES_MOST], best = INFINITY, beyond = 0;
+    for (int i = 0; i < count; i++) {
+        const difference d = difference_of(&all[centre], &all[i]);
+        const double far = d.apart + d.unknown;
+        int k = 0;
+        if (!agree(q, &all[centre], &all[i]))
+            continue;
+        while (k < out.families && strcmp(all[out.series[k]].family, all[i].family) != 0)
+            k++;
+        if (k == FAMILIES_MOST || (k < out.families && nearest[k] <= far))
+            continue;
+        nearest[k] = far;
+        out.series[k] = i;
+        out.families += k == out.families;
+    }
+    for (int k = 0; k < out.families; k++) {
+        const difference d = difference_of(&all[centre], &all[out.series[k]]);
+        if (strcmp(all[centre].family, all[out.series[k]].family) == 0)
+            continue;
+        best = fmin(best, d.apart + d.unknown);
+        beyond = fmax(beyond, d.apart - d.unknown);
+    }
+    out.uncertainty = fmax(best, beyond);
+    return out;
+}
+
+/* A mean of limits by 1/U^2. */
+typedef struct mean {
+    double value, uncertainty, spread;
+} mean;
+
+static mean mean_of(const known_limit *all, int count, const int in[])
+{
+    double sum = 0, weights = 0, squares = 0;
+    mean out;
+    for (int pass = 0; pass < 2; pass++) {
+        out.value = sum / weights; /* of the first pass */
+        for (int i = 0; i < count; i++) {
+            const double least = 1e-15 * fabs(all[i].value) + DBL_MIN,
+                         u = fmax(all[i].uncertainty, least), w = 1 / (u * u);
+            if (!in[i])
+                continue;
+            if (pass > 0)
+                squares += w * (all[i].value - out.value) * (all[i].value - out.value);
+            else {
+                sum += w * all[i].value;
+                weights += w;
+            }
+        }
+    }
+    out.uncertainty = 1 / sqrt(weights);
+    out.spread = sqrt(squares / weights);
+    return out;
+}
+
+static int is_near(const known_limit *one, const mean *m)
+{
+    return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
+}
+
+/* Takes out who is furthest off beyond its uncertainty, until nobody is: in[count]. */
+static mean settle(const known_limit *all, int count, int in[])
+{
+    for (;;) {
+        const mean m = mean_of(all, count, in);
+        double most = 0;
+        int worst = -1;
+        for (int i = 0; i < count; i++) {
+            const double off = fabs(all[i].value - m.value) / (all[i].uncertainty + m.uncertainty);
+            if (in[i] && !is_near(&all[i], &m) && off > most) {
+                most = off;
+                worst = i;
+            }
+        }
+        if (worst < 0)
+            return m;
+        in[worst] = 0;
+    }
+}
+
+/* The mean of those around the centre that are within their uncertainty of it, if they are of two
+ * families. */
+static void refine(const scene_quantity *q, const known_limit *all, int count, int centre,
+                   families_limit *out)
+{
+    int in[MOST_SERIES], near[MOST_SERIES];
+    families_limit better = {.theory = out->theory, .disputed = out->disputed};
+    for (int i = 0; i < count; i++)
+        in[i] = near[i] = agree(q, &all[centre], &all[i]);
+    const mean m = settle(all, count, in);
+    for (int i = 0; i < count; i++) {
+        int k = 0;
+        while (k < better.families && strcmp(all[better.series[k]].family, all[i].family) != 0)
+            k++;
+        if (near[i] && !in[i] && better.others < FAMILIES_MOST)
+            better.other[better.others++] = i;
+        if (!in[i] || k == FAMILIES_MOST)
+            continue;
+        if (k == better.families || all[i].uncertainty < all[better.series[k]].uncertainty)
+            better.series[k] = i;
+        better.families += k == better.families;
+    }
+    if (better.families < 2)
+        return;
+    better.value = m.value;
+    better.uncertainty = fmax(m.uncertainty, m.spread);
+    *out = better;
+}
+
+static int is_better(const families_limit *a, const families_limit *b)
+{
+    return a->families > b->families ||
+           (a->families == b->families && a->uncertainty < b->uncertainty);
+}
+
+families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *t)
+{
+    const scene_quantity *q = &s->point[point_index].scene.quantity[quantity];
+    known_limit all[MOST_SERIES];
+    families_limit best = {.families = 0};
+    int centre = -1;
+    const int count = known_limits(s, point_index, quantity, t, all);
+    for (int i = 0; i < count; i++) {
+        const families_limit one = around(q, all, count, i);
+        if (centre < 0 || is_better(&one, &best)) {
+            best = one;
+            centre = i;
+        }
+    }
+    for (int i = 0; i < count; i++)
+        best.disputed |=
+            !agree(q, &all[centre], &all[i]) && around(q, all, count, i).families >= best.families;
+    if (best.families >= 2)
+        refine(q, all, count, centre, &best);
+    for (int k = 0; k < best.families; k++)
+        best.series[k] = all[best.series[k]].series;
+    for (int k = 0; k < best.others; k++)
+        best.other[k] = all[best.other[k]].series;
+    return best;
+}
+
+/* "beamw_consistent (beamw) and collocation (reissner) agree": the source of the truth. */
+static char *source_of(const sweep *s, const families_limit *l)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (to == NULL)
+        return NULL;
+    for (int k = 0; k < l->families; k++) {
+        const formulation *one = &s->series[l->series[k]].formulation;
+        fprintf(to, "%s%s (%s)",
+                k == 0                ? ""
+                : k < l->families - 1 ? ", "
+                                      : " and ",
+                one->key, one->type->family);
+    }
+    fputs(" agree", to);
+    for (int k = 0; k < l->others; k++)
+        fprintf(to, "%s%s",
+                k == 0              ? ", not "
+                : k < l->others - 1 ? ", "
+                                    : " and ",
+                s->series[l->other[k]].formulation.key);
+    if (l->theory != 0)
+        fprintf(to, "; shear in stability: %s",
+                l->theory & FEATURE_HARINGX ? "Haringx" : "Engesser");
+    if (fclose(to) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+static status add_truth(const sweep *s, int point_index, int quantity, const families_limit *l,
+                        truths *t, fault *f)
+{
+    const point *p = &s->point[point_index];
+    truth *row = truths_add(t, f);
+    if (row == NULL)
+        return STATUS_FAULT;
+    *row = (truth){.type = p->type,
+                   .value = l->value,
+                   .uncertainty = l->uncertainty,
+                   .at = NAN,
+                   .met = 1,
+                   .judged = 1,
+                   .formulation = strdup(""),
+                   .theory = strdup(""),
+                   .quantity = strdup(p->scene.quantity[quantity].name),
+                   .unit = strdup(p->scene.quantity[quantity].unit),
+                   .kind = strdup("agreement"),
+                   .model = strdup("same"),
+                   .convention = strdup(""),
+                   .source = source_of(s, l)};
+    memcpy(row->parameter, p->parameter, sizeof row->parameter);
+    char *const all[] = {row->formulation, row->theory, row->quantity,   row->unit,
+                         row->kind,        row->model,  row->convention, row->source};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i] == NULL) {
+            t->rows--;
+            for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+                free(all[k]);
+            return fault_set(f, STATUS_FAULT, "out of memory for truths");
+        }
+    return STATUS_OK;
+}
+
+/* May agreements of it become truths? */
+static int is_open(const point *p, int files_only)
+{
+    return p->status == STATUS_OK && (!files_only || p->type->build_from != NULL);
+}
+
+status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f)
+{
+    const point *p = &s->point[point_index];
+    for (int q = 0; is_open(p, files_only) && q < p->scene.quantities; q++) {
+        const char *name = p->scene.quantity[q].name;
+        if (p->scene.quantity[q].reduction == SCENE_CURVE ||
+            truth_of(t, p->type, p->parameter, name, "same") != NULL ||
+            truth_agreed(t, p->type, p->parameter, name) != NULL)
+            continue;
+        const families_limit l = families_limit_of(s, point_index, q, t);
+        if (l.families >= 2 && !l.disputed)
+            TRY(add_truth(s, point_index, q, &l, t, f));
+    }
+    return STATUS_OK;
+}
+
+status families_add_truths(const sweep *s, int files_only, truths *t, fault *f)
+{
+    for (int i = 0; i < s->points; i++)
+        TRY(families_add_point(s, i, files_only, t, f));
+    return STATUS_OK;
+}
+
+status families_reserve(const sweep *s, int files_only, truths *t, fault *f)
+{
+    int most = 0;
+    for (int i = 0; i < s->points; i++)
+        most += is_open(&s->point[i], files_only) ? s->point[i].scene.quantities : 0;
+    return truths_reserve(t, most, f);
+}

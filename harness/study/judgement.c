@@ -1,0 +1,280 @@
+/* All verdicts of a sweep, what was expected of them, and what the gate says. */
+#include "harness/study/judgement.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/model/features.h"
+#include "harness/numerics/memory.h"
+#include "harness/study/agreements.h"
+#include "harness/study/coverage.h"
+#include "harness/study/missed.h"
+#include "harness/study/sound.h"
+#include "harness/study/truth.h"
+#include "harness/study/truth_index.h"
+
+/* Beyond what the rule explains?  A limit that was derived binds by its own distance. */
+static int is_beyond(const rule *r, const verdict *v)
+{
+    return isfinite(v->departure) && isfinite(r->largest_error) &&
+           fabs(v->departure) > r->largest_error;
+}
+
+/* What is not a pass is expected where exactly one rule of the ledger speaks of it. */
+static void expect(const sweep *s, truths *t, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    const char *quantity = p->scene.quantity[v->quantity].name;
+    const rule_subject subject = {
+        p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
+        quantity, verdict_name(v->kind)};
+    v->matches = v->kind == v->expected;
+    if (one->imported != NULL) /* the ledger speaks of formulations */
+        return;
+    for (int i = 0; i < t->rules && !v->matches; i++) {
+        rule *r = &t->rule[i];
+        if (!rules_hold(r, &subject))
+            continue;
+        if (v->rule != NULL) {
+            snprintf(v->reason, sizeof v->reason, "two findings speak of it: %.60s and %.60s",
+                     v->rule->name, r->name);
+            v->expected = VERDICT_PASS;
+            return;
+        }
+        v->rule = r;
+        r->observed++;
+        if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
+            rules_foretell(r, &subject);
+        if (is_beyond(r, v))
+            snprintf(v->reason, sizeof v->reason,
+                     "its limit is %+.3g %% from %s, beyond the %.3g %% of finding %.60s",
+                     100 * v->departure, v->predicted != NULL ? "the derived one" : "the truth",
+                     100 * r->largest_error, r->name);
+        else
+            v->expected = v->kind;
+    }
+    v->matches = v->kind == v->expected;
+}
+
+/* Every cell of a series against what it says of its own work. */
+static status check_cells(const sweep *s, int index, judgement *out, fault *f)
+{
+    const series *one = &s->series[index];
+    const scene *what = &s->point[one->point].scene;
+    if (one->missing[0] != '\0' || one->without.other)
+        return STATUS_OK;
+    for (int i = 0; i < one->meshes; i++) {
+        flaw c = {.series = index, .mesh = i};
+        if (!sound_cell(&one->cell[i], what, formulation_newton(&one->formulation), c.why))
+            TRY(memory_append(&out->flaw, &out->flaws, &c, sizeof c, "flaws of cells", f));
+    }
+    return STATUS_OK;
+}
+
+/* Truths that speak of this quantity, the ones ranked lower and of other models included. */
+static void mark_met(truths *t, const point *p, const formulation *chosen, const char *quantity,
+                     int judged)
+{
+    for (int i = truth_index_first(t, p->type, quantity); i < t->rows; i = truth_index_next(t, i)) {
+        truth *row = &t->row[i];
+        if (truth_holds(row, p->type, p->parameter) &&
+            (row->formulation[0] == '\0' || strcmp(row->formulation, chosen->key) == 0)) {
+            row->met = 1;
+            row->judged |= judged;
+        }
+    }
+}
+
+static status check_unit(const point *p, const truth *row, fault *f)
+{
+    for (int q = 0; q < p->scene.quantities; q++) {
+        const scene_quantity *here = &p->scene.quantity[q];
+        if (strcmp(here->name, row->quantity) == 0 && strcmp(here->unit, row->unit) != 0)
+            return fault_set(f, STATUS_FAULT,
+                             "case %s: %s is in '%s', its truth in '%s'; correct the table and "
+                             "build again",
+                             p->type->name, here->name, here->unit, row->unit);
+    }
+    return STATUS_OK;
+}
+
+static status check_units(const sweep *s, const truths *t, fault *f)
+{
+    for (int i = 0; i < s->points; i++)
+        for (int r = 0; r < t->rows; r++)
+            if (t->row[r].type == s->point[i].type)
+                TRY(check_unit(&s->point[i], &t->row[r], f));
+    return STATUS_OK;
+}
+
+/* Has a series that was imported a value of the quantity at all? */
+static int is_imported(const series *one, int quantity)
+{
+    for (int i = 0; i < one->meshes; i++)
+        if (one->cell[i].solve.quantity[quantity].status == STATUS_OK)
+            return 1;
+    return 0;
+}
+
+/* Is its limit known to lie within the tolerance, whatever else is said of it? */
+static int is_within(const verdict *v)
+{
+    return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
+           v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_LOW_ORDER;
+}
+
+static void judge_quantity(const sweep *s, truths *t, int index, int quantity, judgement *out)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    const int gates = sweep_gates(s, one);
+    verdict *v = &out->verdict[out->verdicts++];
+    v->series = index;
+    v->quantity = quantity;
+    verdict_reach(s, t, v);
+    expect(s, t, v);
+    if (s->tolerance > 0 && is_within(v)) {
+        v->expected = v->kind;
+        v->matches = 1;
+    }
+    if (!gates && one->imported != NULL) { /* shown, and does not count */
+        v->expected = v->kind;
+        v->matches = 1;
+        return;
+    }
+    v->needs_finding = (s->named || !gates) && !v->matches && v->truth != NULL;
+    if (!gates) {
+        out->is_new += v->truth != NULL && v->kind != VERDICT_SKIP;
+        out->proposed += v->needs_finding;
+        v->expected = v->kind;
+        v->matches = 1;
+    }
+    out->by_kind[v->kind]++;
+    out->judged += v->truth != NULL && v->kind != VERDICT_SKIP;
+    out->unexpected += !v->matches;
+    mark_met(t, p, &one->formulation, p->scene.quantity[quantity].name,
+             v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
+}
+
+/* Is a last change so small that noise may be all of it, or the verdict open? */
+static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
+{
+    const double small_change = 1e-7;
+    verdict v = {.series = index, .quantity = quantity};
+    verdict_reach(s, t, &v);
+    if (v.truth == NULL || isnan(v.fit.limit) || isnan(v.fit.last_change))
+        return 0;
+    return v.kind == VERDICT_UNDECIDED ||
+           v.fit.last_change <= small_change * fmax(fabs(v.finest), fabs(v.truth->value));
+}
+
+int judgement_doubts(const sweep *s, const truths *t, int series_index)
+{
+    const series *one = &s->series[series_index];
+    const point *p = &s->point[one->point];
+    if (one->imported != NULL)
+        return 0;
+    for (int q = 0; q < p->scene.quantities; q++)
+        if (p->scene.quantity[q].reduction != SCENE_CURVE &&
+            sweep_selects(s, p, &one->formulation, p->scene.quantity[q].name) &&
+            noise_may_decide(s, t, series_index, q))
+            return 1;
+    return 0;
+}
+
+static void forget_observations(truths *t)
+{
+    for (int i = 0; i < t->rules; i++)
+        t->rule[i].observed = t->rule[i].foretold = 0;
+    for (int i = 0; i < t->rows; i++)
+        t->row[i].met = t->row[i].judged = 0;
+}
+
+static void judge_series(const sweep *s, truths *t, int index, judgement *out)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    for (int q = 0; q < p->scene.quantities; q++) {
+        const scene_quantity *quantity = &p->scene.quantity[q];
+        /* a curve is drawn beside its truths; a point of it is judged by a quantity of its own */
+        if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
+            continue;
+        if (quantity->reduction == SCENE_CURVE)
+            mark_met(t, p, &one->formulation, quantity->name,
+                     one->missing[0] == '\0' && !one->without.other);
+        else if (sweep_selects(s, p, &one->formulation, quantity->name))
+            judge_quantity(s, t, index, q, out);
+    }
+}
+
+status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f)
+{
+    int count = 0;
+    memset(out, 0, sizeof *out);
+    forget_observations(t);
+    for (int i = 0; i < s->seriess; i++)
+        count += s->point[s->series[i].point].scene.quantities;
+    out->verdict = calloc((size_t)count + 1, sizeof *out->verdict);
+    if (out->verdict == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
+    return check_units(s, t, f);
+}
+
+status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f)
+{
+    const series *one = &s->series[series_index];
+    const int first = out->verdicts;
+    judge_series(s, t, series_index, out);
+    TRY(agreements_add(s, t, series_index, out, f));
+    if (one->imported == NULL && sweep_gates(s, one))
+        TRY(check_cells(s, series_index, out, f));
+    return coverage_count(s, first, out, f);
+}
+
+void judgement_end(const sweep *s, truths *t, int whole, judgement *out)
+{
+    /* findings are of the tolerances of the cases */
+    out->unobserved = s->tolerance > 0 ? 0 : missed_rules(s, t, whole);
+    if (whole)
+        missed_truths(s, t, out);
+}
+
+status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f)
+{
+    TRY(judgement_begin(s, t, out, f));
+    for (int i = 0; i < s->seriess; i++)
+        TRY(judgement_add(s, t, i, out, f));
+    judgement_end(s, t, whole, out);
+    return STATUS_OK;
+}
+
+void judgement_free(judgement *j)
+{
+    free(j->verdict);
+    free(j->agreement);
+    free(j->coverage);
+    free(j->flaw);
+    free(j->breach);
+    free(j->regression);
+    memset(j, 0, sizeof *j);
+}
+
+int judgement_exit(const judgement *j)
+{
+    if (j->breaches + j->regressions > 0)
+        return JUDGED_DIFFERS;
+    if (j->judged + j->agreements == 0)
+        return JUDGED_NOTHING;
+    return j->unexpected + j->disagreements + j->unobserved + j->unmet + j->flaws > 0
+               ? JUDGED_DIFFERS
+               : JUDGED_AS_EXPECTED;
+}
+
+const char *judgement_outcome(const judgement *j)
+{
+    const int code = judgement_exit(j);
+    return code == JUDGED_NOTHING ? "nothing was judged" : code == JUDGED_DIFFERS ? "fail" : "pass";
+}

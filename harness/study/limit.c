@@ -1,0 +1,263 @@
+#include "harness/study/limit.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "harness/study/richardson.h"
+
+/* of consecutive meshes; closer ones say nothing that noise does not drown */
+static const double least_refinement = 1.4;
+static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative */
+/* a change of so many noises says nothing of an order */
+static const double noisy_changes = 10;
+static const double least_seen_order = 0.5; /* accepted as seen ... */
+/* ... and assumed of what remains */
+static const double remaining_order = 1;
+static const double settled_part = 1e-4;
+/* least part of the extrapolation that is doubted where noise was not measured */
+static const double doubted_step = 0.02;
+static const double sure = 1.25, unsure = 3;
+static const double end_factor = 4; /* noises that a value without extrapolation is doubted by */
+
+/* The thinned sequence, coarsest mesh first, and what is derived from it. */
+typedef struct meshes {
+    int count;
+    double n[LIMIT_MESHES], f[LIMIT_MESHES];
+    double change[LIMIT_MESHES]; /* f[i + 1] - f[i] */
+    double order[LIMIT_MESHES];  /* of meshes i, i + 1, i + 2; NAN: none */
+    double scale, noise;         /* [unit of f] */
+} meshes;
+
+const char *limit_kind_name(limit_kind kind)
+{
+    static const char *const names[LIMIT_KINDS] = {"none",       "noise-dominated", "settled",
+                                                   "asymptotic", "oscillating",     "not yet"};
+    return names[kind];
+}
+
+/* The finest mesh with a value that is at least least_refinement coarser than one of `fine`
+ * elements; -1: none. */
+static int coarser_than(const limit_sequence *s, double fine)
+{
+    int best = -1;
+    for (int i = 0; i < s->count; i++)
+        if (isfinite(s->value[i]) && fine >= least_refinement * s->n[i] &&
+            (best < 0 || s->n[i] > s->n[best]))
+            best = i;
+    return best;
+}
+
+/* From the finest mesh down, each at least least_refinement coarser than the one before. */
+static void thin(const limit_sequence *s, meshes *m)
+{
+    int kept[LIMIT_MESHES];
+    m->count = 0;
+    for (int i = coarser_than(s, INFINITY); i >= 0 && m->count < LIMIT_MESHES;
+         i = coarser_than(s, s->n[i]))
+        kept[m->count++] = i;
+    for (int i = 0; i < m->count; i++) {
+        m->n[i] = s->n[kept[m->count - 1 - i]];
+        m->f[i] = s->value[kept[m->count - 1 - i]];
+    }
+}
+
+static double largest(int count, const double f[])
+{
+    double size = 0;
+    for (int i = 0; i < count; i++)
+        size = fmax(size, fabs(f[i]));
+    return size;
+}
+
+static void prepare(const limit_sequence *s, meshes *m)
+{
+    thin(s, m);
+    const int last = m->count - 1;
+    m->scale = m->count > 0 ? fmax(fabs(m->f[last]), s->near_zero) : 0;
+    if (m->scale == 0)
+        m->scale = largest(m->count, m->f);
+    m->noise = fmax(isnan(s->noise) ? unmeasured_noise : s->noise, least_noise) * m->scale;
+    for (int i = 0; i < last; i++)
+        m->change[i] = m->f[i + 1] - m->f[i];
+    for (int i = 0; i + 1 < last; i++) {
+        const int seen =
+            fmin(fabs(m->change[i]), fabs(m->change[i + 1])) > noisy_changes * m->noise;
+        m->order[i] = seen ? richardson_order(m->n + i, m->f + i) : NAN;
+    }
+}
+
+static int is_good(double order, const limit_sequence *s)
+{
+    return order >= least_seen_order && order <= 1.1 * s->highest_order + 0.5; /* NAN is not */
+}
+
+static double refinement(const meshes *m, int before_last)
+{
+    const int i = m->count - 1 - before_last;
+    return m->n[i] / m->n[i - 1];
+}
+
+/* Fewer than three meshes: the order is assumed. */
+static void few(const meshes *m, mesh_limit *out)
+{
+    out->kind = LIMIT_NOT_YET;
+    out->limit = m->f[m->count - 1];
+    out->from = (int)m->n[0];
+    if (m->count == 2)
+        out->limit_uncertainty =
+            unsure * fabs(m->change[0]) / (pow(refinement(m, 0), remaining_order) - 1) +
+            end_factor * m->noise;
+}
+
+/* The last change is noise, and the one before no chance crossing. 1: it is so. */
+static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
+{
+    const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
+                 noise = noisy_changes * m->noise;
+    if (a > noise || b > noise * pow(refinement(m, 1), s->highest_order + 1))
+        return 0;
+    out->kind = b <= noise ? LIMIT_NOISE_DOMINATED : LIMIT_SETTLED;
+    out->limit = m->f[m->count - 1];
+    out->limit_uncertainty = a + end_factor * m->noise;
+    out->order = m->count > 3 && is_good(m->order[m->count - 4], s) ? m->order[m->count - 4] : NAN;
+    out->from = (int)m->n[m->count - 3];
+    return 1;
+}
+
+/* Limit of meshes first, first + 1, first + 2 with their own order. */
+static double own_limit(const meshes *m, int first)
+{
+    return richardson_limit(m->n + first, m->f + first, m->order[first]);
+}
+
+/* By how much the limit has changed with the last mesh, and the factor of its doubt; the last three
+ * meshes begin at k > 0. */
+static double change_of_limit(const limit_sequence *s, const meshes *m, int k, double *factor)
+{
+    const double R = refinement(m, 0), value = own_limit(m, k);
+    const int measured = !isnan(s->noise);
+    double change = fabs(value - own_limit(m, k - 1));
+    *factor = sure;
+    if (k > 1 && is_good(m->order[k - 2], s)) {
+        const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
+        /* the limits do not settle: noise, perhaps */
+        if (!measured && change > before / pow(R, remaining_order)) {
+            change = fmax(change, before);
+            *factor = unsure;
+        }
+        /* small by accident; above the highest order that there is, another term comes into sight,
+         * and accident is likely */
+        const double next =
+            m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
+        change = fmax(change, before / pow(R, next));
+    }
+    return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
+}
+
+/* Is the middle one the least or the greatest, by more than orders of one term scatter? */
+static int turns(double a, double b, double c)
+{
+    static const double scatter = 0.1;
+    return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
+}
+
+/* Two orders agree: what remains is bounded by the change of the limit. 1: it is so. */
+static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
+{
+    const int k = m->count - 3; /* the last three begin here */
+    if (m->count < 4 || !is_good(m->order[k], s) || !is_good(m->order[k - 1], s))
+        return 0;
+    const double p = m->order[k], apart = fabs(p - m->order[k - 1]);
+    if (apart > fmax(0.25, 0.15 * p))
+        return 0;
+    double factor;
+    const double change = change_of_limit(s, m, k, &factor);
+    out->kind = LIMIT_ASYMPTOTIC;
+    out->limit = own_limit(m, k);
+    out->limit_uncertainty = factor * change / (pow(refinement(m, 0), remaining_order) - 1) +
+                             m->noise * (1 + 2 * richardson_amplification(m->n + k, m->f + k, p));
+    out->order = p;
+    out->order_uncertainty = apart;
+    out->earlier_order = k > 1 ? m->order[k - 2] : NAN;
+    out->order_turns = k > 1 && turns(m->order[k - 2], m->order[k - 1], m->order[k]);
+    out->from = (int)m->n[k - 1];
+    return 1;
+}
+
+/* An order that still drifts, or three meshes only: the worst of the last changes, with the least
+ * order in sight. 1: it is so. */
+static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
+{
+    const int k = m->count - 3;
+    const double p = m->order[k], before = k > 0 ? m->order[k - 1] : NAN,
+                 nominal = s->nominal_order, highest = s->highest_order;
+    const double a = fabs(m->change[k + 1]), b = fabs(m->change[k]), R = refinement(m, 0);
+    double q, rest, factor = unsure;
+    if (!is_good(p, s) || (k > 0 && isnan(before)))
+        return 0;
+    if (k == 0) {
+        q = fmin(p, nominal);
+        rest = fmax(a, b * pow(R, -nominal));
+        /* rising towards what is declared */
+    } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) {
+        q = p;
+        rest = a;
+        factor = p >= 0.9 * nominal ? sure : unsure;
+    } else { /* an order that overshoots announces a change of sign: it is extrapolated downwards */
+        q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
+        rest = fmax(a, b * pow(R, -fmax(before, q)));
+    }
+    out->kind = LIMIT_NOT_YET;
+    out->limit = richardson_limit(m->n + k, m->f + k, fmin(p, highest));
+    out->limit_uncertainty = factor * rest / (pow(R, q) - 1) + end_factor * m->noise;
+    out->order = p;
+    out->order_uncertainty = isnan(before) ? NAN : fabs(p - before);
+    return 1;
+}
+
+/* No order: the worst of the last three changes, each reduced as the nominal order promises; more
+ * where they grow. */
+static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
+{
+    const int last = m->count - 1;
+    const double a = fabs(m->change[last - 1]), b = fabs(m->change[last - 2]), most = 10;
+    double rest = 0;
+    for (int i = last - 1; i >= 0 && i > last - 4; i--)
+        rest = fmax(rest, fabs(m->change[i]) * pow(m->n[i + 1] / m->n[last], s->nominal_order));
+    double growth = 1;
+    if (!(a <= b))
+        growth = b > 0 ? fmin(a / b, most) : most;
+    out->kind = m->change[last - 1] * m->change[last - 2] < 0 ? LIMIT_OSCILLATING : LIMIT_NOT_YET;
+    out->limit = m->f[last];
+    out->limit_uncertainty = unsure * rest * growth + end_factor * m->noise;
+}
+
+mesh_limit limit_of(const limit_sequence *s)
+{
+    mesh_limit out = {.limit = NAN,
+                      .limit_uncertainty = INFINITY,
+                      .order = NAN,
+                      .order_uncertainty = NAN,
+                      .earlier_order = NAN,
+                      .last_change = NAN};
+    meshes m;
+    prepare(s, &m);
+    out.noise = m.noise;
+    out.meshes = m.count;
+    if (m.count == 0)
+        return out;
+    if (m.count > 1)
+        out.last_change = fabs(m.change[m.count - 2]);
+    if (m.count < 3) {
+        few(&m, &out);
+        return out;
+    }
+    out.from = (int)m.n[m.count - 3];
+    if (at_noise(s, &m, &out) || asymptotic(s, &m, &out))
+        return out;
+    if (!drifting(s, &m, &out))
+        disorderly(s, &m, &out);
+    if (out.limit_uncertainty <= settled_part * m.scale)
+        out.kind = LIMIT_SETTLED;
+    return out;
+}

@@ -1,0 +1,199 @@
+#include "harness/study/overview.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Formulations with options beyond this have one column with all their options. */
+enum { MOST_COLUMNS = 10 };
+/* More cases than that: those that pass share lines. */
+enum { MOST_ROWS = 24 };
+
+static const overview_mark marks[VERDICT_KINDS] = {
+    [VERDICT_PASS] = OVERVIEW_PASS,
+    [VERDICT_BIASED] = OVERVIEW_BIASED,
+    [VERDICT_WRONG_LIMIT] = OVERVIEW_WRONG,
+    [VERDICT_BIASED_AS_PREDICTED] = OVERVIEW_BIASED,
+    [VERDICT_WRONG_AS_PREDICTED] = OVERVIEW_WRONG,
+    [VERDICT_LOW_ORDER] = OVERVIEW_LOW_ORDER,
+    [VERDICT_UNDECIDED] = OVERVIEW_UNDECIDED,
+    [VERDICT_DIVERGED] = OVERVIEW_NO_VALUE,
+    [VERDICT_REFUSED] = OVERVIEW_NO_VALUE,
+    [VERDICT_SKIP] = OVERVIEW_NOTHING,
+    [VERDICT_NO_TRUTH] = OVERVIEW_NOTHING,
+    [VERDICT_OTHER_MODEL] = OVERVIEW_OTHER_MODEL,
+};
+
+static const struct {
+    const char *ascii, *utf8, *words;
+} signs[OVERVIEW_MARKS] = {
+    [OVERVIEW_NOTHING] = {".", "·", "nothing judged: not offered, or no truth is known"},
+    [OVERVIEW_OTHER_MODEL] = {"m", "○", "another model: shown, not judged"},
+    [OVERVIEW_PASS] = {"ok", "✓", "all pass"},
+    [OVERVIEW_LOW_ORDER] = {"v", "↓", "right limit, approached too slowly"},
+    [OVERVIEW_UNDECIDED] = {"?", "?", "limit not known well enough"},
+    [OVERVIEW_BIASED] = {"~", "≈", "limit off, within the tolerance"},
+    [OVERVIEW_WRONG] = {"#", "≠", "limit off, beyond the tolerance"},
+    [OVERVIEW_NO_VALUE] = {"x", "×", "no value on the finest mesh"},
+    [OVERVIEW_FLAW] = {"c", "c", "contradicts its stored value, or itself"},
+};
+
+overview_mark overview_mark_of(verdict_kind kind)
+{
+    return marks[kind];
+}
+
+const char *overview_words(overview_mark mark)
+{
+    return signs[mark].words;
+}
+
+void overview_text(const overview_cell *c, int utf8, char text[OVERVIEW_TEXT])
+{
+    const char *sign = utf8 ? signs[c->mark].utf8 : signs[c->mark].ascii;
+    const char *first = c->unexpected ? "!" : "";
+    if (c->mark <= OVERVIEW_PASS)
+        snprintf(text, OVERVIEW_TEXT, "%s%s", first, sign);
+    else
+        snprintf(text, OVERVIEW_TEXT, "%s%s%d", first, sign, c->count);
+}
+
+/* Name of the column of a series. */
+static const char *name_of(const series *one, int joined)
+{
+    return joined && one->imported == NULL ? one->formulation.type->name : one->formulation.key;
+}
+
+static int column_of(const overview *o, const char *name)
+{
+    int i = 0;
+    while (i < o->columns && strcmp(o->column[i], name) != 0)
+        i++;
+    return i;
+}
+
+static int row_of(const overview *o, const case_type *type)
+{
+    int i = 0;
+    while (i < o->rows && o->row[i] != type)
+        i++;
+    return i;
+}
+
+static int is_new(const sweep *s, const series *one)
+{
+    return one->imported == NULL && !sweep_gates(s, one);
+}
+
+static void add_columns(const sweep *s, overview *out, int of_new)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        const char *name = name_of(&s->series[i], out->joined);
+        if (is_new(s, &s->series[i]) == of_new && column_of(out, name) == out->columns)
+            out->column[out->columns++] = name;
+    }
+}
+
+/* New formulations stand behind the others. */
+static void find_columns(const sweep *s, overview *out, int joined)
+{
+    out->joined = joined;
+    out->columns = 0;
+    add_columns(s, out, 0);
+    out->accepted = out->columns;
+    add_columns(s, out, 1);
+}
+
+static void find_rows(const sweep *s, overview *out)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        const case_type *type = s->point[s->series[i].point].type;
+        if (row_of(out, type) == out->rows)
+            out->row[out->rows++] = type;
+    }
+}
+
+static overview_cell *cell_of(const sweep *s, const overview *o, int series_index)
+{
+    const series *one = &s->series[series_index];
+    const int row = row_of(o, s->point[one->point].type);
+    return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
+}
+
+/* What comes first is worse. */
+static void add(overview_cell *to, overview_mark mark, int unexpected)
+{
+    const int rank = OVERVIEW_MARKS * unexpected + (int)mark;
+    const int before = OVERVIEW_MARKS * to->unexpected + (int)to->mark;
+    if (rank > before)
+        *to = (overview_cell){.mark = mark, .unexpected = unexpected, .count = 1};
+    else if (rank == before)
+        to->count++;
+}
+
+static void fill(const sweep *s, const judgement *j, overview *out)
+{
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        add(cell_of(s, out, v->series), marks[v->kind], !v->matches);
+    }
+    for (int i = 0; i < j->agreements; i++)
+        if (!j->agreement[i].good)
+            add(cell_of(s, out, j->agreement[i].series), OVERVIEW_FLAW, 1);
+    for (int i = 0; i < j->flaws; i++)
+        add(cell_of(s, out, j->flaw[i].series), OVERVIEW_FLAW, 1);
+}
+
+status overview_make(const sweep *s, const judgement *j, overview *out, fault *f)
+{
+    const size_t most = (size_t)s->seriess + 1;
+    *out = (overview){.row = calloc(most, sizeof(void *)),
+                      .column = calloc(most, sizeof *out->column)};
+    if (out->row == NULL || out->column == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the overview");
+    find_rows(s, out);
+    find_columns(s, out, 0);
+    if (out->columns > MOST_COLUMNS)
+        find_columns(s, out, 1);
+    out->cell = calloc((size_t)(out->rows * out->columns) + 1, sizeof *out->cell);
+    if (out->cell == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the overview");
+    fill(s, j, out);
+    return STATUS_OK;
+}
+
+void overview_free(overview *o)
+{
+    free(o->row);
+    free(o->column);
+    free(o->cell);
+    *o = (overview){0};
+}
+
+const overview_cell *overview_at(const overview *o, int row, int column)
+{
+    return &o->cell[row * o->columns + column];
+}
+
+int overview_passes(const overview *o, int row)
+{
+    int passes = 1;
+    for (int i = 0; i < o->columns; i++) {
+        const overview_cell *c = overview_at(o, row, i);
+        passes &= c->mark <= OVERVIEW_PASS && !c->unexpected;
+    }
+    return passes;
+}
+
+int overview_judged(const overview *o, int row)
+{
+    int judged = 0;
+    for (int i = 0; i < o->columns; i++)
+        judged |= overview_at(o, row, i)->mark >= OVERVIEW_PASS;
+    return judged;
+}
+
+int overview_shown(const overview *o, int row)
+{
+    return o->rows <= MOST_ROWS || !overview_passes(o, row);
+}

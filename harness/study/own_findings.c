@@ -1,0 +1,279 @@
+#include "harness/study/own_findings.h"
+
+#include <fnmatch.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/line.h"
+#include "elements/shared/choice.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
+#include "harness/study/own_names.h"
+#include "harness/study/own_table.h"
+#include "harness/study/proposal.h"
+#include "harness/study/verdict.h"
+
+static const char head[] = "rule,formulations,cases,condition,quantities,verdicts,largest_error,"
+                           "predicted,cause,proof";
+enum {
+    RULE,
+    FORMULATIONS,
+    CASES,
+    CONDITION,
+    QUANTITIES,
+    VERDICTS,
+    LARGEST_ERROR,
+    PREDICTED,
+    CAUSE,
+    PROOF,
+    COLUMNS
+};
+
+/* Where the reading is. */
+typedef struct reader {
+    const case_type *const *run;
+    truths *t;
+    mistakes *m;
+    const own_table_row *row;
+    int good; /* of this row */
+} reader;
+
+/* A mistake in a column of the row. */
+#define WRONG(r, column, ...)                                                                      \
+    ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
+
+static int is_pattern(const char *word)
+{
+    return strpbrk(word, "*?[") != NULL;
+}
+
+static void check_formulation(reader *r, const char *word)
+{
+    char bare[RULES_WORD], near[FAULT_TEXT];
+    int found = 0;
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(word, ":"), word);
+    for (int i = 0; formulations_at(i) != NULL; i++)
+        found |= fnmatch(bare, formulations_at(i)->name, 0) == 0;
+    if (!found)
+        WRONG(r, FORMULATIONS, "no formulation is called '%.60s'%s", word,
+              own_names_near_formulation(bare, near));
+}
+
+static void check_case(reader *r, const char *word)
+{
+    char near[FAULT_TEXT];
+    const case_type *type;
+    int found = 0;
+    for (int i = 0; (type = own_names_case_at(r->run, i)) != NULL; i++)
+        found |= fnmatch(word, type->name, 0) == 0;
+    if (!found)
+        WRONG(r, CASES, "no case is called '%.60s'%s", word,
+              own_names_near_case(r->run, word, near));
+}
+
+/* Is it a quantity of the case, at the defaults or where truths are known? */
+static int case_has(const reader *r, const case_type *type, const char *quantity, scene *defaults)
+{
+    for (int i = 0; i < r->t->rows; i++)
+        if (r->t->row[i].type == type && strcmp(r->t->row[i].quantity, quantity) == 0)
+            return 1;
+    return own_names_quantity(defaults, quantity) != NULL;
+}
+
+/* A quantity that no case of the rule has would never be seen. */
+static void check_quantity(reader *r, const char *word)
+{
+    char near[FAULT_TEXT] = "", pattern[RULES_WORD];
+    const case_type *type;
+    int found = is_pattern(word);
+    for (const char *at = r->row->field[CASES];
+         !found && (at = rules_next_word(at, pattern)) != NULL;)
+        for (int i = 0; !found && (type = own_names_case_at(r->run, i)) != NULL; i++) {
+            double value[CASE_MAX_PARAMETERS] = {0};
+            scene s;
+            if (fnmatch(pattern, type->name, 0) != 0)
+                continue;
+            scene_init(&s, type->name);
+            parameters_default(type, value);
+            found = case_build(type, value, &s, NULL) != STATUS_OK || case_has(r, type, word, &s);
+            if (!found && near[0] == '\0')
+                own_names_near_quantity(&s, word, near);
+            scene_free(&s);
+        }
+    if (!found)
+        WRONG(r, QUANTITIES, "no case of the rule has a quantity '%.60s'%s", word, near);
+}
+
+static const char *verdict_at(const void *context, int i)
+{
+    (void)context;
+    return i < VERDICT_KINDS ? verdict_name((verdict_kind)i) : NULL;
+}
+
+/* "wrong limit|undecided" */
+static void check_verdicts(reader *r)
+{
+    char word[RULES_WORD], near[FAULT_TEXT];
+    const char *at = r->row->field[VERDICTS];
+    for (;;) {
+        const size_t length = strcspn(at, "|");
+        int found = 0;
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        for (int k = 0; k < VERDICT_KINDS; k++)
+            found |= k != VERDICT_PASS && k != VERDICT_SKIP && k != VERDICT_NO_TRUTH &&
+                     k != VERDICT_OTHER_MODEL && strcmp(verdict_name((verdict_kind)k), word) == 0;
+        if (!found)
+            WRONG(r, VERDICTS, "'%.60s' is no verdict that a finding explains%s", word,
+                  mistakes_remedy(choice_nearest(word, verdict_at, NULL), "", near));
+        if (at[length] == '\0')
+            return;
+        at += length + 1;
+    }
+}
+
+static void check_prediction(reader *r, const char *word)
+{
+    char of[RULES_WORD];
+    const char *slash = strchr(word, '/');
+    snprintf(of, sizeof of, "%.*s", (int)strcspn(word, "/"), word);
+    if (slash == NULL || slash[1] == '\0' || own_names_case(r->run, of) == NULL)
+        WRONG(r, PREDICTED, "prediction '%.60s' is not case/quantity of a case that there is",
+              word);
+}
+
+static void check_list(reader *r, int column, void (*check)(reader *r, const char *word))
+{
+    char word[RULES_WORD];
+    for (const char *at = r->row->field[column]; (at = rules_next_word(at, word)) != NULL;)
+        check(r, word);
+}
+
+static void check_name(reader *r)
+{
+    const char *name = r->row->field[RULE];
+    if (strchr(name, ' ') != NULL)
+        WRONG(r, RULE, "the name of a rule is one word");
+    for (int i = 0; i < r->t->rules; i++)
+        if (strcmp(r->t->rule[i].name, name) == 0)
+            WRONG(r, RULE, "a rule '%.60s' is there already (%.100s); give this one another name",
+                  name, r->t->rule[i].from != NULL ? r->t->rule[i].from : "the ledger");
+}
+
+/* A rule that says neither why nor how that is known explains nothing. */
+static void check_grounds(reader *r)
+{
+    if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
+        WRONG(r, CAUSE,
+              "finding %.60s has no cause yet; write there why it is not a pass, or "
+              "correct the element and take the row out",
+              r->row->field[RULE]);
+    else if (r->row->field[PROOF][0] == '\0')
+        WRONG(r, PROOF,
+              "finding %.60s has no proof; write there what shows its cause: a "
+              "derivation, a publication, a run",
+              r->row->field[RULE]);
+}
+
+static void check(reader *r, double *largest)
+{
+    static const int needed[] = {RULE, FORMULATIONS, CASES, QUANTITIES, VERDICTS};
+    static const char *const names[] = {"rule", "formulations", "cases", "quantities", "verdicts"};
+    const char *text = r->row->field[LARGEST_ERROR];
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
+        if (r->row->field[needed[i]][0] == '\0')
+            WRONG(r, needed[i], "a finding needs %s", names[i]);
+    check_grounds(r);
+    if (!r->good)
+        return;
+    *largest = NAN;
+    check_name(r);
+    check_list(r, FORMULATIONS, check_formulation);
+    check_list(r, CASES, check_case);
+    if (r->good)
+        check_list(r, QUANTITIES, check_quantity);
+    check_verdicts(r);
+    check_list(r, PREDICTED, check_prediction);
+    if (text[0] != '\0' && (!line_number(text, largest) || *largest < 0))
+        WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is no number of at least zero", text);
+}
+
+/* The cases of the run and the built-in ones, NULL behind the last; the caller frees it. */
+static const case_type **all_cases(const case_type *const run[])
+{
+    int count = 0;
+    while (own_names_case_at(run, count) != NULL)
+        count++;
+    const case_type **all = calloc((size_t)count + 1, sizeof(void *));
+    for (int i = 0; all != NULL && i < count; i++)
+        all[i] = own_names_case_at(run, i);
+    return all;
+}
+
+static int check_condition(reader *r, const rule *one)
+{
+    char word[RULES_WORD] = "";
+    const case_type **all = all_cases(r->run);
+    const int bad = all == NULL || rules_bad_condition(one, all, word);
+    if (bad)
+        WRONG(r, CONDITION,
+              "condition '%.60s' is neither a feature nor compares a parameter of its "
+              "cases",
+              word);
+    free(all);
+    return !bad;
+}
+
+static status add(reader *r, double largest, fault *f)
+{
+    char from[FAULT_TEXT];
+    char *const *field = r->row->field;
+    rule *more = realloc(r->t->rule, ((size_t)r->t->rules + 1) * sizeof *more);
+    if (more == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for findings");
+    r->t->rule = more;
+    snprintf(from, sizeof from, "%.200s:%d", r->m->file, r->row->line);
+    rule *one = &more[r->t->rules++];
+    *one = (rule){.name = strdup(field[RULE]),
+                  .formulations = strdup(field[FORMULATIONS]),
+                  .cases = strdup(field[CASES]),
+                  .condition = strdup(field[CONDITION]),
+                  .quantities = strdup(field[QUANTITIES]),
+                  .verdicts = strdup(field[VERDICTS]),
+                  .predicted = strdup(field[PREDICTED]),
+                  .cause = strdup(field[CAUSE]),
+                  .proof = strdup(field[PROOF]),
+                  .from = strdup(from),
+                  .largest_error = largest};
+    if (one->name == NULL || one->formulations == NULL || one->cases == NULL ||
+        one->condition == NULL || one->quantities == NULL || one->verdicts == NULL ||
+        one->predicted == NULL || one->cause == NULL || one->proof == NULL || one->from == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for findings");
+    check_condition(r, one);
+    return STATUS_OK;
+}
+
+static status add_rows(const own_table *rows, reader *r, fault *f)
+{
+    for (int i = 0; i < rows->rows; i++) {
+        double largest;
+        r->row = &rows->row[i];
+        r->good = 1;
+        check(r, &largest);
+        if (r->good)
+            TRY(add(r, largest, f));
+    }
+    return STATUS_OK;
+}
+
+status own_findings_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
+                         fault *f)
+{
+    own_table rows;
+    reader r = {.run = run, .t = t, .m = m};
+    status outcome = own_table_read(path, head, &rows, m, f);
+    if (outcome == STATUS_OK)
+        outcome = add_rows(&rows, &r, f);
+    own_table_free(&rows);
+    return outcome;
+}

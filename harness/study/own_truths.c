@@ -1,0 +1,234 @@
+#include "harness/study/own_truths.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/line.h"
+#include "elements/shared/choice.h"
+#include "harness/formulations/formulation.h"
+#include "harness/study/own_names.h"
+#include "harness/study/own_table.h"
+#include "harness/study/truth_index.h"
+#include "harness/study/truth_rows.h"
+
+static const char head[] = "case,parameters,formulation,theory,elements,quantity,at,value,unit,"
+                           "uncertainty,kind,model,convention,source";
+enum {
+    CASE,
+    PARAMETERS,
+    FORMULATION,
+    THEORY,
+    ELEMENTS,
+    QUANTITY,
+    AT,
+    VALUE,
+    UNIT,
+    UNCERTAINTY,
+    KIND,
+    MODEL,
+    CONVENTION,
+    SOURCE,
+    COLUMNS
+};
+static const char *const names[COLUMNS] = {
+    "case",  "parameters", "formulation", "theory", "elements", "quantity",   "at",
+    "value", "unit",       "uncertainty", "kind",   "model",    "convention", "source"};
+
+/* Where the reading is. */
+typedef struct reader {
+    const case_type *const *run;
+    const case_type *only;
+    truths *t;
+    mistakes *m;
+    const own_table_row *row;
+    int good; /* of this row */
+} reader;
+
+/* A mistake in a column of the row. */
+#define WRONG(r, column, ...)                                                                      \
+    ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
+
+static void take_number(reader *r, int column, double *out)
+{
+    const char *text = r->row->field[column];
+    if (!line_number(text, out))
+        WRONG(r, column, "%s '%.40s' is no finite number", names[column], text);
+}
+
+static void take_elements(reader *r, int *out)
+{
+    char *end;
+    const char *text = r->row->field[ELEMENTS];
+    const long count = strtol(text, &end, 10);
+    *out = 0;
+    if (text[0] == '\0')
+        return;
+    if (*end != '\0' || count < 1 || count > INT_MAX)
+        WRONG(r, ELEMENTS, "elements '%.40s' is no number above zero; the continuum has none",
+              text);
+    else
+        *out = (int)count;
+}
+
+/* The quantity and its unit, of the scene at these parameters. */
+static void check_quantity(reader *r, const case_type *type, const double value[])
+{
+    char near[FAULT_TEXT];
+    fault why = {""};
+    scene s;
+    const char *name = r->row->field[QUANTITY], *unit = r->row->field[UNIT];
+    scene_init(&s, type->name);
+    const int built = case_build(type, value, &s, &why) == STATUS_OK;
+    const scene_quantity *q = own_names_quantity(&s, name);
+    if (!built)
+        WRONG(r, PARAMETERS, "%s is refused there: %.200s", type->name, why.text);
+    else if (q == NULL)
+        WRONG(r, QUANTITY, "%s has no quantity '%.60s'%s", type->name, name,
+              own_names_near_quantity(&s, name, near));
+    else if (strcmp(q->unit, unit) != 0)
+        WRONG(r, UNIT, "%s is in '%s', not in '%.40s'; convert the value", name, q->unit, unit);
+    scene_free(&s);
+}
+
+static void check_formulation(reader *r)
+{
+    char near[FAULT_TEXT], bare[FORMULATION_KEY];
+    const char *key = r->row->field[FORMULATION];
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
+    if (key[0] != '\0' && formulation_find(key) == NULL)
+        WRONG(r, FORMULATION, "no formulation is called '%.60s'%s", key,
+              own_names_near_formulation(bare, near));
+}
+
+static int same(const char *a, const char *b)
+{
+    return strcmp(a, b) == 0;
+}
+
+static int same_point(const truth *a, const truth *b)
+{
+    for (int i = 0; i < CASE_MAX_PARAMETERS; i++)
+        if (a->any[i] != b->any[i] || (!a->any[i] && a->parameter[i] != b->parameter[i]))
+            return 0;
+    return 1;
+}
+
+/* Only one of them would ever be looked at. */
+static const truth *known(const truths *t, const truth *row)
+{
+    for (int i = 0; i < t->rows; i++) {
+        const truth *k = &t->row[i];
+        if (k->type == row->type && k->elements == row->elements && same_point(k, row) &&
+            k->on_curve == row->on_curve && (!k->on_curve || k->at == row->at) &&
+            same(k->quantity, row->quantity) && same(k->kind, row->kind) &&
+            same(k->formulation, row->formulation) && same(k->theory, row->theory) &&
+            same(k->model, row->model) && same(k->convention, row->convention))
+            return k;
+    }
+    return NULL;
+}
+
+/* The row but for its texts, which are those of the file. */
+static void take_row(reader *r, const case_type *type, truth *out)
+{
+    char *const *field = r->row->field;
+    fault why = {""};
+    *out = (truth){.type = type,
+                   .formulation = field[FORMULATION],
+                   .theory = field[THEORY],
+                   .quantity = field[QUANTITY],
+                   .unit = field[UNIT],
+                   .kind = field[KIND],
+                   .model = field[MODEL],
+                   .convention = field[CONVENTION],
+                   .source = field[SOURCE],
+                   .at = NAN};
+    if (parameters_parse(type, field[PARAMETERS], out->parameter, out->any, &why) != STATUS_OK) {
+        WRONG(r, PARAMETERS, "%.250s", why.text);
+        return;
+    }
+    take_number(r, VALUE, &out->value);
+    take_number(r, UNCERTAINTY, &out->uncertainty);
+    take_elements(r, &out->elements);
+    out->on_curve = field[AT][0] != '\0';
+    if (out->on_curve)
+        take_number(r, AT, &out->at);
+    if (field[SOURCE][0] == '\0')
+        WRONG(r, SOURCE, "a truth needs its source");
+    check_formulation(r);
+    check_quantity(r, type, out->parameter);
+}
+
+/* Of closed lists, and what fits together. */
+static void check_row(reader *r, const truth *row)
+{
+    const char *wrong = truth_rows_wrong(row);
+    for (int i = 0; i < COLUMNS && wrong != NULL; i++)
+        if (same(names[i], wrong) && i == ELEMENTS)
+            WRONG(r, i,
+                  "a value of one mesh has formulation and elements, a predicted limit a "
+                  "formulation, another truth neither");
+        else if (same(names[i], wrong))
+            WRONG(r, i, "%s '%.40s' is not known; 'beamwork explain truth' says what there is",
+                  wrong, r->row->field[i]);
+    const truth *other = r->good ? known(r->t, row) : NULL;
+    if (other != NULL)
+        WRONG(r, QUANTITY,
+              "a truth of this kind is there already: %.10g (%.100s); only one is compared with",
+              other->value, other->source);
+}
+
+static status add(reader *r, const truth *row, fault *f)
+{
+    truth *to = truths_add(r->t, f);
+    if (to == NULL)
+        return STATUS_FAULT;
+    *to = *row;
+    char **const text[] = {&to->formulation, &to->theory, &to->quantity,   &to->unit,
+                           &to->kind,        &to->model,  &to->convention, &to->source};
+    int good = 1;
+    for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
+        good &= (*text[i] = strdup(*text[i])) != NULL;
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for truths");
+}
+
+static status add_rows(const own_table *rows, reader *r, fault *f)
+{
+    for (int i = 0; i < rows->rows; i++) {
+        char near[FAULT_TEXT];
+        truth one;
+        r->row = &rows->row[i];
+        r->good = 1;
+        const char *name = r->row->field[CASE];
+        const case_type *type = own_names_case(r->run, name);
+        if (r->only != NULL && (type == NULL || type != r->only))
+            continue;
+        if (type == NULL) {
+            WRONG(r, CASE, "no case is called '%.60s'%s", name,
+                  own_names_near_case(r->run, name, near));
+            continue;
+        }
+        take_row(r, type, &one);
+        if (r->good)
+            check_row(r, &one);
+        if (r->good)
+            TRY(add(r, &one, f));
+    }
+    return STATUS_OK;
+}
+
+status own_truths_read(const char *path, const case_type *const run[], const case_type *only,
+                       truths *t, mistakes *m, fault *f)
+{
+    own_table rows;
+    reader r = {.run = run, .only = only, .t = t, .m = m};
+    status outcome = own_table_read(path, head, &rows, m, f);
+    if (outcome == STATUS_OK)
+        outcome = add_rows(&rows, &r, f);
+    if (outcome == STATUS_OK)
+        outcome = truth_index_make(t, f);
+    own_table_free(&rows);
+    return outcome;
+}

@@ -1,0 +1,374 @@
+#include "harness/study/preference.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
+#include "harness/model/features.h"
+#include "harness/model/missing.h"
+#include "harness/study/change.h"
+#include "harness/study/price.h"
+
+/* What speaks against a formulation, weightiest first; the least one is chosen. */
+enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
+typedef struct standing {
+    int against[REASONS];
+} standing;
+
+/* Does the rule say so of a quantity of the scene? */
+static int holds_here(const rule *r, const scene *s, rule_subject at)
+{
+    for (int q = 0; q < s->quantities; q++)
+        for (int i = 0; i < VERDICT_DEFECTS; i++) {
+            at.quantity = s->quantity[q].name;
+            at.verdict = verdict_name(verdict_defects[i]);
+            if (rules_hold(r, &at))
+                return 1;
+        }
+    return 0;
+}
+
+/* Features that it does not have, counted. */
+static int count_omits(const scene *s, const element_type *type)
+{
+    int count = 0;
+    for (unsigned left = missing_omits(s, type); left != 0; left &= left - 1)
+        count++;
+    return count;
+}
+
+/* The least order of what is asked. */
+static int order_of(const scene *s, const element_type *type)
+{
+    double options[ELEMENT_MAX_OPTIONS] = {0};
+    int least = INT_MAX;
+    parameter_defaults(type->options, options);
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        const int moves =
+            q->analysis < s->analyses && s->analysis[q->analysis].kind == SCENE_MOTION;
+        const int one = moves ? element_order_of_motion().highest
+                              : element_order_in(type, verdict_analysis(s, q), options).highest;
+        least = one < least ? one : least;
+    }
+    return least;
+}
+
+static standing standing_of(const scene *s, const element_type *type, const rule_subject *where,
+                            const rule *rules, int count)
+{
+    const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
+    standing out = {.against[AGAINST_OMITTED] = count_omits(s, type)};
+    rule_subject at = *where;
+    at.formulation = type->name;
+    for (int i = 0; i < count; i++) {
+        const int defect = verdict_tells_defect(&rules[i]);
+        out.against[AGAINST_HERE] += defect && holds_here(&rules[i], s, at);
+        out.against[AGAINST_ELSEWHERE] += defect && rules_speak_of(&rules[i], type->name);
+    }
+    out.against[AGAINST_THEORY] =
+        (features_needed(s) & theories) != (features_needed_of(s, type) & theories);
+    out.against[AGAINST_ORDER] = -order_of(s, type);
+    return out;
+}
+
+static int is_better(const standing *a, const standing *b)
+{
+    for (int i = 0; i < REASONS; i++)
+        if (a->against[i] != b->against[i])
+            return a->against[i] < b->against[i];
+    return 0;
+}
+
+/* Has it all of the scene, or, where `other`, what it needs to be another model of it? */
+static int can_run(const scene *s, const element_type *type, int other)
+{
+    char words[OMIT_WORDS];
+    if (other)
+        return !missing_refused(s, type, words, sizeof words);
+    return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
+}
+
+/* Those that can run, best first: as sound as the first one, and of a family two at most. */
+enum { CANDIDATES = 5, OF_FAMILY = 2 };
+typedef struct candidates {
+    int count;
+    const element_type *type[CANDIDATES];
+    standing here[CANDIDATES];
+} candidates;
+
+/* Is it one of them, or one too many of its family? */
+static int is_taken(const candidates *all, const element_type *type)
+{
+    int same = 0;
+    for (int i = 0; i < all->count; i++) {
+        if (all->type[i] == type)
+            return 1;
+        same += strcmp(all->type[i]->family, type->family) == 0;
+    }
+    return same >= OF_FAMILY;
+}
+
+static int as_sound(const standing *a, const standing *b)
+{
+    for (int i = 0; i < AGAINST_ELSEWHERE; i++)
+        if (a->against[i] != b->against[i])
+            return 0;
+    return 1;
+}
+
+/* The best that is not taken yet; 0: there is none as sound as the first one. */
+static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
+                     int other, candidates *all)
+{
+    standing *best = &all->here[all->count];
+    const element_type **chosen = &all->type[all->count];
+    *chosen = NULL;
+    for (int i = 0; registry_formulations[i] != NULL; i++) {
+        const element_type *type = registry_formulations[i];
+        if (formulations_is_new(type) || type->misprint != NULL || is_taken(all, type) ||
+            !can_run(s, type, other)) /* defects of new ones are not known */
+            continue;
+        const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
+        if (*chosen != NULL && !is_better(&here, best))
+            continue;
+        *chosen = type;
+        *best = here;
+    }
+    if (*chosen == NULL || !as_sound(&all->here[0], best))
+        return 0;
+    all->count++;
+    return 1;
+}
+
+static candidates candidates_of(const scene *s, const rule_subject *where, const rule *rules,
+                                int count, int other)
+{
+    candidates out = {0};
+    while (out.count < CANDIDATES && take_next(s, where, rules, count, other, &out)) {}
+    return out;
+}
+
+/* Candidates, and the first half of the line on the choice. */
+static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
+                   candidates *all, char why[FAULT_TEXT], fault *f)
+{
+    *all = candidates_of(s, where, rules, count, 0);
+    const int whole = all->count > 0;
+    if (!whole)
+        *all = candidates_of(s, where, rules, count, 1);
+    if (all->count == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "no formulation offers all that %.60s needs; 'beamwork list' shows what "
+                         "each offers",
+                         s->name);
+    const int *against = all->here[0].against;
+    snprintf(why, FAULT_TEXT, "%s%s%s",
+             whole ? "offers all that is needed" : "another model, which lacks the least",
+             rules == NULL                ? ""
+             : against[AGAINST_HERE] == 0 ? ", no known defect here"
+                                          : ", but has a known defect here",
+             against[AGAINST_THEORY] ? ", another theory of shear than asked for" : "");
+    return STATUS_OK;
+}
+
+status preference_formulation(const scene *s, const rule_subject *where, const rule *rules,
+                              int count, formulation *out, char why[FAULT_TEXT], fault *f)
+{
+    candidates all = {0};
+    TRY(find(s, where, rules, count, &all, why, f));
+    formulation_default(all.type[0], out);
+    return STATUS_OK;
+}
+
+/* Of a path of which a coarse mesh may follow another branch. */
+static int met_unstable(const solve_result *r)
+{
+    for (int i = 0; i < r->steps; i++)
+        if (result_is_unstable(r->step[i].stability))
+            return 1;
+    return 0;
+}
+
+/* One formulation on finer and finer meshes. */
+typedef struct runner {
+    cell_request request;
+    formulation chosen;
+    cell_result cell[2];         /* of the last meshes, in turn */
+    double asked;                /* change that counts as none */
+    change last;                 /* from mesh to mesh */
+    int tried, before, elements; /* meshes; elements of the last two */
+    int unstable;                /* one met unstable states, which finer ones may not pass */
+    double cost, next;           /* of the last mesh; what the next one may cost [s] */
+} runner;
+
+static status begin(runner *r, const cell_request *request, const formulation *chosen, double asked,
+                    fault *f)
+{
+    const int quantities = request->scene->quantities;
+    memset(r, 0, sizeof *r);
+    r->request = *request;
+    r->chosen = *chosen;
+    r->asked = asked;
+    cell_formulation(&r->request, chosen);
+    r->last = (change){.largest = INFINITY, .which = -1};
+    r->last.of_each = malloc(((size_t)quantities + 1) * sizeof *r->last.of_each);
+    if (r->last.of_each == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+    for (int i = 0; i < quantities; i++)
+        r->last.of_each[i] = NAN;
+    return STATUS_OK;
+}
+
+static void end(runner *r)
+{
+    free(r->last.of_each);
+    cell_result_free(&r->cell[0]);
+    cell_result_free(&r->cell[1]);
+}
+
+/* The meshes of the scene, then twice as many elements each. */
+static int next_mesh(const scene *s, const runner *r)
+{
+    return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
+}
+
+static int settled(const scene *s, const runner *r)
+{
+    const int sure = !r->unstable && !r->last.missing;
+    return r->last.largest <= r->asked && (sure || r->tried >= s->meshes);
+}
+
+/* Is another mesh too much? */
+static int exhausted(const scene *s, const runner *r)
+{
+    const int tells = r->tried < 2 || isfinite(r->last.largest); /* what finer ones would settle */
+    return r->tried >= s->meshes &&
+           (!tells || r->next > PREFERENCE_COST || r->elements >= PREFERENCE_FINEST);
+}
+
+static void refine(const scene *s, runner *r)
+{
+    cell_result *now = &r->cell[r->tried % 2];
+    fault f;
+    cell_result_free(now);
+    memset(now, 0, sizeof *now);
+    r->before = r->elements;
+    r->request.elements = r->elements = next_mesh(s, r);
+    cell_run(&r->request, now, &f); /* one that fails is not settled */
+    if (r->tried > 0)
+        change_between(s, &r->cell[(r->tried + 1) % 2], now, &r->last);
+    r->unstable |= met_unstable(&now->solve);
+    r->cost = price_cost(&r->chosen, now);
+    r->next = 2 * r->cost;
+    r->tried++;
+}
+
+/* Takes a step with whoever has the cheapest one before it, until one has settled; NULL: none does
+ * within bounds. */
+static runner *race(const scene *s, runner of[], int count)
+{
+    for (;;) {
+        runner *cheapest = NULL;
+        for (int i = 0; i < count; i++)
+            if (!exhausted(s, &of[i]) && (cheapest == NULL || of[i].next < cheapest->next))
+                cheapest = &of[i];
+        if (cheapest == NULL)
+            return NULL;
+        refine(s, cheapest);
+        if (settled(s, cheapest))
+            return cheapest;
+    }
+}
+
+static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
+{
+    if (settled(s, r))
+        snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
+                 100 * r->last.largest, r->before);
+    else if (isfinite(r->last.largest) && r->last.which >= 0)
+        snprintf(why, FAULT_TEXT,
+                 "the finest mesh that was tried; %s still changed by %.2g %% from n = %d",
+                 s->quantity[r->last.which].name, 100 * r->last.largest, r->before);
+    else
+        snprintf(why, FAULT_TEXT, "the finest mesh that was tried%s",
+                 r->unstable ? "; coarser ones met unstable states" : "");
+}
+
+/* Of none that settled: the one that changed least. */
+static runner *calmest(runner of[], int count)
+{
+    runner *out = &of[0];
+    for (int i = 1; i < count; i++)
+        if (of[i].last.largest < out->last.largest)
+            out = &of[i];
+    return out;
+}
+
+/* What a runner found; its changes go to *out. */
+static void keep(const scene *s, runner *r, preference *out)
+{
+    out->chosen = r->chosen;
+    out->elements = r->elements;
+    out->short_of = !settled(s, r) && r->last.which >= 0;
+    out->change = r->last.of_each;
+    r->last.of_each = NULL;
+    tell_elements(s, r, out->why_elements);
+}
+
+void preference_free(preference *p)
+{
+    free(p->change);
+    p->change = NULL;
+}
+
+status preference_elements(const cell_request *request, const formulation *chosen, double asked,
+                           preference *out, fault *f)
+{
+    runner one;
+    *out = (preference){.why_formulation = ""};
+    TRY(begin(&one, request, chosen, asked, f));
+    race(request->scene, &one, 1);
+    keep(request->scene, &one, out);
+    end(&one);
+    return STATUS_OK;
+}
+
+/* Of all candidates, the first that settles. */
+static void choose(const scene *s, runner of[], int count, preference *out)
+{
+    runner *first = race(s, of, count);
+    keep(s, first != NULL ? first : calmest(of, count), out);
+    if (first != NULL && count > 1) {
+        const size_t used = strlen(out->why_formulation);
+        snprintf(out->why_formulation + used, FAULT_TEXT - used, ", settled first of %d", count);
+    }
+}
+
+status preference_both(const cell_request *request, const rule_subject *where, const rule *rules,
+                       int count, double asked, preference *out, fault *f)
+{
+    candidates all;
+    int begun = 0;
+    status outcome = STATUS_OK;
+    *out = (preference){.why_formulation = ""};
+    TRY(find(request->scene, where, rules, count, &all, out->why_formulation, f));
+    runner *of = malloc(((size_t)all.count + 1) * sizeof *of);
+    if (of == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a choice");
+    for (; begun < all.count && outcome == STATUS_OK; begun++) {
+        formulation one;
+        formulation_default(all.type[begun], &one);
+        outcome = begin(&of[begun], request, &one, asked, f);
+    }
+    if (outcome == STATUS_OK)
+        choose(request->scene, of, all.count, out);
+    for (int i = 0; i < begun; i++)
+        end(&of[i]);
+    free(of);
+    return outcome;
+}

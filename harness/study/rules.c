@@ -1,0 +1,248 @@
+#include "harness/study/rules.h"
+
+#include <fnmatch.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/feature.h"
+#include "elements/shared/choice.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
+#include "harness/model/model.h"
+#include "harness/study/columns.h"
+
+enum { WORD = RULES_WORD };
+
+/* The next word of a text; returns where the rest begins, or NULL at the end. */
+static const char *next_word(const char *text, const char *separators, char word[WORD])
+{
+    text += strspn(text, separators);
+    const size_t length = strcspn(text, separators);
+    snprintf(word, WORD, "%.*s", (int)length, text);
+    return length > 0 ? text + length : NULL;
+}
+
+static int list_has(const char *list, const char *text)
+{
+    char word[WORD];
+    while ((list = next_word(list, " ", word)) != NULL)
+        if (fnmatch(word, text, 0) == 0)
+            return 1;
+    return 0;
+}
+
+static int list_has_formulation(const char *list, const char *key)
+{
+    char bare[WORD];
+    snprintf(bare, sizeof bare, "%.*s", (int)strcspn(key, ":"), key);
+    return list_has(list, key) || list_has(list, bare);
+}
+
+/* One term, without the blanks around it. */
+typedef struct term {
+    unsigned feature; /* 0: it compares a parameter */
+    int negated;      /* of a feature */
+    char parameter[WORD], sign[3], values[WORD];
+} term;
+
+/* 0: it is no term. */
+static int term_parse(const char *text, term *out)
+{
+    char copy[WORD];
+    memset(out, 0, sizeof *out);
+    snprintf(copy, sizeof copy, "%s", text + strspn(text, " "));
+    for (size_t n = strlen(copy); n > 0 && copy[n - 1] == ' '; n--)
+        copy[n - 1] = '\0';
+    out->negated = strncmp(copy, "not ", 4) == 0;
+    out->feature = feature_named(copy + (out->negated ? 4 : 0));
+    if (out->feature != 0)
+        return 1;
+    const size_t name = strcspn(copy, "=!<>"), sign = strspn(copy + name, "=!<>");
+    snprintf(out->parameter, sizeof out->parameter, "%.*s", (int)name, copy);
+    snprintf(out->sign, sizeof out->sign, "%.*s", (int)sign, copy + name);
+    snprintf(out->values, sizeof out->values, "%s", copy + name + sign);
+    static const char *const signs[] = {"=", "!=", "<", "<=", ">", ">="};
+    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
+        if (strcmp(out->sign, signs[i]) == 0 && sign < sizeof out->sign)
+            return name > 0 && out->values[0] != '\0';
+    return 0;
+}
+
+/* A number, or the index of a choice; NAN: neither. */
+static double value_of(const parameter_type *p, const char *word)
+{
+    double value;
+    return assignment_value(p, word, &value) ? value : (double)NAN;
+}
+
+static int is_one_of(const parameter_type *p, const char *values, double value)
+{
+    char word[WORD];
+    while ((values = next_word(values, "|", word)) != NULL)
+        if (fabs(value_of(p, word) - value) <= 1e-14 * fabs(value))
+            return 1;
+    return 0;
+}
+
+static int compares(const term *t, const parameter_type *p, double value)
+{
+    if (t->sign[0] == '=' || t->sign[0] == '!')
+        return is_one_of(p, t->values, value) == (t->sign[0] == '=');
+    const double bound = value_of(p, t->values);
+    if (t->sign[1] == '=' && value == bound)
+        return 1;
+    return t->sign[0] == '<' ? value < bound : value > bound;
+}
+
+static int term_holds(const term *t, const rule_subject *s)
+{
+    if (t->feature != 0)
+        return ((s->features & t->feature) != 0) != t->negated;
+    const int i = parameter_index(s->type->parameters, t->parameter);
+    return i >= 0 && compares(t, parameter_at(s->type->parameters, i), s->parameter[i]);
+}
+
+static int condition_holds(const char *condition, const rule_subject *s)
+{
+    char word[WORD];
+    term t;
+    while ((condition = next_word(condition, ";", word)) != NULL)
+        if (!term_parse(word, &t) || !term_holds(&t, s))
+            return 0;
+    return 1;
+}
+
+int rules_hold(const rule *r, const rule_subject *s)
+{
+    return list_has(r->cases, s->type->name) && list_has(r->quantities, s->quantity) &&
+           list_has_formulation(r->formulations, s->formulation) &&
+           choice_index(r->verdicts, s->verdict) >= 0 && condition_holds(r->condition, s);
+}
+
+int rules_speak_of(const rule *r, const char *formulation)
+{
+    return list_has_formulation(r->formulations, formulation);
+}
+
+unsigned rules_features(const rule *r)
+{
+    char word[WORD];
+    unsigned out = 0;
+    term t;
+    for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
+        if (term_parse(word, &t) && !t.negated)
+            out |= t.feature;
+    return out;
+}
+
+void rules_foretell(rule *r, const rule_subject *s)
+{
+    char word[WORD], here[WORD];
+    unsigned bit = 1;
+    snprintf(here, sizeof here, "%s/%s", s->type->name, s->quantity);
+    for (const char *at = r->predicted; (at = next_word(at, " ", word)) != NULL; bit <<= 1)
+        if (strcmp(word, here) == 0)
+            r->foretold |= bit;
+}
+
+int rules_is_observed(const rule *r)
+{
+    char word[WORD];
+    unsigned all = 0;
+    for (const char *at = r->predicted; (at = next_word(at, " ", word)) != NULL;)
+        all = 2 * all + 1;
+    return r->observed > 0 && r->foretold == all;
+}
+
+/* Does some case that the rule speaks of have the term's parameter, with such values? */
+static int term_means_something(const rule *r, const term *t, const case_type *const cases[])
+{
+    int found = t->feature != 0;
+    for (int k = 0; cases[k] != NULL && !found; k++) {
+        const int i = parameter_index(cases[k]->parameters, t->parameter);
+        char word[WORD];
+        const char *values = t->values;
+        found = i >= 0 && list_has(r->cases, cases[k]->name);
+        while (found && (values = next_word(values, "|", word)) != NULL)
+            found = isfinite(value_of(parameter_at(cases[k]->parameters, i), word));
+    }
+    return found;
+}
+
+int rules_bad_condition(const rule *r, const case_type *const cases[], char word[RULES_WORD])
+{
+    term t;
+    for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
+        if (!term_parse(word, &t) || !term_means_something(r, &t, cases))
+            return 1;
+    return 0;
+}
+
+const char *rules_next_word(const char *list, char word[RULES_WORD])
+{
+    return next_word(list, " ", word);
+}
+
+static status check_rule(const columns *c, const rule *r)
+{
+    char word[WORD];
+    if (!rules_bad_condition(r, registry_cases, word))
+        return STATUS_OK;
+    return fault_set(c->f, STATUS_FAULT,
+                     "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor compares "
+                     "a parameter of its cases; correct reference/findings.csv and build again",
+                     c->path, r->name, word);
+}
+
+static status read_all(columns *c, rule **out)
+{
+    static const columns_field field[] = {
+        {"rule", 1, offsetof(rule, name)},
+        {"formulations", 1, offsetof(rule, formulations)},
+        {"cases", 1, offsetof(rule, cases)},
+        {"condition", 1, offsetof(rule, condition)},
+        {"quantities", 1, offsetof(rule, quantities)},
+        {"verdicts", 1, offsetof(rule, verdicts)},
+        {"predicted", 1, offsetof(rule, predicted)},
+        {"cause", 1, offsetof(rule, cause)},
+        {"proof", 1, offsetof(rule, proof)},
+        {"largest_error", 0, offsetof(rule, largest_error)},
+    };
+    c->rows = c->group >= 0 ? columns_length(c->group, "rule") : -1;
+    if (c->rows < 0)
+        return columns_broken(c, "rule");
+    rule *all = *out = calloc((size_t)c->rows + 1, sizeof *all);
+    if (all == NULL)
+        return fault_set(c->f, STATUS_FAULT, "out of memory for findings");
+    for (size_t k = 0; k < sizeof field / sizeof field[0]; k++)
+        TRY(columns_read(c, &field[k], all, sizeof *all));
+    for (int i = 0; i < c->rows; i++)
+        TRY(check_rule(c, &all[i]));
+    return STATUS_OK;
+}
+
+status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f)
+{
+    columns c = {.path = path, .name = "findings", .f = f};
+    c.group = H5Gopen2(file, "findings", H5P_DEFAULT);
+    *out = NULL;
+    const status outcome = read_all(&c, out);
+    if (c.group >= 0)
+        H5Gclose(c.group);
+    *count = *out != NULL ? c.rows : 0;
+    return outcome;
+}
+
+void rules_free(rule *r, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char *const all[] = {r[i].name,       r[i].formulations, r[i].cases,     r[i].condition,
+                             r[i].quantities, r[i].verdicts,     r[i].predicted, r[i].cause,
+                             r[i].proof,      r[i].from};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            free(all[k]);
+    }
+    free(r);
+}

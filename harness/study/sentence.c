@@ -1,0 +1,249 @@
+/* A verdict in words: what the meshes show, with the numbers that decided. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/study/rounding.h"
+#include "harness/study/sentence.h"
+
+static void passed(const verdict *v, char *text, size_t size)
+{
+    const char *digits = v->below_digits ? "; the difference is below the truth's digits" : "";
+    if (v->fit.kind == LIMIT_NOISE_DOMINATED)
+        snprintf(text, size, "has converged to the truth: the last meshes differ by noise only%s",
+                 digits);
+    else if (isfinite(v->fit.order))
+        snprintf(text, size, "converges to the truth, order %.2g%s", v->fit.order, digits);
+    else
+        snprintf(text, size, "agrees with the truth within the tolerance, without an order%s",
+                 digits);
+}
+
+/* The doubt about a limit, in percent of the truth; in the quantity's unit where the truth is zero
+ * or too small to measure by: its error is then told of what counts as near zero. */
+static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
+{
+    const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
+    const int by_truth = size > 0 && fabs(v->error) * size >= apart * (1 - 1e-9);
+    char digits[ROUNDING_TEXT];
+    rounding_digits(v->fit.limit_uncertainty * (by_truth ? 100 / size : 1), 2, digits);
+    snprintf(text, 2 * ROUNDING_TEXT, "%s%s", digits, by_truth ? " %" : " in its unit");
+}
+
+static void undecided(const verdict *v, char *text, size_t size)
+{
+    char doubt[2 * ROUNDING_TEXT];
+    if (!isfinite(v->fit.limit_uncertainty)) {
+        snprintf(text, size, "undecided: one mesh shows no limit");
+        return;
+    }
+    doubt_of(v, doubt);
+    snprintf(text, size, "undecided: its limit is %+.3g %% off, known to %s only (%s, %d meshes)",
+             100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
+}
+
+static void unjudged(const verdict *v, char *text, size_t size)
+{
+    if (v->model_truth != NULL && v->model_truth->theory[0] != '\0')
+        snprintf(text, size,
+                 "no truth of its theory of shear; its limit is %+.3g %% from that of %s",
+                 100 * v->model_error, v->model_truth->theory);
+    else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
+        snprintf(text, size, "no truth to judge by; its limit is %+.2g %% from that on which %s",
+                 100 * v->model_error, v->model_truth->source);
+    else
+        snprintf(text, size, "no truth to judge by");
+}
+
+/* What it leaves out, and how far that takes it from the truth. */
+static void other_model(const verdict *v, char *text, size_t size)
+{
+    const int agreed = v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0;
+    if (v->model_truth != NULL && isfinite(v->model_error))
+        snprintf(text, size, "%s; its limit is %+.3g %% from %s%s%s", v->reason,
+                 100 * v->model_error, agreed ? "that on which " : "the ",
+                 agreed ? v->model_truth->source : v->model_truth->kind, agreed ? "" : " value");
+    else
+        snprintf(text, size, "%s", v->reason);
+}
+
+void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size)
+{
+    switch (v->kind) {
+    case VERDICT_PASS:
+        passed(v, text, size);
+        return;
+    case VERDICT_BIASED:
+        snprintf(text, size, "has a limit of its own within the tolerance: %+.3g %%",
+                 100 * v->error);
+        return;
+    case VERDICT_WRONG_LIMIT:
+        snprintf(text, size, "converges to a wrong limit: %+.3g %%", 100 * v->error);
+        return;
+    case VERDICT_BIASED_AS_PREDICTED:
+    case VERDICT_WRONG_AS_PREDICTED:
+        snprintf(text, size,
+                 "converges to the limit that was derived for it, %.10g: %+.3g %% from the truth",
+                 v->predicted->value, 100 * v->error);
+        return;
+    case VERDICT_LOW_ORDER:
+        snprintf(text, size, "converges to the truth, but with order %.2g instead of %.2g",
+                 v->fit.order, least_order);
+        return;
+    case VERDICT_UNDECIDED:
+        undecided(v, text, size);
+        return;
+    case VERDICT_DIVERGED:
+        snprintf(text, size, "has no value on the finest mesh: %s", v->reason);
+        return;
+    case VERDICT_REFUSED:
+        snprintf(text, size, "refused: %s", v->reason);
+        return;
+    case VERDICT_SKIP:
+        snprintf(text, size, "skipped: %s", v->reason);
+        return;
+    case VERDICT_OTHER_MODEL:
+        other_model(v, text, size);
+        return;
+    case VERDICT_NO_TRUTH:
+    case VERDICT_KINDS:
+        break;
+    }
+    unjudged(v, text, size);
+}
+
+/* One more part of a text; parts stand side by side with the joint between them. */
+static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", (*parts)++ > 0 ? joint : "", part);
+}
+
+static void count_part(char *text, size_t size, int *parts, int count, const char *one,
+                       const char *many)
+{
+    char part[160];
+    if (count == 0)
+        return;
+    snprintf(part, sizeof part, "%d %s", count, count == 1 ? one : many);
+    add_part(text, size, parts, ", ", part);
+}
+
+/* Of the verdicts that differ. */
+static int count_undecided(const judgement *j)
+{
+    int count = 0;
+    for (int i = 0; i < j->verdicts; i++)
+        count += !j->verdict[i].matches && j->verdict[i].kind == VERDICT_UNDECIDED;
+    return count;
+}
+
+/* What differs, counted. */
+static void failures(const judgement *j, char *text, size_t size)
+{
+    int parts = 0;
+    count_part(text, size, &parts, j->breaches, "formulation breaks the contract of the interface",
+               "formulations break the contract of the interface");
+    count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
+               "verdicts differ from the expected ones");
+    count_part(text, size, &parts, count_undecided(j), "of them is undecided",
+               "of them are undecided");
+    count_part(text, size, &parts, j->regressions, "result is worse than in the former run",
+               "results are worse than in the former run");
+    count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
+               "values differ from their stored ones");
+    count_part(text, size, &parts, j->flaws, "cell contradicts itself",
+               "cells contradict themselves");
+    count_part(text, size, &parts, j->unobserved, "finding was not observed",
+               "findings were not observed");
+    count_part(text, size, &parts, j->unmet, "truth speaks of nothing that exists",
+               "truths speak of nothing that exists");
+}
+
+/* Verdicts that are no pass and were expected, by a limit that was derived or by a rule alone. */
+typedef struct known {
+    int derived[2]; /* within the tolerance, beyond it */
+    int by_rule;
+} known;
+
+static known count_known(const judgement *j)
+{
+    known out = {{0}, 0};
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        if (v->rule == NULL || !v->matches)
+            continue;
+        out.derived[0] += v->kind == VERDICT_BIASED_AS_PREDICTED;
+        out.derived[1] += v->kind == VERDICT_WRONG_AS_PREDICTED;
+        out.by_rule +=
+            v->kind != VERDICT_BIASED_AS_PREDICTED && v->kind != VERDICT_WRONG_AS_PREDICTED;
+    }
+    return out;
+}
+
+/* Verdicts of formulations that do not gate, and how many of them would need a finding. */
+static void new_ones(const judgement *j, char *text, size_t size)
+{
+    if (j->proposed == 0)
+        snprintf(text, size, "%d %s: none needs a finding", j->is_new,
+                 j->is_new == 1 ? "is of a new formulation, which does not gate"
+                                : "are of new formulations, which do not gate");
+    else
+        snprintf(text, size,
+                 "not gated: %d of %d %s %s no pass and would need a finding (--propose FILE "
+                 "writes %s down)",
+                 j->proposed, j->is_new,
+                 j->is_new == 1 ? "verdict of a new formulation" : "verdicts of new formulations",
+                 j->proposed == 1 ? "is" : "are", j->proposed == 1 ? "it" : "them");
+}
+
+/* What is no pass and was expected, for somebody who did not expect it. */
+static void expected_findings(const judgement *j, char *text, size_t size)
+{
+    const known k = count_known(j);
+    const int derived = k.derived[0] + k.derived[1];
+    char part[400];
+    int parts = 0;
+    if (derived > 0) {
+        snprintf(part, sizeof part,
+                 "%d of them %s off the truth (%d within the tolerance, %d beyond it) just as "
+                 "derived for %s (beamwork explain \"wrong limit, as predicted\")",
+                 derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
+                 derived == 1 ? "its formulation" : "these formulations");
+        add_part(text, size, &parts, ", ", part);
+    }
+    if (k.by_rule > 0) {
+        snprintf(part, sizeof part, "%d %s%s explained by a finding of the ledger", k.by_rule,
+                 derived > 0 ? "more " : "of them ", k.by_rule == 1 ? "is" : "are");
+        add_part(text, size, &parts, ", ", part);
+    }
+    if (j->is_new > 0) {
+        new_ones(j, part, sizeof part);
+        add_part(text, size, &parts, "; ", part);
+    }
+}
+
+void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size)
+{
+    const int bad = judgement_exit(j) == 1, checked = bad || j->judged + j->agreements > 0;
+    char more[FAULT_TEXT * 4] = "";
+    text[0] = '\0';
+    if (!checked)
+        return;
+    if (bad)
+        failures(j, more, sizeof more);
+    else
+        expected_findings(j, more, sizeof more);
+    const char *word = bad ? "FAIL" : "PASS", *of = "";
+    if (s->unfinished > 0) {
+        word = s->partial ? "INCOMPLETE" : "INTERRUPTED";
+        of = s->partial ? "of what is there " : "until then ";
+    }
+    if (bad)
+        snprintf(text, size, "%s: %s.", word, more);
+    else
+        snprintf(text, size, "%s: %s%s%s%s.", word, of,
+                 j->proposed > 0 ? "nothing that gates differs from what is expected"
+                                 : "every verdict is as expected",
+                 more[0] != '\0' ? "; " : "", more);
+}

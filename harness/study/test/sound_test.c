@@ -1,0 +1,254 @@
+/* What a cell says of its own work: a made-up cell that is right, each number in it wrong by
+ * itself; and real cells, of every kind of analysis and form of Newton, whose elements count for
+ * themselves how often they are asked. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
+#include "harness/study/sound.h"
+
+enum { STEPS = 3, ELEMENTS = 5 };
+
+typedef struct bench {
+    scene s;
+    cell_result cell;
+    step_record step[STEPS];
+} bench;
+
+static void add_analysis(scene_analysis_kind kind, scene *s)
+{
+    const double end = 1;
+    if (kind == SCENE_STATIC)
+        scene_add_static(s, 1, &end, 1);
+    else if (kind == SCENE_COMPLIANCE)
+        scene_add_compliance(s, SCENE_NONE, (scene_compliance){.node = 0});
+    else if (kind == SCENE_CONTINUATION)
+        scene_add_continuation(s, 1, &end, (scene_control){.node = 0});
+    else
+        scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
+}
+
+/* Three steps of four iterations; a continuation begins each with the tangent at hand. */
+static void make(scene_analysis_kind kind, bench *b)
+{
+    memset(b, 0, sizeof *b);
+    scene_init(&b->s, "made_up");
+    add_analysis(kind, &b->s);
+    for (int i = 0; i < STEPS; i++)
+        b->step[i] = (step_record){.iterations = 4, .correction = 1e-9, .remaining = NAN};
+    const long iterations = 4 * STEPS,
+               linearised = iterations - (kind == SCENE_CONTINUATION ? STEPS : 0),
+               evaluations = linearised * ELEMENTS;
+    b->cell.size.elements = ELEMENTS;
+    b->cell.solve.steps = STEPS;
+    b->cell.solve.step = b->step;
+    b->cell.solve.iterations = (int)iterations;
+    b->cell.counters = (counters){.strain_evaluations = evaluations,
+                                  .stress_evaluations = evaluations,
+                                  .factorisations = linearised,
+                                  .solutions = iterations,
+                                  .iterations = iterations,
+                                  .steps = STEPS};
+}
+
+static void expect(const bench *b, int sound, const char *what)
+{
+    char why[FAULT_TEXT] = "";
+    gsl_test_int(sound_cell(&b->cell, &b->s, NEWTON_MIXED, why), sound, "%s: %s", what, why);
+    gsl_test(!sound && why[0] == '\0', "%s: it says why", what);
+}
+
+/* Too few of anything is a contradiction everywhere, too many only where nothing else is done. */
+static void counts(scene_analysis_kind kind)
+{
+    const struct {
+        size_t offset;
+        int exact;
+        const char *name;
+    } row[] = {{offsetof(counters, strain_evaluations), 1, "strain evaluations"},
+               {offsetof(counters, stress_evaluations), 1, "stress evaluations"},
+               {offsetof(counters, factorisations), 1, "factorisations"},
+               {offsetof(counters, solutions), 0, "solutions"}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        for (int more = -1; more <= 1; more++) {
+            bench b;
+            make(kind, &b);
+            long *count = (long *)(void *)((char *)&b.cell.counters + row[i].offset);
+            *count += more;
+            expect(&b, more == 0 || (more > 0 && !(row[i].exact && kind == SCENE_STATIC)),
+                   row[i].name);
+            b.cell.counters.rejected_steps = b.step[STEPS - 1].rejected = 1;
+            expect(&b, more >= 0, "the same with a step in vain");
+            scene_free(&b.s);
+        }
+}
+
+static void steps(void)
+{
+    bench b;
+    make(SCENE_STATIC, &b);
+    expect(&b, 1, "a cell that is right");
+    for (int i = 0; i < STEPS; i++) {
+        b.step[i].correction = 1e-7;
+        expect(&b, 0, "a step that ended too soon");
+        b.step[i].remaining = 1e-14;
+        expect(&b, 1, "a step whose next correction is predicted and negligible");
+        b.step[i].remaining = 1e-13;
+        expect(&b, 0, "a step whose next correction is predicted and is not");
+        b.step[i].remaining = 1e-14;
+        b.step[i].correction = 2e-6;
+        expect(&b, 0, "a correction too large to predict from");
+        b.step[i].remaining = NAN;
+        b.step[i].correction = NAN;
+        expect(&b, 0, "a step without a correction");
+        b.step[i].correction = 1e-8;
+        expect(&b, 1, "a step that just ended");
+    }
+    b.cell.counters.steps++;
+    expect(&b, 0, "a step that was not kept");
+    b.cell.counters.steps -= 2;
+    expect(&b, 0, "a step that was not counted");
+    b.cell.counters.steps++;
+    for (int i = 0; i < STEPS; i++) {
+        b.step[i].rejected = 2;
+        expect(&b, 0, "rejected steps that were not counted");
+        b.cell.counters.rejected_steps = 2 * (i + 1);
+        expect(&b, 1, "rejected steps");
+    }
+    b.cell.counters.rejected_steps--;
+    expect(&b, 0, "a rejected step that was not counted");
+    for (int i = 0; i < STEPS; i++)
+        b.step[i].rejected = 0;
+    b.cell.counters.rejected_steps = 0;
+    b.step[0].iterations++;
+    expect(&b, 0, "an iteration that was not kept");
+    b.step[0].iterations--;
+    b.cell.solve.iterations++;
+    expect(&b, 0, "an iteration that was not counted");
+    b.cell.solve.status = STATUS_NOT_CONVERGED;
+    expect(&b, 1, "a cell without a solution is not asked");
+    scene_free(&b.s);
+}
+
+/* The formulation in use, and how often it was asked. */
+static const element_type *inner;
+static long strains, stresses, inertias;
+
+static void counted_strain(const element_data *d, const node_state x[], strain_output *out)
+{
+    strains++;
+    inner->strain(d, x, out);
+}
+
+static status counted_stress(const element_data *d, const double e[], const double own[],
+                             stress_output *out)
+{
+    stresses++;
+    return inner->stress(d, e, own, out);
+}
+
+static status counted_inertia(const element_data *d, const node_state x[],
+                              const element_rotating_frame *frame, inertia_output *out)
+{
+    inertias++;
+    return inner->inertia(d, x, frame, out);
+}
+
+/* The same of several elements. */
+static void counted_strains(int count, const element_data *const data[], const node_state x[],
+                            strain_output out[])
+{
+    strains += count;
+    inner->strain_many(count, data, x, out);
+}
+
+static void counted_stresses(int count, const element_data *const data[], const double *const e[],
+                             const double *const own[], stress_output out[], status outcome[])
+{
+    stresses += count;
+    inner->stress_many(count, data, e, own, out, outcome);
+}
+
+static void counted_equations(int count, const element_data *const data[], const node_state x[],
+                              const double *const e[], const double *const own[],
+                              const double *const s[], equations_output out[], status outcome[])
+{
+    strains += count;
+    stresses += count;
+    inner->equations_many(count, data, x, e, own, s, out, outcome);
+}
+
+/* A real cell: the counters are what the elements count. Strains that reactions are read from
+ * are not counted. */
+static void actual(const char *name, int elements, const char *formulation_name,
+                   const char *parameters, newton_form newton, int reactions, int looks)
+{
+    cell_result cell;
+    formulation chosen;
+    fault f = {""};
+    char why[FAULT_TEXT] = "";
+    inner = formulation_find(formulation_name);
+    element_type counted = *inner;
+    counted.strain = counted_strain;
+    counted.stress = counted_stress;
+    counted.inertia = counted_inertia;
+    counted.strain_many = inner->strain_many != NULL ? counted_strains : NULL;
+    counted.stress_many = inner->stress_many != NULL ? counted_stresses : NULL;
+    counted.equations_many = inner->equations_many != NULL ? counted_equations : NULL;
+    formulation_default(inner, &chosen);
+    cell_request request = {.type = case_find(name, &f),
+                            .formulation = &counted,
+                            .elements = elements,
+                            .solve.newton = newton};
+    memcpy(request.option, chosen.option, sizeof request.option);
+    parameters_default(request.type, request.parameter);
+    gsl_test(parameters_parse(request.type, parameters, request.parameter, NULL, &f) != STATUS_OK,
+             "%s %s", name, f.text);
+    strains = stresses = inertias = 0;
+    gsl_test(cell_run(&request, &cell, &f) != STATUS_OK, "%s, %s, Newton %d: %s", name,
+             formulation_name, newton, f.text);
+    gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
+             formulation_name, newton, why);
+    /* A look at the stiffness at rest, where a path was unstable, is no work of the solution. */
+    stresses -= looks * cell.size.elements;
+    strains -= looks * cell.size.elements;
+    gsl_test(cell.counters.stress_evaluations != stresses,
+             "%s, %s, Newton %d: %ld stress evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.stress_evaluations, stresses);
+    gsl_test(reactions ? cell.counters.strain_evaluations > strains
+                       : cell.counters.strain_evaluations != strains,
+             "%s, %s, Newton %d: %ld strain evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.strain_evaluations, strains);
+    gsl_test(cell.counters.inertia_evaluations != inertias,
+             "%s, %s, Newton %d: %ld inertia evaluations counted, %ld done", name, formulation_name,
+             newton, cell.counters.inertia_evaluations, inertias);
+    cell_result_free(&cell);
+}
+
+int main(void)
+{
+    static const scene_analysis_kind kind[] = {SCENE_STATIC, SCENE_COMPLIANCE, SCENE_CONTINUATION,
+                                               SCENE_ROTATION};
+    for (size_t i = 0; i < sizeof kind / sizeof kind[0]; i++)
+        counts(kind[i]);
+    steps();
+    for (int newton = 0; newton < NEWTON_FORMS; newton++) {
+        actual("elastica", 3, "beamw_consistent", "", newton, 0, 0);
+        actual("bend_45", 3, "geometrically_exact", "", newton, 0, 0);
+        actual("sheet_cantilever", 3, "sheet_third", "", newton, 1, 0);
+    }
+    actual("c_column", 3, "beamw_consistent", "", NEWTON_MIXED, 0, 0);
+    actual("lateral_buckling", 3, "collocation", "prebuckling=included;ratio=4", NEWTON_MIXED, 0,
+           0);
+    actual("rotating_cantilever", 3, "geometrically_exact", "", NEWTON_MIXED, 1, 0);
+    actual("snap_through", 3, "collocation", "", NEWTON_MIXED, 0, 1);
+    actual("shear_elastica", 1, "beamw_consistent", "", NEWTON_MIXED, 0, 0);
+    actual("roll_up", 4, "sheet_third", "", NEWTON_MIXED, 0, 0);
+    actual("c_cantilever", 6, "beamw_vlasov", "w=1.0;step=0.15", NEWTON_MIXED, 0, 0);
+    actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
+    return gsl_test_summary();
+}

@@ -1,0 +1,298 @@
+#include "harness/study/verdict.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/shared/choice.h"
+#include "harness/model/features.h"
+#include "harness/study/truth.h"
+#include "harness/study/truth_index.h"
+
+static const char *const names[VERDICT_KINDS] = {"pass",
+                                                 "biased",
+                                                 "wrong limit",
+                                                 "biased, as predicted",
+                                                 "wrong limit, as predicted",
+                                                 "low order",
+                                                 "undecided",
+                                                 "diverged",
+                                                 "refused",
+                                                 "skip",
+                                                 "no truth",
+                                                 "other model"};
+static const double order_slack = 0.3; /* an order seen on finite meshes is not sharper */
+/* so many uncertainties from the truth, a limit is another one */
+static const double surely = 3;
+
+const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
+    VERDICT_BIASED, VERDICT_WRONG_LIMIT, VERDICT_BIASED_AS_PREDICTED, VERDICT_WRONG_AS_PREDICTED};
+
+int verdict_tells_defect(const rule *r)
+{
+    int tells = 0;
+    for (int i = 0; i < VERDICT_DEFECTS; i++)
+        tells |= choice_index(r->verdicts, verdict_name(verdict_defects[i])) >= 0;
+    return tells;
+}
+
+const char *verdict_name(verdict_kind kind)
+{
+    return names[kind];
+}
+
+static double scale_of(const scene_quantity *q, double truth_value)
+{
+    return fmax(fabs(truth_value), q->near_zero);
+}
+
+double verdict_error(const scene_quantity *q, double value, double truth_value)
+{
+    const double scale = scale_of(q, truth_value);
+    return scale > 0 ? (value - truth_value) / scale : value - truth_value;
+}
+
+/* Values of all meshes, and how the finest one failed. */
+typedef struct history {
+    int n[SERIES_MAX_MESHES];
+    double value[SERIES_MAX_MESHES]; /* NAN: none */
+    status failure;                  /* of the finest mesh */
+    const char *reason;
+} history;
+
+static status failure_of(const solve_result *r, const quantity_result *q)
+{
+    if (q != NULL)
+        return q->status;
+    return r->status != STATUS_OK ? r->status : STATUS_NOT_CONVERGED;
+}
+
+static history history_of(const series *s, int quantity)
+{
+    history h = {.failure = STATUS_NOT_CONVERGED, .reason = ""};
+    for (int i = 0; i < s->meshes; i++) {
+        const solve_result *r = &s->cell[i].solve;
+        const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
+        h.failure = failure_of(r, q);
+        h.reason = "";
+        if (h.failure != STATUS_OK)
+            h.reason = q != NULL && q->reason[0] != '\0' ? q->reason : r->reason;
+        h.n[i] = s->mesh[i];
+        h.value[i] = h.failure == STATUS_OK ? q->value : NAN;
+    }
+    return h;
+}
+
+element_analysis verdict_analysis(const scene *s, const scene_quantity *q)
+{
+    if (q->analysis >= s->analyses)
+        return ELEMENT_STATICS;
+    const scene_analysis *a = &s->analysis[q->analysis];
+    if (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a))
+        return ELEMENT_VIBRATION;
+    return a->kind == SCENE_BUCKLING ? ELEMENT_BUCKLING : ELEMENT_STATICS;
+}
+
+mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out)
+{
+    const series *one = &s->series[series_index];
+    const scene *here = &s->point[one->point].scene;
+    const scene_quantity *q = &here->quantity[quantity];
+    const history h = history_of(one, quantity);
+    const element_order order =
+        element_order_in(one->formulation.type, verdict_analysis(here, q), one->formulation.option);
+    const limit_sequence sequence = {.count = one->meshes - left_out,
+                                     .n = h.n,
+                                     .value = h.value,
+                                     .noise = one->noise != NULL ? one->noise[quantity] : NAN,
+                                     .nominal_order = fmax(1, ceil(q->least_order)),
+                                     .highest_order = scene_tapers(here) && order.highest > 2
+                                                          ? 2 /* of prismatic pieces */
+                                                          : order.highest,
+                                     .near_zero = q->near_zero};
+    return limit_of(&sequence);
+}
+
+/* Is the order known and too low?  Two low orders agree by accident where terms of two signs cross
+ * or elements are as long as a layer is thick, and rise again: with five meshes or more the one
+ * before them must be below the nominal order too, and the three go one way.  Changes that the
+ * truth's uncertainty hides say nothing. */
+static int order_is_low(const scene_quantity *q, const verdict *v)
+{
+    const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
+    return v->fit.kind == LIMIT_ASYMPTOTIC && v->fit.order + v->fit.order_uncertainty < least &&
+           (v->fit.meshes == 4 || (v->fit.earlier_order < nominal && !v->fit.order_turns)) &&
+           v->fit.last_change > v->truth->uncertainty;
+}
+
+/* Is the limit the derived one, within what both are known to?  The same measure as that of a bias:
+ * what is surely another limit is not the predicted one. */
+static int is_predicted(const verdict *v)
+{
+    if (v->predicted == NULL)
+        return 0;
+    const double apart = fabs(v->fit.limit - v->predicted->value);
+    return apart <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
+}
+
+/* Against the truth.  A bias is as much a statement about the truth: it is not stated of one whose
+ * uncertainty is an estimate. */
+static verdict_kind compare(const scene_quantity *q, const verdict *v)
+{
+    const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
+    const int known = strcmp(v->truth->kind, "exact") == 0;
+    if (!(error + doubt <= v->tolerance)) {
+        const int wrong = error - doubt > v->tolerance && v->fit.meshes > 3;
+        if (!wrong)
+            return VERDICT_UNDECIDED;
+        return is_predicted(v) ? VERDICT_WRONG_AS_PREDICTED : VERDICT_WRONG_LIMIT;
+    }
+    if (known && error > surely * doubt + v->truth->uncertainty + v->unmodelled)
+        return is_predicted(v) ? VERDICT_BIASED_AS_PREDICTED : VERDICT_BIASED;
+    return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
+}
+
+/* Words of truth.theory that the formulation is judged by; NULL: any.  A form whose modes see no
+ * shear has no theory that anything else follows: its limits are shown against what there is. */
+static const char *theories_of(const scene *s, const element_type *type)
+{
+    switch (features_theory(s, type)) {
+    case SHEAR_ENGESSER:
+        return "engesser";
+    case SHEAR_HARINGX:
+        return "haringx";
+    default:
+        return NULL;
+    }
+}
+
+const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen, int quantity)
+{
+    return truth_of_theory(t, p->type, p->parameter, p->scene.quantity[quantity].name, "same",
+                           theories_of(&p->scene, chosen->type));
+}
+
+const truth *verdict_reference(const truths *t, const point *p, const formulation *chosen,
+                               int quantity)
+{
+    const truth *row = verdict_truth(t, p, chosen, quantity);
+    const char *name = p->scene.quantity[quantity].name;
+    return row != NULL ? row : truth_agreed(t, p->type, p->parameter, name);
+}
+
+static void find_truths(const sweep *s, const truths *t, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    const char *name = p->scene.quantity[v->quantity].name;
+    v->truth = verdict_truth(t, p, &one->formulation, v->quantity);
+    v->model_truth = truth_of(t, p->type, p->parameter, name, "other");
+    if (v->truth == NULL && v->model_truth == NULL)
+        /* of another theory of shear */
+        v->model_truth = truth_of(t, p->type, p->parameter, name, "same");
+    if (v->truth == NULL && v->model_truth == NULL)
+        v->model_truth = truth_agreed(t, p->type, p->parameter, name);
+    const int foreign = one->imported != NULL && !imported_same_model(one->imported);
+    if ((foreign || one->without.other) && v->truth != NULL) {
+        v->model_truth = v->truth; /* a difference of models, whoever solved it */
+        v->truth = NULL;
+    }
+    v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
+}
+
+/* A published value of the same model and theory, ranked below the truth: no limit of it. */
+static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    const char *theories = theories_of(&p->scene, one->formulation.type);
+    const char *quantity = p->scene.quantity[v->quantity].name;
+    for (int i = truth_index_first(t, p->type, quantity); i < t->rows; i = truth_index_next(t, i)) {
+        const truth *row = &t->row[i];
+        if (strcmp(row->kind, "published") == 0 && row->formulation[0] == '\0' && !row->on_curve &&
+            row != v->truth && strcmp(row->model, "same") == 0 &&
+            (theories == NULL || row->theory[0] == '\0' || strcmp(row->theory, theories) == 0) &&
+            truth_holds(row, p->type, p->parameter) &&
+            fabs(v->fit.limit - row->value) > v->fit.limit_uncertainty + row->uncertainty)
+            return row;
+    }
+    return NULL;
+}
+
+/* Another model is shown and never judged, whatever came of it. */
+static void say_other_model(const series *one, verdict *v)
+{
+    char words[OMISSION_TEXT];
+    omission_words(&one->without, words);
+    v->kind = v->expected = VERDICT_OTHER_MODEL;
+    snprintf(v->reason, sizeof v->reason, "%.*s", (int)sizeof v->reason - 1, words);
+}
+
+/* What keeps the series from being judged at all. 1: something does. */
+static int is_hindered(const sweep *s, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    if (one->missing[0] != '\0') {
+        v->kind = v->expected = VERDICT_SKIP;
+        snprintf(v->reason, sizeof v->reason, "does not offer %s", one->missing);
+        return 1;
+    }
+    if (p->status != STATUS_OK) {
+        v->kind = p->status == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
+        snprintf(v->reason, sizeof v->reason, "%s", p->reason);
+        return 1;
+    }
+    const history h = history_of(one, v->quantity);
+    if (h.failure == STATUS_OK)
+        return 0;
+    v->kind = h.failure == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;
+    snprintf(v->reason, sizeof v->reason, "%s", h.reason);
+    return 1;
+}
+
+void verdict_reach(const sweep *s, const truths *t, verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const scene_quantity *q = &s->point[one->point].scene.quantity[v->quantity];
+    v->unmodelled = 0;
+    v->finest = v->error = v->departure = v->model_error = v->tolerance = NAN;
+    v->fit = (mesh_limit){.limit = NAN,
+                          .limit_uncertainty = NAN,
+                          .order = NAN,
+                          .order_uncertainty = NAN,
+                          .last_change = NAN};
+    v->expected = VERDICT_PASS;
+    find_truths(s, t, v);
+    if (is_hindered(s, v)) {
+        if (one->without.other && one->missing[0] == '\0')
+            say_other_model(one, v);
+        return;
+    }
+    v->finest = one->cell[one->meshes - 1].solve.quantity[v->quantity].value;
+    v->fit = verdict_limit(s, v->series, v->quantity, 0);
+    if (v->model_truth != NULL)
+        v->model_error = verdict_error(q, v->fit.limit, v->model_truth->value);
+    if (one->without.other) {
+        say_other_model(one, v);
+        return;
+    }
+    if (v->truth == NULL) {
+        v->kind = v->expected = VERDICT_NO_TRUTH;
+        return;
+    }
+    v->unmodelled = one->without.what != 0 ? one->without.change * scale_of(q, v->truth->value) : 0;
+    v->tolerance = (s->tolerance > 0 ? s->tolerance : q->tolerance) * scale_of(q, v->truth->value) +
+                   v->truth->uncertainty + v->unmodelled;
+    v->error = v->departure = verdict_error(q, v->fit.limit, v->truth->value);
+    if (v->predicted != NULL)
+        v->departure -= verdict_error(q, v->predicted->value, v->truth->value);
+    v->below_digits = fabs(v->fit.limit - v->truth->value) <= v->truth->uncertainty;
+    v->kind = compare(q, v);
+    if (v->kind == VERDICT_PASS || v->kind == VERDICT_LOW_ORDER)
+        v->contradicted = contradiction(s, t, v);
+    if (v->predicted != NULL && v->kind == VERDICT_WRONG_LIMIT)
+        snprintf(v->reason, sizeof v->reason, "its limit is not the predicted %.10g",
+                 v->predicted->value);
+}
