@@ -5,8 +5,8 @@
 
 #include "harness/formulations/adapters.h"
 #include "harness/formulations/environment.h"
-#include "harness/record/json.h"
-#include "harness/record/json_record.h"
+#include "harness/records/json.h"
+#include "harness/records/json_record.h"
 
 static json_t *number(double value)
 {

@@ -2,9 +2,9 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/comparison/comparison.h"
-#include "harness/comparison/results_hash.h"
-#include "harness/record/output.h"
+#include "harness/records/comparison.h"
+#include "harness/records/output.h"
+#include "harness/records/results_hash.h"
 #include "harness/study/sweep.h"
 
 /* As of diff. */

@@ -6,7 +6,7 @@
 #include "harness/cli/cli.h"
 #include "harness/command/named.h"
 #include "harness/formulations/formulations.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 
 typedef struct found {
     certificate *all;

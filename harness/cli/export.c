@@ -6,7 +6,7 @@
 #include "harness/cli/cli.h"
 #include "harness/export/deck.h"
 #include "harness/formulations/parameters.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 #include "harness/study/cell.h"
 
 enum { DEFAULT_ELEMENTS = 20 };

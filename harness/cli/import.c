@@ -4,8 +4,8 @@
 #include "harness/cli/cli.h"
 #include "harness/imports/import_file.h"
 #include "harness/imports/import_map.h"
-#include "harness/record/place.h"
-#include "harness/record/store.h"
+#include "harness/records/place.h"
+#include "harness/records/store.h"
 
 static int as_json(const command_request *r)
 {

@@ -9,7 +9,7 @@
 #include "harness/pace/pace_plan.h"
 #include "harness/pace/pace_table.h"
 #include "harness/ranges/axis.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 
 /* Motions, and what is said of them. */
 typedef struct motions {

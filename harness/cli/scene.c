@@ -6,7 +6,7 @@
 #include "cases/format/schema_file.h"
 #include "cases/format/write.h"
 #include "harness/cli/cli.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 #include "harness/study/cell.h"
 #include "harness/tables/paragraph.h"
 

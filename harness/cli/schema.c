@@ -3,8 +3,8 @@
 
 #include "harness/cli/cli.h"
 #include "harness/manual/results.h"
-#include "harness/record/json.h"
-#include "harness/record/json_record.h"
+#include "harness/records/json.h"
+#include "harness/records/json_record.h"
 #include "harness/tables/paragraph.h"
 
 static void show_field(const schema_field *which)

@@ -6,7 +6,7 @@
 #include "harness/command/named.h"
 #include "harness/extremes/extreme_json.h"
 #include "harness/extremes/extreme_table.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 #include "harness/spread/extreme_work.h"
 
 static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)

@@ -10,7 +10,7 @@
 #include "harness/command/supports_told.h"
 #include "harness/imports/import_store.h"
 #include "harness/numerics/clock.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 #include "harness/request/regressions.h"
 #include "harness/request/verification.h"
 #include "harness/request/verification_files.h"

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "harness/command/command.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 
 static pid_t program; /* that these are for: its children end by themselves */
 

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "harness/formulations/words.h"
-#include "harness/record/output.h"
-#include "harness/record/output_folder.h"
+#include "harness/records/output.h"
+#include "harness/records/output_folder.h"
 
 enum { OUTPUTS = 7, INPUTS = 7 };
 

@@ -8,7 +8,7 @@
 
 #include "harness/command/command.h"
 #include "harness/formulations/formulations.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 
 /* What can happen, and the line for each, written before it does. */
 static struct {

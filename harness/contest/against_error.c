@@ -10,7 +10,7 @@
 #include "harness/command/defaults.h"
 #include "harness/command/errors.h"
 #include "harness/contest/contestant.h"
-#include "harness/record/json.h"
+#include "harness/records/json.h"
 #include "harness/study/families.h"
 #include "harness/study/meeting.h"
 #include "harness/study/narrow.h"

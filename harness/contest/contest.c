@@ -9,7 +9,7 @@
 #include "harness/command/message.h"
 #include "harness/contest/against_error.h"
 #include "harness/contest/contestant.h"
-#include "harness/record/json.h"
+#include "harness/records/json.h"
 #include "harness/tables/table.h"
 
 static void show(const command_request *r, const point *p, const contestant *a, const contestant *b,

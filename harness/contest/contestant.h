@@ -6,7 +6,7 @@
 #include <jansson.h>
 
 #include "harness/command/command.h"
-#include "harness/schema/schema.h"
+#include "harness/records/schema.h"
 #include "harness/study/against.h"
 
 enum { CONTESTANT_ARGUMENTS = 12 + 2 * CASE_MAX_PARAMETERS };

@@ -2,8 +2,8 @@
 
 #include "harness/extremes/extreme_record.h"
 #include "harness/formulations/environment.h"
-#include "harness/record/json.h"
-#include "harness/record/json_record.h"
+#include "harness/records/json.h"
+#include "harness/records/json_record.h"
 
 /* Beside its fields: the values of x, and the quantities that are looked at. */
 static json_t *extreme_of(const extreme *e)

@@ -3,7 +3,7 @@
 #define BEAMWORK_EXTREME_RECORD_H
 
 #include "harness/extremes/extreme_sweep.h"
-#include "harness/schema/schema.h"
+#include "harness/records/schema.h"
 
 extern const record_type record_extreme, record_outcome, record_extreme_count;
 subject extreme_record_subject(const extreme_sweep *s,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/extremes/extreme_record.h"
-#include "harness/record/csv_record.h"
+#include "harness/records/csv_record.h"
 #include "harness/study/rounding.h"
 #include "harness/tables/paragraph.h"
 

@@ -1,6 +1,6 @@
 /* A results.h5 with contents that nobody expects (even first byte), or any bytes as one. */
-#include "harness/comparison/results.h"
 #include "harness/fuzz/fuzz_alter.h"
+#include "harness/records/results.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -1,6 +1,6 @@
 /* Any bytes as the short table of a run. What is read can be written and read again. */
-#include "harness/comparison/results.h"
 #include "harness/fuzz/fuzz.h"
+#include "harness/records/results.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

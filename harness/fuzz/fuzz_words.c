@@ -1,8 +1,8 @@
 /* Any bytes as the words of the command line that have a grammar: formulation with options,
  * selection, thresholds. */
-#include "harness/comparison/comparison.h"
 #include "harness/formulations/formulation.h"
 #include "harness/fuzz/fuzz.h"
+#include "harness/records/comparison.h"
 #include "harness/study/sweep.h"
 
 static void read_formulation(const char *text)

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/comparison/table_reader.h"
 #include "harness/imports/import_cells.h"
+#include "harness/records/table_reader.h"
 #include "harness/study/checksum.h"
 
 typedef struct point_row {

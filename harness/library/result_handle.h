@@ -3,7 +3,7 @@
 #define BEAMWORK_RESULT_HANDLE_H
 
 #include "harness/library/source.h"
-#include "harness/schema/gather.h"
+#include "harness/records/gather.h"
 
 enum { RESULT_COLUMNS = 32 };
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MANUAL_RESULTS_H
 #define BEAMWORK_MANUAL_RESULTS_H
 
-#include "harness/schema/schema.h"
+#include "harness/records/schema.h"
 
 typedef struct results_record {
     const char *place; /* before the name of its table */

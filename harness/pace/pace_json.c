@@ -6,8 +6,8 @@
 #include "harness/formulations/environment.h"
 #include "harness/pace/pace_reach.h"
 #include "harness/pace/pace_record.h"
-#include "harness/record/json.h"
-#include "harness/record/json_record.h"
+#include "harness/records/json.h"
+#include "harness/records/json_record.h"
 
 static json_t *number(double value)
 {

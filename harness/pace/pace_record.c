@@ -1,6 +1,6 @@
 #include "harness/pace/pace_record.h"
 
-#include "harness/schema/fields_keys.h"
+#include "harness/records/fields_keys.h"
 
 static const char *word_of_fate(int fate)
 {

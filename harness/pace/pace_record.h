@@ -3,7 +3,7 @@
 #define BEAMWORK_PACE_RECORD_H
 
 #include "harness/pace/pace_order.h"
-#include "harness/schema/schema.h"
+#include "harness/records/schema.h"
 
 extern const record_type record_pace_run, record_pace_ladder;
 subject pace_record_subject(const pace *, const pace_run *);

@@ -6,8 +6,8 @@
 #include "harness/pace/pace_order.h"
 #include "harness/pace/pace_reach.h"
 #include "harness/pace/pace_record.h"
-#include "harness/record/csv_record.h"
-#include "harness/schema/fields_keys.h"
+#include "harness/records/csv_record.h"
+#include "harness/records/fields_keys.h"
 #include "harness/tables/paragraph.h"
 #include "harness/tables/table.h"
 

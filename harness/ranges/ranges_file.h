@@ -3,8 +3,8 @@
 #define BEAMWORK_RANGES_FILE_H
 
 #include "harness/ranges/tally.h"
-#include "harness/record/output.h"
-#include "harness/record/record.h"
+#include "harness/records/output.h"
+#include "harness/records/record.h"
 
 enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 11 };
 

@@ -3,7 +3,7 @@
 #define BEAMWORK_RANGES_IDENTITY_H
 
 #include "harness/ranges/ranges.h"
-#include "harness/record/digest.h"
+#include "harness/records/digest.h"
 
 /* Points, formulations, meshes, quantities, and how it is cut. */
 void ranges_identity_add(const ranges *r, digest *plan);

@@ -9,7 +9,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_points.h"
-#include "harness/schema/assumptions.h"
+#include "harness/records/assumptions.h"
 #include "harness/study/expense.h"
 #include "harness/study/plan.h"
 

@@ -6,7 +6,7 @@
 
 #include "cases/format/write.h"
 #include "harness/ranges/ranges_points.h"
-#include "harness/record/output_folder.h"
+#include "harness/records/output_folder.h"
 #include "harness/study/cell.h"
 
 static void write_text(FILE *to, const void *text)

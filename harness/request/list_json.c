@@ -9,8 +9,8 @@
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/parameters.h"
 #include "harness/formulations/registry.h"
-#include "harness/record/json.h"
-#include "harness/record/json_record.h"
+#include "harness/records/json.h"
+#include "harness/records/json_record.h"
 #include "harness/request/runs_on.h"
 #include "harness/study/cell.h"
 

@@ -8,9 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/comparison/comparison.h"
 #include "harness/numerics/memory.h"
-#include "harness/record/store.h"
+#include "harness/records/comparison.h"
+#include "harness/records/store.h"
 
 /* An error may be so much larger: between processors the kernels of LAPACK move errors near
  * rounding of some series by up to 1.2 %. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/record.h"
+#include "harness/records/record.h"
 #include "harness/request/restart.h"
 #include "harness/request/restart_text.h"
 #include "harness/study/checksum.h"

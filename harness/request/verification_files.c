@@ -3,9 +3,9 @@
 #include <limits.h>
 #include <stdio.h>
 
-#include "harness/record/junit.h"
-#include "harness/record/markdown.h"
-#include "harness/record/output.h"
+#include "harness/records/junit.h"
+#include "harness/records/markdown.h"
+#include "harness/records/output.h"
 #include "harness/study/proposal.h"
 
 status verification_files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)

@@ -3,8 +3,8 @@
 #ifndef BEAMWORK_VERIFICATION_FILES_H
 #define BEAMWORK_VERIFICATION_FILES_H
 
-#include "harness/record/json.h"
-#include "harness/record/store.h"
+#include "harness/records/json.h"
+#include "harness/records/store.h"
 #include "harness/study/overview.h"
 
 typedef struct verification_files {

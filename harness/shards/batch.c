@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 #include "harness/study/checksum.h"
 
 void batch_stem(const work *w, char out[BATCH_STEM])

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/record/digest.h"
+#include "harness/records/digest.h"
 #include "harness/study/sweep.h"
 
 /* 1: its cells are run here. */

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "harness/formulations/words.h"
-#include "harness/record/output.h"
+#include "harness/records/output.h"
 #include "harness/shards/forecast.h"
 #include "harness/shards/merge.h"
 #include "harness/shards/shard.h"

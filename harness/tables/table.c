@@ -7,7 +7,7 @@
 #include "harness/formulations/parameters.h"
 #include "harness/model/division_words.h"
 #include "harness/model/features.h"
-#include "harness/schema/assumptions.h"
+#include "harness/records/assumptions.h"
 #include "harness/study/cell.h"
 #include "harness/study/rounding.h"
 #include "harness/tables/paragraph.h"

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "elements/shared/choice.h"
-#include "harness/comparison/comparison.h"
 #include "harness/extremes/outcome.h"
+#include "harness/records/comparison.h"
 #include "harness/study/against.h"
 #include "harness/study/glossary.h"
 #include "harness/study/truth.h"

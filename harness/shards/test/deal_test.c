@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/record/digest.h"
+#include "harness/records/digest.h"
 #include "harness/shards/deal.h"
 
 /* The examples of FIPS 180-4. */

@@ -1,7 +1,7 @@
 /* Plans: what is said of shards is what dealing them comes to, and what was measured is used. */
 #include <gsl/gsl_test.h>
 
-#include "harness/record/test/folder.h"
+#include "harness/records/test/folder.h"
 #include "harness/shards/deal.h"
 #include "harness/shards/forecast.h"
 #include "harness/shards/test/number_work.h"

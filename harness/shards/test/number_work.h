@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "harness/numerics/clock.h"
-#include "harness/record/test/folder.h"
+#include "harness/records/test/folder.h"
 #include "harness/shards/merge.h"
 #include "harness/shards/shard.h"
 

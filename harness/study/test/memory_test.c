@@ -12,7 +12,7 @@
 #include "cases/format/scene_file.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/registry.h"
-#include "harness/record/store.h"
+#include "harness/records/store.h"
 #include "harness/study/plan.h"
 #include "harness/study/scene_truths.h"
 

@@ -1,0 +1,200 @@
+/* Records of parameter points, of series of meshes and of one mesh: size, work, times. */
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/omission.h"
+#include "elements/feature.h"
+#include "harness/model/division_words.h"
+#include "harness/model/features.h"
+#include "harness/model/on_nodes.h"
+#include "harness/model/warping_ends.h"
+#include "harness/records/fields_keys.h"
+#include "harness/study/price.h"
+
+static void get_features(const subject *s, field_value *out)
+{
+    feature_words(fields_keys_cell(s)->size.features, out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+/* Lines that no longer fit end the text. */
+static void get_left_out(const subject *s, field_value *out)
+{
+    const cell_result *cell = fields_keys_cell(s);
+    size_t used = 0;
+    out->room[0] = '\0';
+    for (int i = 0;
+         i < cell->left_out_lines && used + strlen(cell->left_out[i]) + 3 < sizeof out->room; i++)
+        used += (size_t)sprintf(out->room + used, "%s%s", i > 0 ? "; " : "", cell->left_out[i]);
+    out->text = out->room;
+}
+
+static void get_warping(const subject *s, field_value *out)
+{
+    warping_ends(&s->point->scene, out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_divided(const subject *s, field_value *out)
+{
+    out->room[0] = '\0';
+    if (s->series->imported == NULL)
+        division_words(&s->point->scene, s->series->mesh[s->mesh], out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_lumped(const subject *s, field_value *out)
+{
+    out->room[0] = '\0';
+    if (s->series->imported == NULL)
+        on_nodes(&s->point->scene, s->series->formulation.type, s->series->formulation.option,
+                 out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_strains(const subject *s, field_value *out)
+{
+    const model_size *size = &fields_keys_cell(s)->size;
+    out->whole = size->strains + size->inner;
+}
+
+/* What was run elsewhere has no counts. */
+static void get_cost(const subject *s, field_value *out)
+{
+    schema_set_number(out, s->series->imported == NULL
+                               ? price_cost(&s->series->formulation, fields_keys_cell(s))
+                               : NAN);
+}
+
+static void get_priced(const subject *s, field_value *out)
+{
+    out->whole = price_own(price_rows, &s->series->formulation);
+}
+
+static const schema_field fields_of_point[] = {
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", AT(point, text)},
+    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status),
+     .word = fields_keys_word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why it was refused", AT(point, reason)},
+    {0}};
+const record_type record_point = {"point",
+                                  "points",
+                                  "a case with the values of its parameters",
+                                  {keys_of_point, fields_of_point}};
+
+static void get_theory(const subject *s, field_value *out)
+{
+    const element_type *type = s->series->formulation.type;
+    schema_set_text(out, s->series->imported == NULL && s->point->status == STATUS_OK
+                             ? features_theory_words(type, features_theory(&s->point->scene, type))
+                             : "");
+}
+
+static void get_imported(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->imported != NULL ? s->series->imported->file : "");
+}
+
+static void get_model(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
+}
+
+/* NAN: nothing is left out, or nobody knows. */
+static void get_model_change(const subject *s, field_value *out)
+{
+    schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);
+}
+
+static void get_without(const subject *s, field_value *out)
+{
+    omission_words(&s->series->without, out->room);
+    out->text = out->room;
+}
+
+static const schema_field fields_of_series[] = {
+    {"type", "", FIELD_TEXT, "name of the formulation", TEXT_OF(FORMULATION, element_type, name)},
+    {"summary", "", FIELD_TEXT, "what it is", TEXT_OF(FORMULATION, element_type, summary)},
+    {"source", "", FIELD_TEXT, "where it is published", TEXT_OF(FORMULATION, element_type, source)},
+    {"missing", "", FIELD_TEXT,
+     "what the case cannot do without and it does not offer: it was not run", AT(series, missing)},
+    {"not_modelled", "", FIELD_TEXT, "physics of the case that it leaves out",
+     AT(series, without.words)},
+    {"model_change", "1", FIELD_DOUBLE, "bound of what that changes in any asked value",
+     .get = get_model_change},
+    {"other_model", "", FIELD_FLAG, "that is more than 1e-4, or not known: it is not judged",
+     AT(series, without.other)},
+    {"model_words", "", FIELD_TEXT, "the three in words", .get = get_without},
+    {"imported", "", FIELD_TEXT, "file of another program that it was read from; empty: run here",
+     .get = get_imported},
+    {"model", "", FIELD_TEXT, "beam, or another one that the other program has", .get = get_model},
+    {"shear_theory", "", FIELD_TEXT, "in stability, which it follows here; empty: nothing shears",
+     .get = get_theory},
+    {0}};
+const record_type record_series = {"series",
+                                   "series",
+                                   "a formulation on the meshes of a point",
+                                   {keys_of_point, keys_of_series, fields_of_series}};
+
+#define CELL(member) AT(cell_result, member)
+static const schema_field fields_of_cell[] = {
+    {"status", "", FIELD_ENUM, "ok, or how it failed", CELL(solve.status),
+     .word = fields_keys_word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why it failed", CELL(solve.reason)},
+    {"elements_total", "1", FIELD_INT, "elements of the whole structure", CELL(size.elements)},
+    {"element_kinds", "1", FIELD_INT, "of them that differ: each is prepared once",
+     CELL(size.kinds)},
+    {"free", "1", FIELD_INT, "unknown coordinates", CELL(size.free)},
+    {"driven", "1", FIELD_INT, "prescribed coordinates", CELL(size.driven)},
+    {"strains", "1", FIELD_INT, "strains of an element, its inner unknowns too",
+     .get = get_strains},
+    {"features", "", FIELD_TEXT, "physics that the model has", .get = get_features},
+    {"omitted", "", FIELD_TEXT, "physics that the scene would call for and leaves out",
+     .get = fields_keys_omitted},
+    {"assumed", "", FIELD_TEXT, "of its sections: see the table 'assumptions'",
+     .get = fields_keys_assumed},
+    {"left_out", "", FIELD_TEXT, "coordinates that were left out, and why", .get = get_left_out},
+    {"warping", "", FIELD_TEXT, "which ends of members hold it, share it, leave it free",
+     .get = get_warping},
+    {"divided", "", FIELD_TEXT, "members that have more elements than was asked for, and why",
+     .get = get_divided},
+    {"lumped", "", FIELD_TEXT,
+     "what of loads and mass is put on nodes by convention, with its order", .get = get_lumped},
+    {"cost", "s", FIELD_DOUBLE, "counted work at the prices of the reference machine",
+     .get = get_cost},
+    {"priced", "", FIELD_FLAG, "its formulation has prices of its own, not those of any",
+     .get = get_priced},
+    {"seconds_setup", "s", FIELD_DOUBLE, "of the processor, in one run: set-up",
+     CELL(solve.seconds_setup)},
+    {"seconds_solve", "s", FIELD_DOUBLE, "of the processor, in one run: the rest",
+     CELL(solve.seconds_solve)},
+    {0}};
+
+/* A new counter is one line here. */
+#define WORK(counter) AT(cell_result, counters.counter)
+static const schema_field fields_of_work[] = {
+    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements",
+     WORK(strain_evaluations)},
+    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements",
+     WORK(stress_evaluations)},
+    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements",
+     WORK(inertia_evaluations)},
+    {"geometric_evaluations", "1", FIELD_LONG, "stiffnesses of a prestress of elements",
+     WORK(geometric_evaluations)},
+    {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", WORK(iterations)},
+    {"load_steps", "1", FIELD_LONG, "load steps that were kept", WORK(steps)},
+    {"rejected_steps", "1", FIELD_LONG, "load steps that were tried in vain", WORK(rejected_steps)},
+    {"factorisations", "1", FIELD_LONG, "factorisations of matrices", WORK(factorisations)},
+    {"solutions", "1", FIELD_LONG, "right-hand sides solved for", WORK(solutions)},
+    {"factor_entries", "1", FIELD_LONG, "entries of the last factor", WORK(factor_entries)},
+    {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", WORK(factor_flops)},
+    {"dense_operations", "1", FIELD_DOUBLE, "n^3 of the eigenvalue problems solved densely",
+     WORK(dense_operations)},
+    {"negative_pivots", "1", FIELD_LONG, "most of a symmetric tangent at a state that was reached",
+     WORK(negative_pivots)},
+    {0}};
+const record_type record_cell = {
+    "cell",
+    "cells",
+    "a formulation on one mesh: size, work, times",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_cell, fields_of_work}};

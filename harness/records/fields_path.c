@@ -1,0 +1,284 @@
+/* Records of what a cell found and of the way there. */
+#include <math.h>
+#include <stdio.h>
+
+#include "cases/scene/names.h"
+#include "harness/records/fields_keys.h"
+
+static void get_moments(const subject *s, field_value *out)
+{
+    schema_set_text(out, scene_convention(&s->point->scene, fields_keys_quantity(s)));
+}
+
+static double error_of(const subject *s, double value, const truth *against)
+{
+    return against != NULL ? verdict_error(fields_keys_quantity(s), value, against->value) : NAN;
+}
+
+static void get_error(const subject *s, field_value *out)
+{
+    schema_set_number(out, error_of(s, ((const quantity_result *)s->record)->value, s->truth));
+}
+
+static void get_model_error(const subject *s, field_value *out)
+{
+    schema_set_number(out,
+                      error_of(s, ((const quantity_result *)s->record)->value, s->model_truth));
+}
+
+static void get_not_modelled(const subject *s, field_value *out)
+{
+    schema_set_text(out, s->series->without.other ? s->series->without.words : "");
+}
+
+static double predicted(const subject *s)
+{
+    return fields_keys_quantity(s)->prediction.source != NULL
+               ? fields_keys_quantity(s)->prediction.value
+               : NAN;
+}
+
+static void get_prediction(const subject *s, field_value *out)
+{
+    schema_set_number(out, predicted(s));
+}
+
+static void get_prediction_error(const subject *s, field_value *out)
+{
+    schema_set_number(out, isfinite(predicted(s)) ? error_of(s, predicted(s), s->truth) : NAN);
+}
+
+#define VALUE(member) AT(quantity_result, member)
+static const schema_field fields_of_quantity[] = {
+    {"moments", "", FIELD_TEXT, "what a moment does while its node turns", .get = get_moments},
+    {"status", "", FIELD_ENUM, "ok: there is a value", VALUE(status),
+     .word = fields_keys_word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why there is none", VALUE(reason)},
+    {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
+    {"meaning", "", FIELD_TEXT,
+     "of a frequency, whether with the members' damping; of a critical load of loads without a "
+     "potential, how stability is lost",
+     VALUE(meaning)},
+    {"not_modelled", "", FIELD_TEXT, "physics that the formulation leaves out where that matters",
+     .get = get_not_modelled},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "of the same continuum model", OF(TRUTH, truth, value)},
+    {"error", "1", FIELD_DOUBLE, "(value - truth)/|truth|, by near_zero where that is larger",
+     .get = get_error},
+    {"model_error", "1", FIELD_DOUBLE, "the same against the truth of another model",
+     .get = get_model_error},
+    {"x", "x_unit", FIELD_DOUBLE, "where a maximum or minimum was found", VALUE(x)},
+    {"x_name", "", FIELD_TEXT, "what it is, of a curve", OF(QUANTITY, scene_quantity, x.name)},
+    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
+    {"rounding", "1", FIELD_DOUBLE,
+     "estimate of its round-off, or of what reading a motion between its steps adds, by the value; "
+     "0: none was made",
+     VALUE(rounding)},
+    {"change", "1", FIELD_DOUBLE,
+     "of a mesh that solve chose: change from the mesh before it, by the value; of a curve, by its "
+     "largest",
+     VALUE(change)},
+    {"near_zero", OWN_UNIT, FIELD_DOUBLE, "values below it count as zero",
+     OF(QUANTITY, scene_quantity, near_zero)},
+    {"prediction", OWN_UNIT, FIELD_DOUBLE, "of an analytic model, not judged",
+     .get = get_prediction},
+    {"prediction_error", "1", FIELD_DOUBLE, "of the prediction against the truth",
+     .get = get_prediction_error},
+    {"predicted_by", "", FIELD_TEXT, "source of the prediction",
+     TEXT_OF(QUANTITY, scene_quantity, prediction.source)},
+    {0}};
+const record_type record_quantity = {
+    "quantity",
+    "quantities",
+    "a value that a cell was asked for",
+    {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
+
+static const schema_field fields_of_truth[] = {
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "its value", OF(TRUTH, truth, value)},
+    {"truth_uncertainty", OWN_UNIT, FIELD_DOUBLE, "of it", OF(TRUTH, truth, uncertainty)},
+    {"truth_kind", "", FIELD_TEXT, "exact, independent, ...", TEXT_OF(TRUTH, truth, kind)},
+    {"model", "", FIELD_TEXT, "same: the continuum of the case; other: another",
+     TEXT_OF(TRUTH, truth, model)},
+    {"source", "", FIELD_TEXT, "of the truth", TEXT_OF(TRUTH, truth, source)},
+    {"error", "1", FIELD_DOUBLE, "of the value against it", .get = get_error},
+    {0}};
+const record_type record_truth = {
+    "truth", "truths", "what is known of a quantity", {fields_of_truth}};
+
+static const schema_field fields_of_curve[] = {
+    {"x_name", "", FIELD_TEXT, "name of the abscissa", OF(QUANTITY, scene_quantity, x.name)},
+    {"x_unit", "", FIELD_TEXT, "its unit", OF(QUANTITY, scene_quantity, x.unit)},
+    {"first", "1", FIELD_INT, "where its points begin in the arrays curve_x and curve_value",
+     OF(SUBJECT, subject, group)},
+    {"points", "1", FIELD_INT, "how many there are", VALUE(curve.points)},
+    {0}};
+const record_type record_curve = {
+    "curve",
+    "curves",
+    "a quantity along a path; its points stand in arrays",
+    {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
+
+static void get_analysis(const subject *s, int analysis, field_value *out)
+{
+    schema_set_text(out, scene_own_name(&s->point->scene, SCENE_ANALYSES, analysis));
+}
+
+static void get_analysis_of_step(const subject *s, field_value *out)
+{
+    get_analysis(s, ((const step_record *)s->record)->analysis, out);
+}
+
+#define STEP(member) AT(step_record, member)
+static void get_stability(const subject *s, field_value *out)
+{
+    const step_record *step = s->record;
+    if (step->stability == STEP_UNSTABLE)
+        snprintf(out->room, sizeof out->room, "unstable (%d)",
+                 step->by_eigenvalues ? step->passed : step->negative_pivots);
+    else
+        snprintf(out->room, sizeof out->room, "%s", result_stability_name(step->stability));
+    out->text = out->room;
+}
+
+static const schema_field fields_of_step[] = {
+    {"step", "1", FIELD_INT, "its number, from 0", OF(SUBJECT, subject, index)},
+    {"path", "1", FIELD_DOUBLE, "path parameter that was reached", STEP(path)},
+    {"increment", "1", FIELD_DOUBLE, "of the path parameter", STEP(increment)},
+    {"iterations", "1", FIELD_INT, "until the criterion was met", STEP(iterations)},
+    {"rejected", "1", FIELD_INT, "tries of longer steps before it", STEP(rejected)},
+    {"analysis", "1", FIELD_INT, "of the scene", STEP(analysis)},
+    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_step},
+    {"negative_pivots", "1", FIELD_INT, "of the tangent; -1: not symmetric", STEP(negative_pivots)},
+    {"stability", "", FIELD_TEXT,
+     "of the state where it ended: stable, unstable (negative pivots); where the tangent is not "
+     "symmetric unstable "
+     "(eigenvalues that have passed zero), no divergence (without mass), undecided; "
+     "in axes that turn: stable, unstable: grows, stable without damping, undecided",
+     .get = get_stability},
+    {"residual", "1", FIELD_DOUBLE, "before its last iteration, by the first", STEP(residual)},
+    {"correction", "1", FIELD_DOUBLE, "of its last iteration", STEP(correction)},
+    {"remaining", "1", FIELD_DOUBLE, "what another one would change, predicted", STEP(remaining)},
+    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it", STEP(incompatibility)},
+    {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", STEP(energy)},
+    {0}};
+const record_type record_step = {"step",
+                                 "steps",
+                                 "a load step that was kept",
+                                 {keys_of_point, keys_of_series, key_of_mesh, fields_of_step}};
+
+#define ITERATION(member) AT(iteration_record, member)
+static const schema_field fields_of_iteration[] = {
+    {"step", "1", FIELD_INT, "that it belongs to", OF(SUBJECT, subject, group)},
+    {"iteration", "1", FIELD_INT, "its number in the step, from 0", OF(SUBJECT, subject, index)},
+    {"residual", "1", FIELD_DOUBLE, "sqrt(r . K^-1 r) before it, by the first",
+     ITERATION(residual)},
+    {"correction", "1", FIELD_DOUBLE, "what it changed", ITERATION(correction)},
+    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before it",
+     ITERATION(incompatibility)},
+    {0}};
+const record_type record_iteration = {
+    "iteration",
+    "iterations",
+    "an iteration of a load step",
+    {keys_of_point, keys_of_series, key_of_mesh, fields_of_iteration}};
+
+static const char *word_of_event(int kind)
+{
+    return result_event_name((event_kind)kind);
+}
+
+#define EVENT(member) AT(path_event, member)
+static void get_analysis_of_event(const subject *s, field_value *out)
+{
+    get_analysis(s, ((const path_event *)s->record)->analysis, out);
+}
+
+static void get_analysis_of_motion(const subject *s, field_value *out)
+{
+    get_analysis(s, ((const motion_record *)s->record)->analysis, out);
+}
+
+static void get_node(const subject *s, field_value *out)
+{
+    const int node = ((const nodal_matrices *)s->record)->node;
+    schema_set_text(out, scene_own_name(&s->point->scene, SCENE_NODES, node));
+}
+
+static const schema_field fields_of_event[] = {
+    {"event", "", FIELD_ENUM, "what happened", EVENT(kind), .word = word_of_event,
+     .words = EVENT_KINDS},
+    {"analysis", "1", FIELD_INT, "of the scene", EVENT(analysis)},
+    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_event},
+    {"negative_before", "1", FIELD_INT, "negative pivots; -1: not symmetric",
+     EVENT(negative_before)},
+    {"negative_after", "1", FIELD_INT, "the same behind it", EVENT(negative_after)},
+    {"factor", "1", FIELD_DOUBLE, "of the loads", EVENT(factor)},
+    {"control", "m", FIELD_DOUBLE, "coordinate that the path is controlled by", EVENT(control)},
+    {"other_factor", "1", FIELD_DOUBLE, "of a jump: on the other branch", EVENT(other_factor)},
+    {"measure", "1", FIELD_DOUBLE,
+     "work of the loads on the null vector; of a jump: distance of the branches", EVENT(measure)},
+    {0}};
+const record_type record_event = {"event",
+                                  "events",
+                                  "what a continued path met",
+                                  {keys_of_point, keys_of_series, key_of_mesh, fields_of_event}};
+
+#define MOTION(member) AT(motion_record, at.member)
+#define BALANCE(of)    AT(motion_record, at.balance[of])
+static const schema_field fields_of_motion[] = {
+    {"analysis", "1", FIELD_INT, "of the scene", AT(motion_record, analysis)},
+    {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_motion},
+    {"time", "s", FIELD_DOUBLE, "where the step ended; the first record: the begin", MOTION(time)},
+    {"step", "s", FIELD_DOUBLE, "its length; of the begin 0", MOTION(step)},
+    {"iterations", "1", FIELD_INT, "of Newton's method", MOTION(iterations)},
+    {"rejected", "1", FIELD_INT, "longer steps that were tried before it", MOTION(rejected)},
+    {"error", "1", FIELD_DOUBLE,
+     "estimate of what it adds to places, by the size; 0: none was made", MOTION(error)},
+    {"kinetic", "J", FIELD_DOUBLE, "energy of motion", BALANCE(SCENE_KINETIC)},
+    {"strain", "J", FIELD_DOUBLE, "energy stored in members and springs", BALANCE(SCENE_STRAIN)},
+    {"work", "J", FIELD_DOUBLE, "of loads and of what is driven, since the begin",
+     BALANCE(SCENE_WORK)},
+    {"dissipated", "J", FIELD_DOUBLE, "by damping, since the begin", BALANCE(SCENE_DISSIPATED)},
+    {"drift", "J", FIELD_DOUBLE, "both energies and what was dissipated, less work and the begin",
+     BALANCE(SCENE_DRIFT)},
+    {"px", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PX)},
+    {"py", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PY)},
+    {"pz", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PZ)},
+    {"lx", "kg m^2/s", FIELD_DOUBLE, "angular momentum about the origin", BALANCE(SCENE_LX)},
+    {"ly", "kg m^2/s", FIELD_DOUBLE, "the same about y", BALANCE(SCENE_LY)},
+    {"lz", "kg m^2/s", FIELD_DOUBLE, "the same about z", BALANCE(SCENE_LZ)},
+    {0}};
+const record_type record_motion = {"motion",
+                                   "motion",
+                                   "a motion in time at its begin and where its steps ended",
+                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_motion}};
+
+static void get_path(const subject *s, field_value *out)
+{
+    out->numbers = ((const nodal_matrices *)s->record)->path + s->index;
+}
+
+static void get_compliance(const subject *s, field_value *out)
+{
+    out->numbers = ((const nodal_matrices *)s->record)->compliance + 36 * (size_t)s->index;
+}
+
+static void get_stiffness(const subject *s, field_value *out)
+{
+    out->numbers = ((const nodal_matrices *)s->record)->stiffness + 36 * (size_t)s->index;
+}
+
+static const schema_field fields_of_matrix[] = {
+    {"node", "1", FIELD_INT, "of the scene", AT(nodal_matrices, node)},
+    {"node_name", "", FIELD_TEXT, "as the scene calls it", .get = get_node},
+    {"moments", "", FIELD_ENUM, "what a moment does while its node turns",
+     AT(nodal_matrices, moments), .word = fields_keys_word_of_moments,
+     .words = SCENE_MOMENTS_SYMMETRISED + 1},
+    {"path", "1", FIELD_DOUBLE, "path parameter of the state", .get = get_path},
+    {"compliance", "SI", FIELD_DOUBLE, "ux uy uz thx thy thz by Fx Fy Fz Mx My Mz",
+     .get = get_compliance, .count = 36},
+    {"stiffness", "SI", FIELD_DOUBLE, "its inverse", .get = get_stiffness, .count = 36},
+    {0}};
+const record_type record_matrix = {"matrix",
+                                   "matrices",
+                                   "small motions of a node at a station of a path",
+                                   {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};

@@ -1,0 +1,281 @@
+#include "harness/records/json.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/scene/omission.h"
+#include "harness/model/features.h"
+#include "harness/records/gather.h"
+#include "harness/records/json_record.h"
+#include "harness/study/noise.h"
+#include "harness/study/truth.h"
+
+enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
+static const char unwritten[] = "the JSON could not be written (full disk or out of memory)";
+
+static json_t *values_of(const assignment_list *l, const double value[])
+{
+    json_t *all = json_object();
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(l->part, i)) != NULL; i++) {
+        char text[ASSIGNMENT_VALUE];
+        assignment_value_text(p, value[i], text, sizeof text);
+        json_object_set_new(all, p->name,
+                            p->choices != NULL ? json_string(text) : json_real(value[i]));
+    }
+    return all;
+}
+
+/* All truths of the continuum that hold here, with the error against each. */
+static json_t *truths_of(const subject *s, const truths *t)
+{
+    const point *p = s->point;
+    subject one = *s;
+    json_t *list = json_array();
+    if (t != NULL)
+        for (int i = 0; i < t->rows; i++) {
+            const truth *row = &t->row[i];
+            if (row->formulation[0] != '\0' || row->on_curve ||
+                strcmp(row->quantity, p->scene.quantity[s->index].name) != 0 ||
+                !truth_holds(row, p->type, p->parameter))
+                continue;
+            one.truth = row;
+            json_record_add(list, &record_truth, &one, 0);
+        }
+    return list;
+}
+
+/* Records of one kind of the first cell, as a list named as their table. */
+static void add_list(json_t *root, const gathering *g, const record_type *type)
+{
+    subjects list = {0};
+    json_t *all = json_array();
+    gather_mesh(g, type, 0, 0, &list);
+    for (int i = 0; i < list.count; i++)
+        json_record_add(all, type, &list.row[i], 0);
+    json_object_set_new(root, type->table, all);
+    gather_free(&list);
+}
+
+static void add_quantities(json_t *root, const gathering *g)
+{
+    subjects list = {0};
+    json_t *all = json_array();
+    gather_mesh(g, &record_quantity, 0, 0, &list);
+    for (int i = 0; i < list.count; i++) {
+        const subject *s = &list.row[i];
+        json_t *one = json_record(&record_quantity, s, 0);
+        json_object_set_new(one, "truths", truths_of(s, g->truths));
+        json_array_append_new(all, one);
+    }
+    json_object_set_new(root, record_quantity.table, all);
+    gather_free(&list);
+}
+
+/* As in HDF5 the points stand in arrays; here each curve has its own. */
+static void add_curves(json_t *root, const gathering *g)
+{
+    subjects list = {0};
+    json_t *all = json_array();
+    gather_mesh(g, &record_curve, 0, 0, &list);
+    for (int i = 0; i < list.count; i++) {
+        subject s = list.row[i];
+        const curve *c = &((const quantity_result *)s.record)->curve;
+        s.group = 0;
+        json_t *one = json_record(&record_curve, &s, 0);
+        json_object_set_new(one, "curve_x", json_record_numbers(c->points, c->x));
+        json_object_set_new(one, "curve_value", json_record_numbers(c->points, c->value));
+        json_array_append_new(all, one);
+    }
+    json_object_set_new(root, record_curve.table, all);
+    gather_free(&list);
+}
+
+status json_finish(json_t *root, FILE *to, fault *f)
+{
+    const int bad = root == NULL || json_dumpf(root, to, DUMP) != 0 || fputc('\n', to) == EOF;
+    json_decref(root);
+    return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
+}
+
+void json_add_physics(json_t *root, const point *p)
+{
+    json_t *omitted = json_array(), *assumptions = json_array();
+    const unsigned features = p->status == STATUS_OK ? features_omitted(&p->scene) : 0;
+    subjects list = {0};
+    for (const scene_omission *o = scene_omissions; o->word != NULL; o++)
+        if (features & o->feature)
+            json_array_append_new(omitted, json_string(o->word));
+    gather_assumptions(p, &list);
+    for (int i = 0; i < list.count; i++)
+        json_record_add(assumptions, &record_assumption, &list.row[i], 0);
+    gather_free(&list);
+    json_object_set_new(root, "omitted", omitted);
+    json_object_set_new(root, record_assumption.table, assumptions);
+}
+
+status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f)
+{
+    static const record_type *const lists[] = {&record_event, &record_motion, &record_step,
+                                               &record_iteration, &record_matrix};
+    const gathering g = {s, NULL, t};
+    const subject cell = gather_cell(&g, 0, 0);
+    json_t *root = json_pack("{s:i,s:s,s:s,s:i}", "schema_version", SCHEMA_VERSION, "case",
+                             cell.point->type->name, "formulation", cell.series->formulation.key,
+                             "elements", cell.series->mesh[0]);
+    const formulation *chosen = &cell.series->formulation;
+    const assignment_list options = formulation_options(chosen->type),
+                          parameters = parameters_list(cell.point->type);
+    json_object_set_new(root, "options", values_of(&options, chosen->option));
+    json_object_set_new(root, "parameters", values_of(&parameters, cell.point->parameter));
+    json_add_physics(root, cell.point);
+    json_object_set_new(root, "shear_theory",
+                        json_string(features_theory_words(
+                            chosen->type, features_theory(&cell.point->scene, chosen->type))));
+    json_object_set_new(root, record_cell.name, json_record(&record_cell, &cell, 0));
+    add_quantities(root, &g);
+    add_curves(root, &g);
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
+        add_list(root, &g, lists[i]);
+    return json_finish(root, to, f);
+}
+
+/* What stands before and behind the verdicts where they are alone, as they stand among the rest. */
+static const char alone_before[] = "{\n \"verdicts\": [", alone_behind[] = "\n ]\n}",
+                  none[] = "\n \"verdicts\": []";
+
+void json_part_begin(json_part *part)
+{
+    *part = (json_part){.verdicts = 0};
+    part->to = open_memstream(&part->text, &part->size);
+}
+
+void json_part_add(json_part *part, const sweep *s, const judgement *j)
+{
+    const gathering g = {s, j, NULL};
+    json_t *list = json_array(), *alone = json_pack("{s:o}", record_verdict.table, list);
+    if (part->to == NULL || part->verdicts == j->verdicts) {
+        json_decref(alone);
+        return;
+    }
+    if (part->verdicts > 0)
+        fputc(',', part->to);
+    for (; part->verdicts < j->verdicts; part->verdicts++) {
+        const subject one = gather_verdict(&g, &j->verdict[part->verdicts]);
+        json_record_add(list, &record_verdict, &one, KEY_AROUND);
+    }
+    char *text = json_dumps(alone, DUMP);
+    const size_t around = strlen(alone_before) + strlen(alone_behind);
+    if (text == NULL || strlen(text) < around) {
+        fclose(part->to);
+        part->to = NULL;
+    } else
+        fwrite(text + strlen(alone_before), 1, strlen(text) - around, part->to);
+    free(text);
+    json_decref(alone);
+}
+
+void json_part_free(json_part *part)
+{
+    if (part->to != NULL)
+        fclose(part->to);
+    free(part->text);
+    *part = (json_part){.verdicts = 0};
+}
+
+/* Of all points. */
+static json_t *assumptions_of(const sweep *s)
+{
+    json_t *all = json_array();
+    subjects list = {0};
+    for (int i = 0; i < s->points; i++)
+        gather_assumptions(&s->point[i], &list);
+    for (int i = 0; i < list.count; i++)
+        json_record_add(all, &record_assumption, &list.row[i], KEY_AROUND);
+    gather_free(&list);
+    return all;
+}
+
+static json_t *breaches_of(const judgement *j)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < j->breaches; i++)
+        json_array_append_new(all, json_pack("{s:s, s:s}", "formulation", j->breach[i].formulation,
+                                             "reason", j->breach[i].why));
+    return all;
+}
+
+static json_t *regressions_of(const judgement *j)
+{
+    json_t *all = json_array();
+    for (int i = 0; i < j->regressions; i++)
+        json_array_append_new(all, json_pack("{s:s, s:s}", "of", j->regression[i].of, "reason",
+                                             j->regression[i].why));
+    return all;
+}
+
+/* All but the verdicts. */
+static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
+{
+    const gathering g = {s, j, NULL};
+    json_t *agreements = json_array(), *coverages = json_array(), *counts = json_object();
+    for (int i = 0; i < j->agreements; i++) {
+        const subject one = gather_agreement(&g, &j->agreement[i]);
+        json_record_add(agreements, &record_agreement, &one, KEY_AROUND);
+    }
+    for (int i = 0; i < j->coverages; i++)
+        for (int k = 0; k < COVERAGE_MESHES; k++) {
+            const subject one = gather_coverage(&g, &j->coverage[i], k);
+            json_record_add(coverages, &record_coverage, &one, KEY_AROUND);
+        }
+    for (int k = 0; k < VERDICT_KINDS; k++)
+        json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));
+    json_t *root =
+        json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version",
+                  SCHEMA_VERSION, "program_version", e->version, "commit", e->commit, "compiler",
+                  e->compiler, "clock", e->clock, "cells", sweep_cells(s), "noise_cells",
+                  noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
+                  j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
+    json_object_set_new(root, "outcome", json_string(judgement_outcome(j)));
+    json_object_set_new(root, "broken_contracts", breaches_of(j));
+    json_object_set_new(root, "regressions", regressions_of(j));
+    json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
+    json_object_set_new(root, "contradictory_cells", json_integer(j->flaws));
+    json_object_set_new(root, "counts", counts);
+    json_object_set_new(root, record_verdict.table, json_array());
+    json_object_set_new(root, record_agreement.table, agreements);
+    json_object_set_new(root, record_coverage.table, coverages);
+    json_object_set_new(root, record_assumption.table, assumptions_of(s));
+    return root;
+}
+
+/* With the verdicts in their place. 0: written. */
+static int write_around(FILE *to, const char *around, const json_part *part)
+{
+    const char *place = strstr(around, none);
+    if (place == NULL || part->to == NULL || fflush(part->to) != 0)
+        return -1;
+    const char *behind = place + strlen(none);
+    fwrite(around, 1, (size_t)(behind - around) - 1, to);
+    fwrite(part->text, 1, part->size, to);
+    fprintf(to, "%s]%s\n", part->verdicts > 0 ? "\n " : "", behind);
+    return ferror(to);
+}
+
+status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
+                           json_part *part, fault *f)
+{
+    json_part whole = {.verdicts = 0};
+    json_t *root = around_verdicts(s, j, e);
+    char *around = json_dumps(root, DUMP);
+    if (part == NULL)
+        json_part_begin(&whole);
+    json_part_add(part != NULL ? part : &whole, s, j);
+    const int bad = around == NULL || write_around(to, around, part != NULL ? part : &whole) != 0;
+    json_part_free(&whole);
+    json_decref(root);
+    free(around);
+    return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
+}

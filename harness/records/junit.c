@@ -1,0 +1,183 @@
+#include "harness/records/junit.h"
+
+#include <math.h>
+
+#include "cases/scene/omission.h"
+#include "harness/model/features.h"
+#include "harness/records/assumptions.h"
+#include "harness/study/sentence.h"
+
+static void escaped(FILE *to, const char *text)
+{
+    for (; *text != '\0'; text++)
+        switch (*text) {
+        case '<':
+            fputs("&lt;", to);
+            break;
+        case '>':
+            fputs("&gt;", to);
+            break;
+        case '&':
+            fputs("&amp;", to);
+            break;
+        case '"':
+            fputs("&quot;", to);
+            break;
+        default:
+            fputc(*text, to);
+        }
+}
+
+static void property(FILE *to, const char *name, double value)
+{
+    if (isfinite(value))
+        fprintf(to, "   <property name=\"%s\" value=\"%.17g\"/>\n", name, value);
+}
+
+static void property_omitted(FILE *to, const point *p)
+{
+    char words[SCENE_OMISSION_WORDS] = "";
+    if (p->status == STATUS_OK)
+        scene_omission_words(features_omitted(&p->scene), words);
+    if (words[0] != '\0')
+        fprintf(to, "   <property name=\"omitted\" value=\"%s\"/>\n", words);
+    assumption a;
+    for (int i = 0; assumptions_at(p, i, &a); i++) {
+        fputs("   <property name=\"", to);
+        escaped(to, assumptions_kind(a.kind));
+        fputs("\" value=\"", to);
+        escaped(to, a.text);
+        fputs("\"/>\n", to);
+    }
+}
+
+static double seconds_of(const series *one)
+{
+    double seconds = 0;
+    for (int i = 0; i < one->meshes; i++)
+        seconds += one->cell[i].solve.seconds_setup + one->cell[i].solve.seconds_solve;
+    return seconds;
+}
+
+static void open_test(FILE *to, const point *p)
+{
+    fprintf(to, "  <testcase classname=\"%s.", p->type->name);
+    escaped(to, p->text[0] != '\0' ? p->text : "default");
+}
+
+/* A skip that was not expected is a failure. */
+static int is_skipped(const verdict *v)
+{
+    return (v->kind == VERDICT_SKIP || v->kind == VERDICT_OTHER_MODEL) && v->matches;
+}
+
+static void write_verdict(FILE *to, const sweep *s, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    open_test(to, p);
+    fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key,
+            p->scene.quantity[v->quantity].name, seconds_of(one));
+    property(to, "value", v->finest);
+    property(to, "limit", v->fit.limit);
+    property(to, "order", v->fit.order);
+    property(to, "truth", v->truth != NULL ? v->truth->value : NAN);
+    property(to, "error", v->error);
+    property(to, "model_error", v->model_error);
+    property(to, "tolerance", v->tolerance);
+    property_omitted(to, p);
+    fprintf(to, "   </properties>\n");
+    if (is_skipped(v)) {
+        fprintf(to, "   <skipped message=\"");
+        escaped(to, v->reason);
+        fprintf(to, "\"/>\n");
+    } else if (!v->matches) {
+        char sentence[2 * FAULT_TEXT];
+        sentence_of_verdict(v, p->scene.quantity[v->quantity].least_order, sentence,
+                            sizeof sentence);
+        fprintf(to, "   <failure message=\"");
+        escaped(to, sentence);
+        fprintf(to, "; expected %s\"/>\n",
+                v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+    }
+    fprintf(to, "  </testcase>\n");
+}
+
+static void write_agreement(FILE *to, const sweep *s, const agreement *a)
+{
+    const series *one = &s->series[a->series];
+    const point *p = &s->point[one->point];
+    open_test(to, p);
+    fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh],
+            p->scene.quantity[a->quantity].name);
+    if (!a->good)
+        fprintf(to, "   <failure message=\"%.17g differs from the stored %.17g\"/>\n", a->value,
+                a->truth->value);
+    fprintf(to, "  </testcase>\n");
+}
+
+typedef struct junit_counts {
+    int tests, failures, skipped;
+} junit_counts;
+
+/* Of what will be written, by the same rules. */
+static junit_counts count_all(const sweep *s, const judgement *j)
+{
+    const int nothing = judgement_exit(j) == JUDGED_NOTHING;
+    junit_counts c = {.tests = j->verdicts + j->agreements + j->breaches + j->regressions + 3 +
+                               nothing + (s->unfinished > 0),
+                      .failures = j->breaches + j->regressions + nothing + (j->unobserved > 0) +
+                                  (j->unmet > 0) + (j->flaws > 0) + (s->unfinished > 0)};
+    for (int i = 0; i < j->verdicts; i++) {
+        c.skipped += is_skipped(&j->verdict[i]);
+        c.failures += !j->verdict[i].matches;
+    }
+    for (int i = 0; i < j->agreements; i++)
+        c.failures += !j->agreement[i].good;
+    return c;
+}
+
+static void write_ledger(FILE *to, const char *name, int failures, const char *what)
+{
+    fprintf(to, "  <testcase classname=\"ledger\" name=\"%s\">\n", name);
+    if (failures > 0)
+        fprintf(to, "   <failure message=\"%d %s\"/>\n", failures, what);
+    fprintf(to, "  </testcase>\n");
+}
+
+static void write_failed(FILE *to, const char *class, const char *name, const char *why)
+{
+    fprintf(to, "  <testcase classname=\"%s\" name=\"", class);
+    escaped(to, name);
+    fputs("\">\n   <failure message=\"", to);
+    escaped(to, why);
+    fprintf(to, "\"/>\n  </testcase>\n");
+}
+
+void junit_write(FILE *to, const sweep *s, const judgement *j)
+{
+    const junit_counts c = count_all(s, j);
+    fprintf(to,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n <testsuite "
+            "name=\"beamwork\" tests=\"%d\" failures=\"%d\" "
+            "skipped=\"%d\">\n",
+            c.tests, c.failures, c.skipped);
+    for (int i = 0; i < j->verdicts; i++)
+        write_verdict(to, s, &j->verdict[i]);
+    for (int i = 0; i < j->agreements; i++)
+        write_agreement(to, s, &j->agreement[i]);
+    for (int i = 0; i < j->breaches; i++)
+        write_failed(to, "contract", j->breach[i].formulation, j->breach[i].why);
+    for (int i = 0; i < j->regressions; i++)
+        write_failed(to, "not-worse-than", j->regression[i].of, j->regression[i].why);
+    write_ledger(to, "findings", j->unobserved, "findings were not observed");
+    write_ledger(to, "truths", j->unmet, "truths speak of nothing that exists");
+    write_ledger(to, "cells", j->flaws, "cells contradict themselves");
+    if (judgement_exit(j) == JUDGED_NOTHING)
+        write_ledger(to, "run", 1, "run judged nothing: no verdict against a reference value");
+    if (s->unfinished > 0)
+        write_ledger(to, "run", s->unfinished,
+                     s->partial ? "cells were not done: batches are missing"
+                                : "cells were not done: the run was interrupted");
+    fprintf(to, " </testsuite>\n</testsuites>\n");
+}

@@ -1,0 +1,265 @@
+#include "harness/records/markdown.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cases/scene/omission.h"
+#include "harness/model/features.h"
+#include "harness/records/assumptions.h"
+#include "harness/study/sentence.h"
+
+enum { MOST_ROWS = 50 }; /* a comment is read, not searched: the JSON has the rest */
+
+/* A cell of a table: bars and line ends would break it. */
+static void cell(FILE *to, const char *text)
+{
+    for (; *text != '\0'; text++)
+        if (*text == '|')
+            fputs("\\|", to);
+        else
+            fputc(*text == '\n' ? ' ' : *text, to);
+}
+
+static void number(FILE *to, double value)
+{
+    if (isfinite(value))
+        fprintf(to, " | %.6g", value);
+    else
+        fprintf(to, " | -");
+}
+
+static void write_verdict(FILE *to, const sweep *s, const verdict *v)
+{
+    const series *one = &s->series[v->series];
+    const point *p = &s->point[one->point];
+    fprintf(to, "| %s | ", p->type->name);
+    cell(to, p->text);
+    fprintf(to, " | `%s` | %s | **%s** | %s", one->formulation.key,
+            p->scene.quantity[v->quantity].name, verdict_name(v->kind),
+            v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+    number(to, v->fit.limit);
+    number(to, v->truth != NULL ? v->truth->value : NAN);
+    if (isfinite(v->error))
+        fprintf(to, " | %+.3g %% | ", 100 * v->error);
+    else
+        fprintf(to, " | - | ");
+    cell(to, v->reason);
+    fprintf(to, " |\n");
+}
+
+static void write_regressions(FILE *to, const judgement *j)
+{
+    if (j->regressions == 0)
+        return;
+    fprintf(to, "\n| worse than in the former run | |\n|---|---|\n");
+    for (int i = 0; i < j->regressions && i < MOST_ROWS; i++) {
+        fputs("| ", to);
+        cell(to, j->regression[i].of);
+        fputs(" | ", to);
+        cell(to, j->regression[i].why);
+        fputs(" |\n", to);
+    }
+    if (j->regressions > MOST_ROWS)
+        fprintf(to, "\n… and %d more.\n", j->regressions - MOST_ROWS);
+}
+
+static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
+{
+    int rows = 0;
+    if (j->unexpected == 0)
+        return;
+    fprintf(to, "\n| case | parameters | formulation | quantity | verdict | expected | limit | "
+                "truth | error | reason |\n"
+                "|---|---|---|---|---|---|---:|---:|---:|---|\n");
+    for (int i = 0; i < j->verdicts && rows < MOST_ROWS; i++)
+        if (!j->verdict[i].matches) {
+            write_verdict(to, s, &j->verdict[i]);
+            rows++;
+        }
+    if (j->unexpected > rows)
+        fprintf(to, "\n… and %d more.\n", j->unexpected - rows);
+}
+
+/* One row for each formulation: its verdicts by kind. */
+static void write_formulations(FILE *to, const sweep *s, const judgement *j)
+{
+    fprintf(to, "\n| formulation");
+    for (int k = 0; k < VERDICT_KINDS; k++)
+        fprintf(to, " | %s", verdict_name((verdict_kind)k));
+    fprintf(to, " |\n|---");
+    for (int k = 0; k < VERDICT_KINDS; k++)
+        fprintf(to, "|---:");
+    fprintf(to, "|\n");
+    for (int first = 0; first < s->seriess; first++) {
+        const char *key = s->series[first].formulation.key;
+        int counts[VERDICT_KINDS] = {0}, before = 0;
+        for (int i = 0; i < first && !before; i++)
+            before = strcmp(s->series[i].formulation.key, key) == 0;
+        if (before)
+            continue;
+        for (int i = 0; i < j->verdicts; i++)
+            if (strcmp(s->series[j->verdict[i].series].formulation.key, key) == 0)
+                counts[j->verdict[i].kind]++;
+        fprintf(to, "| `%s`", key);
+        for (int k = 0; k < VERDICT_KINDS; k++)
+            fprintf(to, counts[k] > 0 ? " | %d" : " | ", counts[k]);
+        fprintf(to, " |\n");
+    }
+}
+
+/* The marks that were used, the worst first, with their words. */
+static void write_legend(FILE *to, const overview *o)
+{
+    int used[OVERVIEW_MARKS] = {0}, entries = 0;
+    for (int i = 0; i < o->rows * o->columns; i++)
+        used[o->cell[i].mark] = 1;
+    for (int m = OVERVIEW_MARKS - 1; m >= 0; m--) {
+        char text[OVERVIEW_TEXT];
+        const overview_cell one = {.mark = (overview_mark)m};
+        overview_text(&one, 1, text);
+        if (used[m])
+            fprintf(to, "%s%.*s %s", entries++ > 0 ? "; " : "\n", (int)strcspn(text, "0"), text,
+                    overview_words((overview_mark)m));
+    }
+    fprintf(to,
+            "; **!** not as expected. A mark is the worst verdict over all parameters%s; its "
+            "number: quantities that have it.\n",
+            o->joined ? " and options" : "");
+    if (o->accepted < o->columns)
+        fprintf(to, "\n(new): not accepted yet; its verdicts do not gate.\n");
+}
+
+static void write_row(FILE *to, const overview *o, int row)
+{
+    fprintf(to, "| %s", o->row[row]->name);
+    for (int c = 0; c < o->columns; c++) {
+        char text[OVERVIEW_TEXT];
+        const overview_cell *one = overview_at(o, row, c);
+        overview_text(one, 1, text);
+        fprintf(to, one->unexpected ? " | **%s**" : " | %s", text);
+    }
+    fprintf(to, " |\n");
+}
+
+/* Cases without a row, of which something is judged or nothing. */
+static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
+{
+    int named = 0;
+    for (int r = 0; r < o->rows; r++)
+        if (!overview_shown(o, r) && overview_judged(o, r) == judged) {
+            if (named == 0)
+                fprintf(to, "\n%s", what);
+            fprintf(to, "%s%s", named++ > 0 ? ", " : ": ", o->row[r]->name);
+        }
+    fputs(named > 0 ? ".\n" : "", to);
+}
+
+/* A row for each case, a column for each formulation. */
+static void write_overview(FILE *to, const overview *o)
+{
+    fprintf(to, "\n| case");
+    for (int c = 0; c < o->columns; c++) {
+        fprintf(to, " | ");
+        cell(to, o->column[c]);
+        fputs(c >= o->accepted ? " (new)" : "", to);
+    }
+    fprintf(to, " |\n|---");
+    for (int c = 0; c < o->columns; c++)
+        fprintf(to, "|---");
+    fprintf(to, "|\n");
+    for (int r = 0; r < o->rows; r++)
+        if (overview_shown(o, r))
+            write_row(to, o, r);
+    write_unshown(to, o, 1, "All pass in what is judged");
+    write_unshown(to, o, 0, "Nothing is judged");
+    write_legend(to, o);
+}
+
+/* What the scenes leave out, a line for each case and what its points leave out differently. */
+static void write_omitted(FILE *to, const sweep *s)
+{
+    int lines = 0;
+    const char *before = "";
+    char last[SCENE_OMISSION_WORDS] = "";
+    for (int i = 0; i < s->points; i++) {
+        const point *p = &s->point[i];
+        char words[SCENE_OMISSION_WORDS] = "";
+        if (p->status == STATUS_OK)
+            scene_omission_words(features_omitted(&p->scene), words);
+        const int again = strcmp(p->type->name, before) == 0 && strcmp(words, last) == 0;
+        before = p->type->name;
+        snprintf(last, sizeof last, "%s", words);
+        if (words[0] == '\0' || again)
+            continue;
+        if (lines++ == 0)
+            fprintf(to, "\n<details><summary>Omitted by the scenes</summary>\n\n");
+        fprintf(to, "- %s", p->type->name);
+        if (p->text[0] != '\0')
+            fprintf(to, " (%s)", p->text);
+        fprintf(to, ": %s\n", words);
+    }
+    if (lines > 0)
+        fprintf(to, "\n</details>\n");
+}
+
+/* What is assumed of their sections. */
+static void write_assumed(FILE *to, const sweep *s)
+{
+    int lines = 0;
+    for (int i = 0; i < s->points; i++) {
+        const point *p = &s->point[i];
+        assumption a;
+        for (int k = 0; assumptions_at(p, k, &a); k++) {
+            if (lines++ == 0)
+                fprintf(to, "\n<details><summary>Assumed of sections</summary>\n\n");
+            fprintf(to, "- %s", p->type->name);
+            if (p->text[0] != '\0')
+                fprintf(to, " (%s)", p->text);
+            fprintf(to, ": %s: %s\n", assumptions_kind(a.kind), a.text);
+        }
+    }
+    if (lines > 0)
+        fprintf(to, "\n</details>\n");
+}
+
+static const char *words_before(const sweep *s)
+{
+    if (s->unfinished == 0)
+        return "";
+    return s->partial ? "incomplete; of what is there " : "interrupted; until then ";
+}
+
+void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
+                    const environment *e)
+{
+    char sentence[SENTENCE_OF_RUN];
+    fprintf(to, "## beamwork: %s%s\n\n", words_before(s), judgement_outcome(j));
+    for (int i = 0; i < j->breaches; i++)
+        fprintf(to, "**%s breaks the contract of the interface**: %s\n\n", j->breach[i].formulation,
+                j->breach[i].why);
+    fprintf(to,
+            "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
+            "stored discrete values agree",
+            j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
+            j->agreements);
+    if (s->unfinished > 0)
+        fprintf(to, "; %d cells were not done", s->unfinished);
+    if (j->unobserved > 0)
+        fprintf(to, "; %d findings were not observed", j->unobserved);
+    if (j->unmet > 0)
+        fprintf(to, "; %d truths speak of nothing that exists", j->unmet);
+    if (j->flaws > 0)
+        fprintf(to, "; %d cells contradict themselves", j->flaws);
+    fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);
+    sentence_of_run(s, j, sentence, sizeof sentence);
+    if (sentence[0] != '\0')
+        fprintf(to, "\n%s\n", sentence);
+    write_regressions(to, j);
+    write_unexpected(to, s, j);
+    write_overview(to, o);
+    write_omitted(to, s);
+    write_assumed(to, s);
+    fprintf(to, "\n<details><summary>Verdicts by formulation</summary>\n");
+    write_formulations(to, s, j);
+    fprintf(to, "\n</details>\n");
+}

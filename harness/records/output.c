@@ -1,0 +1,285 @@
+#include "harness/records/output.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MOST_TRIES = 100, LEAF = 100 }; /* [bytes] of the name that a temporary name begins with */
+
+/* Files and folders that are written beside their places now, as far as there is room for their
+ * names: of the process `owner`; 0: free, -1: a name is being written. */
+enum { MOST_OPEN = 16 };
+static struct {
+    atomic_int owner;
+    char path[PATH_MAX];
+} unfinished[MOST_OPEN];
+
+static void remember(const char *path)
+{
+    for (int i = 0; i < MOST_OPEN; i++) {
+        int nobody = 0;
+        if (atomic_compare_exchange_strong(&unfinished[i].owner, &nobody, -1)) {
+            snprintf(unfinished[i].path, PATH_MAX, "%s", path);
+            atomic_store(&unfinished[i].owner, getpid());
+            return;
+        }
+    }
+}
+
+void output_forget(const char *path)
+{
+    for (int i = 0; i < MOST_OPEN; i++)
+        if (atomic_load(&unfinished[i].owner) == getpid() && strcmp(unfinished[i].path, path) == 0)
+            atomic_store(&unfinished[i].owner, 0);
+}
+
+/* What follows calls the system only, as a signal handler must. */
+static void remove_all(int at, const char *name);
+
+/* Entries that there were. */
+static int empty_once(int folder)
+{
+    _Alignas(struct dirent64) char room[4096];
+    int entries = 0;
+    ssize_t length = 0;
+    lseek(folder, 0, SEEK_SET);
+    while ((length = getdents64(folder, room, sizeof room)) > 0)
+        for (ssize_t k = 0; k < length;) {
+            const struct dirent64 *one = (const void *)&room[k];
+            const char *name = one->d_name;
+            k += one->d_reclen;
+            if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
+                continue;
+            entries++;
+            remove_all(folder, name);
+        }
+    return entries;
+}
+
+/* A file, or a folder with all that is in it: again, as entries that are taken away may hide
+ * others. */
+static void remove_all(int at, const char *name)
+{
+    if (unlinkat(at, name, 0) == 0 || errno == ENOENT)
+        return;
+    const int folder = openat(at, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    for (int i = 0; folder >= 0 && i < MOST_TRIES && empty_once(folder) > 0; i++)
+        continue;
+    if (folder >= 0)
+        close(folder);
+    unlinkat(at, name, AT_REMOVEDIR);
+}
+
+void output_remove(const char *temporary)
+{
+    remove_all(AT_FDCWD, temporary);
+}
+
+void output_abandon(void)
+{
+    for (int i = 0; i < MOST_OPEN; i++)
+        if (atomic_load(&unfinished[i].owner) == getpid())
+            output_remove(unfinished[i].path);
+}
+
+static status fail(const char *path, int why, fault *f)
+{
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path,
+                     strerror(why));
+}
+
+int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
+{
+    const char *leaf = place_leaf(path);
+    for (int i = 0; i < MOST_TRIES; i++) {
+        uint64_t word = 0;
+        if (getrandom(&word, sizeof word, 0) != (ssize_t)sizeof word)
+            return -1;
+        const int length = snprintf(temporary, PATH_MAX, "%.*s%.*s.part-%016llx",
+                                    (int)(leaf - path), path, LEAF, leaf, (unsigned long long)word);
+        if (length >= PATH_MAX) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        remember(temporary); /* before it is there: a signal may come at any time */
+        const int made = make(temporary);
+        if (made >= 0)
+            return made;
+        output_forget(temporary);
+        if (errno != EEXIST)
+            return -1;
+    }
+    return -1;
+}
+
+static int make_file(const char *name)
+{
+    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+/* Owner (where we may) and permissions of the file that will be replaced. */
+static void keep_permissions(const place *to, int file)
+{
+    if (to->kind == PLACE_FILE &&
+        (fchown(file, to->owner, to->group) != 0 || fchmod(file, to->mode) != 0))
+        fchmod(file, to->mode);
+}
+
+static int open_stream(const place *to)
+{
+    if (to->descriptor < 0)
+        return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    /* what was said before stays before */
+    fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr);
+    return dup(to->descriptor);
+}
+
+/* 1: its name says that it is HDF5. */
+static int is_hdf5(const char *path)
+{
+    const char *dot = strrchr(place_leaf(path), '.');
+    return dot != NULL && (strcasecmp(dot, ".h5") == 0 || strcasecmp(dot, ".hdf5") == 0);
+}
+
+static status check_form(const char *path, const place *to, output_form form, fault *f)
+{
+    if (to->kind == PLACE_FOLDER)
+        return fail(path, EISDIR, f);
+    if (form == OUTPUT_TEXT && is_hdf5(path))
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s: this command writes text there, not HDF5; give it a name that "
+                         "does not end in %s",
+                         path, strrchr(path, '.'));
+    if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s is %s; HDF5 needs a regular file: give the name of one", path,
+                         to->descriptor >= 0 ? "where standard output or error goes"
+                                             : "a pipe or a device");
+    if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
+        return fail(path, errno, f);
+    return STATUS_OK;
+}
+
+static status open_as(const char *path, output_form form, output *out, fault *f)
+{
+    memset(out, 0, sizeof *out);
+    TRY(place_find(path, &out->to, f));
+    TRY(check_form(path, &out->to, form, f));
+    const int direct = out->to.kind == PLACE_STREAM;
+    const int file =
+        direct ? open_stream(&out->to) : output_beside(out->to.path, make_file, out->temporary);
+    out->stream = file >= 0 ? fdopen(file, "w") : NULL;
+    if (out->stream == NULL)
+        return fail(path, errno, f);
+    if (!direct)
+        keep_permissions(&out->to, file);
+    return STATUS_OK;
+}
+
+status output_open(const char *path, output *out, fault *f)
+{
+    if (path != NULL)
+        return open_as(path, OUTPUT_TEXT, out, f);
+    *out = (output){.stream = stdout};
+    return STATUS_OK;
+}
+
+status output_open_whole(const char *path, output *out, fault *f)
+{
+    return open_as(path, OUTPUT_WHOLE_FILE, out, f);
+}
+
+static void discard(output *out)
+{
+    if (out->stream != NULL && out->stream != stdout)
+        fclose(out->stream);
+    out->stream = NULL;
+    if (out->temporary[0] != '\0') {
+        unlink(out->temporary);
+        output_forget(out->temporary);
+    }
+}
+
+/* Onto the disk, where there is one; what cannot be synchronised (a pipe, a device) needs no such
+ * thing. */
+static int is_stored(FILE *stream)
+{
+    if (ferror(stream) || fflush(stream) != 0)
+        return 0;
+    return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+}
+
+status output_flush(fault *f)
+{
+    return fflush(stdout) == 0 ? STATUS_OK
+                               : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+}
+
+status output_close(output *out, fault *f)
+{
+    if (out->stream == stdout)
+        return output_flush(f);
+    errno = 0;
+    int good = is_stored(out->stream);
+    int why = good ? 0 : errno;
+    const int closed = fclose(out->stream) == 0;
+    why = good && !closed ? errno : why;
+    good = good && closed;
+    out->stream = NULL;
+    if (good && out->temporary[0] != '\0' && rename(out->temporary, out->to.path) != 0) {
+        good = 0;
+        why = errno;
+    }
+    if (good) {
+        output_forget(out->temporary);
+        return STATUS_OK;
+    }
+    discard(out);
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path,
+                     why != 0 ? strerror(why) : "no room",
+                     out->temporary[0] != '\0' ? "; nothing was left" : "");
+}
+
+status output_finish(output *out, status written, fault *f)
+{
+    if (written == STATUS_OK)
+        return output_close(out, f);
+    discard(out);
+    return written;
+}
+
+status output_try(const char *path, output_form form, place *where, fault *f)
+{
+    char temporary[PATH_MAX];
+    TRY(place_find(path, where, f));
+    TRY(check_form(path, where, form, f));
+    if (where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
+        return STATUS_OK;
+    const int file = output_beside(where->path, make_file, temporary);
+    if (file < 0)
+        return fail(path, errno, f);
+    close(file);
+    unlink(temporary);
+    output_forget(temporary);
+    return STATUS_OK;
+}
+
+status output_partial(const char *path, char partial[PATH_MAX], fault *f)
+{
+    place to;
+    const char *leaf = place_leaf(path), *dot = strrchr(leaf, '.');
+    if (place_find(path, &to, f) == STATUS_OK && to.kind == PLACE_STREAM) {
+        memcpy(partial, path, strlen(path) + 1);
+        return STATUS_OK;
+    }
+    const size_t stem = dot != NULL && dot > leaf ? (size_t)(dot - path) : strlen(path);
+    const int length = snprintf(partial, PATH_MAX, "%.*s.partial%s", (int)stem, path, path + stem);
+    return length < PATH_MAX ? STATUS_OK : fail(path, ENAMETOOLONG, f);
+}

@@ -1,0 +1,220 @@
+#include "harness/records/record.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/records/output.h"
+#include "harness/study/checksum.h"
+
+enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
+
+static void check(record *r, int good)
+{
+    r->bad |= !good;
+}
+
+status record_open(record *r, fault *f)
+{
+    static unsigned number; /* files in memory that are open together have names of their own */
+    char name[40];
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    snprintf(name, sizeof name, "beamwork-%u", number++);
+    *r = (record){.file = -1, .scalar = H5Screate(H5S_SCALAR)};
+    /* The oldest format: an image of the newer ones carries a wrong checksum of its head
+     * (HDF5 1.10). */
+    if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
+        r->file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    H5Pclose(access);
+    if (r->file >= 0 && r->scalar >= 0)
+        return STATUS_OK;
+    H5Sclose(r->scalar);
+    return fault_set(f, STATUS_FAULT, "no memory for results");
+}
+
+static status write_bytes(const char *image, size_t size, const char *path, fault *f)
+{
+    output file;
+    char line[CHECKSUM_LENGTH + 1];
+    TRY(output_open_whole(path, &file, f));
+    checksum_write(image, size, line);
+    /* the stream remembers an error until it is closed */
+    fwrite(image, 1, size, file.stream);
+    fputs(line, file.stream);
+    return output_close(&file, f);
+}
+
+static status write_image(const record *r, const char *path, fault *f)
+{
+    if (r->bad)
+        return fault_set(f, STATUS_FAULT,
+                         "the results could not be put into HDF5 (out of memory?)");
+    if (path == NULL)
+        return STATUS_OK;
+    const ssize_t size =
+        H5Fflush(r->file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(r->file, NULL, 0) : -1;
+    char *image = size > 0 ? malloc((size_t)size) : NULL;
+    if (image == NULL || H5Fget_file_image(r->file, image, (size_t)size) != size) {
+        free(image);
+        return fault_set(f, STATUS_FAULT, "%.200s: no memory for the file's image", path);
+    }
+    const status outcome = write_bytes(image, (size_t)size, path, f);
+    free(image);
+    return outcome;
+}
+
+status record_close(record *r, const char *path, fault *f)
+{
+    const status outcome = write_image(r, path, f);
+    H5Sclose(r->scalar);
+    H5Fclose(r->file);
+    return outcome;
+}
+
+hid_t record_group(record *r, hid_t at, const char *name)
+{
+    const hid_t g = H5Lexists(at, name, H5P_DEFAULT) > 0
+                        ? H5Gopen2(at, name, H5P_DEFAULT)
+                        : H5Gcreate2(at, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    check(r, g >= 0);
+    return g;
+}
+
+hid_t record_text_type(size_t length)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, length > 0 ? length : 1);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    return type;
+}
+
+static void put(record *r, hid_t at, const char *name, hid_t type, const void *value)
+{
+    const hid_t a = r->bad ? -1 : H5Acreate2(at, name, type, r->scalar, H5P_DEFAULT, H5P_DEFAULT);
+    check(r, a >= 0 && H5Awrite(a, type, value) >= 0);
+    H5Aclose(a);
+}
+
+void record_text(record *r, hid_t at, const char *name, const char *text)
+{
+    const hid_t type = record_text_type(strlen(text));
+    put(r, at, name, type, text); /* an empty text is stored as its final zero */
+    H5Tclose(type);
+}
+
+void record_count(record *r, hid_t at, const char *name, long value)
+{
+    put(r, at, name, H5T_NATIVE_LONG, &value);
+}
+
+void record_version(record *r, hid_t at, const char *name, const int version[2])
+{
+    const hsize_t size = 2;
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t a =
+        r->bad ? -1 : H5Acreate2(at, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
+    check(r, a >= 0 && H5Awrite(a, H5T_NATIVE_INT, version) >= 0);
+    H5Aclose(a);
+    H5Sclose(space);
+}
+
+void record_ascii(record *r, hid_t at, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, strlen(text));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    put(r, at, name, type, text);
+    H5Tclose(type);
+}
+
+/* Of a data set: large ones are compressed, in pieces along their first dimension. */
+static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
+{
+    enum { LEAST = 4096, PIECE = 1 << 20, LEVEL = 3 }; /* [bytes]; of deflate */
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    hsize_t piece[MOST_RANKS], line = H5Tget_size(type);
+    for (int i = 1; i < rank; i++) {
+        piece[i] = size[i];
+        line *= size[i];
+    }
+    if (rank == 0 || line == 0 || line * size[0] < LEAST)
+        return layout;
+    piece[0] = PIECE / line > 0 ? PIECE / line : 1;
+    piece[0] = piece[0] < size[0] ? piece[0] : size[0];
+    H5Pset_chunk(layout, rank, piece);
+    H5Pset_shuffle(layout);
+    H5Pset_deflate(layout, LEVEL);
+    return layout;
+}
+
+hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank,
+                   const hsize_t size[], const void *value)
+{
+    const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar,
+                layout = layout_of(type, rank, size);
+    const hid_t set =
+        r->bad ? -1 : H5Dcreate2(at, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    int empty = 0;
+    for (int i = 0; i < rank; i++)
+        empty |= size[i] == 0;
+    check(r, set >= 0 && (empty || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0));
+    H5Pclose(layout);
+    if (rank > 0)
+        H5Sclose(space);
+    return set;
+}
+
+hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[],
+                    const double value[], const char *unit)
+{
+    const hid_t set = record_array(r, at, name, H5T_NATIVE_DOUBLE, rank, size, value);
+    if (unit != NULL)
+        record_text(r, set, "unit", unit);
+    return set;
+}
+
+hid_t record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row)
+{
+    const hsize_t size = (hsize_t)count;
+    return record_array(r, at, name, type, 1, &size, row);
+}
+
+/* text[count] side by side, each as long as the longest; its length. NULL: out of memory. */
+static char *side_by_side(int count, const char *const text[], size_t *longest)
+{
+    *longest = 1;
+    for (int i = 0; i < count; i++)
+        *longest = strlen(text[i]) > *longest ? strlen(text[i]) : *longest;
+    char *all = calloc((size_t)count + 1, *longest);
+    if (all != NULL)
+        for (int i = 0; i < count; i++)
+            memcpy(all + (size_t)i * *longest, text[i], strlen(text[i]));
+    return all;
+}
+
+void record_texts(record *r, hid_t at, const char *name, int count, const char *const text[])
+{
+    size_t longest;
+    char *all = side_by_side(count, text, &longest);
+    const hid_t type = record_text_type(longest);
+    check(r, all != NULL);
+    H5Dclose(record_table(r, at, name, type, count, all));
+    free(all);
+    H5Tclose(type);
+}
+
+void record_text_list(record *r, hid_t at, const char *name, int count, const char *const text[])
+{
+    size_t longest;
+    char *all = side_by_side(count, text, &longest);
+    const hsize_t size = (hsize_t)count;
+    const hid_t type = record_text_type(longest), space = H5Screate_simple(1, &size, NULL);
+    const hid_t a =
+        r->bad || all == NULL ? -1 : H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    check(r, a >= 0 && H5Awrite(a, type, all) >= 0);
+    H5Aclose(a);
+    H5Sclose(space);
+    H5Tclose(type);
+    free(all);
+}

@@ -1,0 +1,127 @@
+/* What a stored run was asked for. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/formulations/select.h"
+#include "harness/records/results.h"
+
+enum { NAME = 2048 };
+
+int results_part_has(const char *lines, const char *text)
+{
+    const size_t length = strlen(text);
+    for (const char *at = lines; at != NULL; at = strchr(at, '\n')) {
+        at += *at == '\n';
+        if (strncmp(at, text, length) == 0 && (at[length] == '\n' || at[length] == '\0'))
+            return 1;
+    }
+    return 0;
+}
+
+/* The formulation of case/parameters/formulation. */
+static const char *formulation_of(const char *series)
+{
+    const char *slash = strrchr(series, '/');
+    return slash != NULL ? slash + 1 : series;
+}
+
+int results_part_is_fresh(const results_part *p, const char *series)
+{
+    return results_part_has(p->fresh, formulation_of(series));
+}
+
+int results_part_selects(const results_part *p, const char *series, const char *quantity)
+{
+    char text[NAME];
+    snprintf(text, sizeof text, "%s/%s", series, quantity);
+    return p->select == NULL || select_matches(p->select, text) != 0;
+}
+
+/* Has the run a quantity of the series that this part of one leaves out? */
+static int leaves_out(const results_part *p, const results *known, const char *series)
+{
+    for (int i = 0; p->select != NULL && i < known->cells; i++)
+        for (int k = 0; strcmp(known->cell[i].name, series) == 0 && k < known->cell[i].values; k++)
+            if (!results_part_selects(p, series, known->cell[i].value[k].quantity))
+                return 1;
+    for (int i = 0; p->select != NULL && i < known->seriess; i++)
+        for (int k = 0; strcmp(known->series[i].name, series) == 0 && k < known->series[i].limits;
+             k++)
+            if (!results_part_selects(p, series, known->series[i].limit[k].quantity))
+                return 1;
+    return 0;
+}
+
+int results_part_differ(const results *a, const results *b, const char *series)
+{
+    if (a->part.select != NULL && b->part.select != NULL &&
+        strcmp(a->part.select, b->part.select) == 0)
+        return 0;
+    return leaves_out(&a->part, a, series) || leaves_out(&a->part, b, series) ||
+           leaves_out(&b->part, a, series) || leaves_out(&b->part, b, series);
+}
+
+/* Is what a run knows at `name` of the series, or, where the series has no options, of its case?
+ * With options only those quantities are judged for which these matter: the ones with limits. */
+static int speaks_for(const char *name, const char *series)
+{
+    return strchr(formulation_of(series), ':') != NULL
+               ? strcmp(name, series) == 0
+               : strncmp(name, series, strcspn(series, "/") + 1) == 0;
+}
+
+/* Is any quantity selected that a run knows? */
+static int selects_any(const results_part *p, const results *known, const char *series)
+{
+    const int judged = strchr(formulation_of(series), ':') != NULL;
+    for (int i = 0; i < known->cells; i++) {
+        const result_cell *cell = &known->cell[i];
+        for (int k = 0; speaks_for(cell->name, series) && k < cell->values; k++)
+            if ((!judged || isfinite(cell->value[k].limit)) &&
+                results_part_selects(p, series, cell->value[k].quantity))
+                return 1;
+    }
+    for (int i = 0; i < known->seriess; i++) {
+        const result_series *one = &known->series[i];
+        for (int k = 0; speaks_for(one->name, series) && k < one->limits; k++)
+            if (results_part_selects(p, series, one->limit[k].quantity))
+                return 1;
+    }
+    return 0;
+}
+
+/* Has any series of the run that formulation? */
+static int has_formulation(const results *r, const char *key)
+{
+    for (int i = 0; i < r->seriess; i++)
+        if (strcmp(formulation_of(r->series[i].name), key) == 0)
+            return 1;
+    return 0;
+}
+
+int results_part_wants(const results *r, const results *other, const char *series)
+{
+    const results_part *p = &r->part;
+    const char *key = formulation_of(series);
+    char of[NAME];
+    snprintf(of, sizeof of, "%.*s", (int)strcspn(series, "/"), series);
+    if (p->cases != NULL && !results_part_has(p->cases, of))
+        return 0;
+    if (p->formulations != NULL && !results_part_has(p->formulations, key))
+        return 0;
+    /* options that nobody runs who does not ask for them */
+    if (strchr(key, ':') != NULL && results_part_has(other->part.formulations, key) &&
+        !has_formulation(r, key))
+        return 0;
+    return p->select == NULL || selects_any(p, r, series) || selects_any(p, other, series);
+}
+
+void results_part_free(results_part *p)
+{
+    free(p->select);
+    free(p->cases);
+    free(p->formulations);
+    free(p->fresh);
+    memset(p, 0, sizeof *p);
+}

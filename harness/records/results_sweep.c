@@ -1,0 +1,358 @@
+/* The file of a sweep as cells, each named by its point. Nothing is believed of it. */
+#include "harness/records/results_sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/formulations/assignment.h"
+#include "harness/formulations/select.h"
+#include "harness/numerics/memory.h"
+#include "harness/records/table_reader.h"
+#include "harness/study/handles.h"
+
+enum {
+    VERSION = 1,
+    NAME = 200,
+    WORDS = 1 << 14, /* of an attribute */
+    DIGITS = 12,     /* of a value of an axis: ranges of other ends meet at the same points */
+    MOST_LISTED = 4096,
+    RANKS = 4
+};
+static const hsize_t most_items = (hsize_t)1 << 28;
+
+typedef struct name_row {
+    char name[NAME];
+} name_row;
+
+/* Arrays by point. */
+typedef enum sweep_column {
+    POINT,
+    REFERENCE,
+    VALUE,
+    ERROR,
+    COST,
+    STATUS,
+    LACKS,
+    COLUMNS
+} sweep_column;
+
+typedef struct sweep_file {
+    const char *path;
+    hid_t file;
+    char name[NAME], fixed[PARAMETERS_TEXT], status[WORDS];
+    int points, axes, quantities, formulations, meshes;
+    name_row *axis, *quantity, *formulation;
+    char (*word)[WORDS]; /* [axes] of an axis of words a line each */
+    int *mesh;
+    void *column[COLUMNS];
+} sweep_file;
+
+static double number(const sweep_file *s, sweep_column which, size_t at)
+{
+    return ((const double *)s->column[which])[at];
+}
+
+static status damaged(const sweep_file *s, const char *what, fault *f)
+{
+    return fault_set(f, STATUS_FAULT,
+                     "%.120s: %.120s is missing or damaged; run 'beamwork sweep -o' again", s->path,
+                     what);
+}
+
+static void free_file(sweep_file *s)
+{
+    for (int i = 0; i < COLUMNS; i++)
+        free(s->column[i]);
+    free(s->axis);
+    free(s->quantity);
+    free(s->formulation);
+    free(s->word);
+    free(s->mesh);
+}
+
+static hid_t open_set(const sweep_file *s, const char *name)
+{
+    return H5Lexists(s->file, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->file, name, H5P_DEFAULT) : -1;
+}
+
+/* All of an array of that shape, where an extent of 0 stands for the one that it has, at most
+ * `most`; NULL. */
+static void *read_array(const sweep_file *s, const char *name, hid_t type, int ranks,
+                        hsize_t size[RANKS])
+{
+    hsize_t found[RANKS] = {0}, items = 1;
+    const hid_t set = open_set(s, name), space = set >= 0 ? H5Dget_space(set) : -1;
+    int good = space >= 0 && H5Sget_simple_extent_ndims(space) == ranks &&
+               H5Sget_simple_extent_dims(space, found, NULL) == ranks;
+    for (int i = 0; i < ranks && good; i++) {
+        good =
+            found[i] > 0 && found[i] <= most_items / items && (size[i] == 0 || size[i] == found[i]);
+        size[i] = found[i];
+        items *= good ? found[i] : 1;
+    }
+    void *out = good ? malloc((size_t)items * H5Tget_size(type)) : NULL;
+    if (out != NULL && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) < 0) {
+        free(out);
+        out = NULL;
+    }
+    handles_close(2, (const hid_t[]){space, set});
+    return out;
+}
+
+/* One text column of a table; its rows, 0: it is not there. */
+static int read_names(const sweep_file *s, const char *table, const char *column, name_row **out)
+{
+    const table_column columns[] = {{column, FIELD_TEXT, 0, sizeof(name_row)}};
+    void *rows;
+    const int count = table_reader_rows(s->file, table, 1, columns, sizeof(name_row), &rows);
+    *out = rows;
+    return count > 0 && count <= MOST_LISTED ? count : 0;
+}
+
+/* A text attribute of an array; empty: there is none. */
+static void read_words(const sweep_file *s, const char *array, const char *name, char out[WORDS])
+{
+    const hid_t set = open_set(s, array);
+    out[0] = '\0';
+    if (set >= 0)
+        table_reader_attribute_text(set, name, out, WORDS);
+    handles_close(1, &set);
+}
+
+/* NULL, or what is damaged. */
+static const char *read_lists(sweep_file *s)
+{
+    hsize_t meshes[RANKS] = {0};
+    s->axes = read_names(s, "axes", "name", &s->axis);
+    s->quantities = read_names(s, "quantities", "name", &s->quantity);
+    s->formulations = read_names(s, "formulations", "key", &s->formulation);
+    s->mesh = read_array(s, "meshes", H5T_NATIVE_INT, 1, meshes);
+    s->meshes = s->mesh != NULL && meshes[0] <= MOST_LISTED ? (int)meshes[0] : 0;
+    for (int i = 0; i < s->meshes; i++)
+        if (s->mesh[i] < 1 || s->mesh[i] > RESULTS_MOST_ELEMENTS)
+            return "meshes";
+    s->word = calloc((size_t)s->axes + 1, sizeof *s->word);
+    for (int i = 0; s->word != NULL && i < s->axes; i++)
+        read_words(s, "points", s->axis[i].name, s->word[i]);
+    read_words(s, "status", "names", s->status);
+    return s->axes == 0           ? "axes"
+           : s->quantities == 0   ? "quantities"
+           : s->formulations == 0 ? "formulations"
+           : s->meshes == 0       ? "meshes"
+                                  : NULL;
+}
+
+static const char *read_columns(sweep_file *s)
+{
+    const hsize_t a = (hsize_t)s->axes, q = (hsize_t)s->quantities, f = (hsize_t)s->formulations,
+                  m = (hsize_t)s->meshes;
+    const struct {
+        const char *name;
+        hid_t type;
+        int ranks;
+        hsize_t size[RANKS]; /* but for the points */
+    } column[COLUMNS] = {{"points", H5T_NATIVE_DOUBLE, 2, {0, a}},
+                         {"reference", H5T_NATIVE_DOUBLE, 2, {0, q}},
+                         {"value", H5T_NATIVE_DOUBLE, 4, {0, f, m, q}},
+                         {"error", H5T_NATIVE_DOUBLE, 4, {0, f, m, q}},
+                         {"cost", H5T_NATIVE_DOUBLE, 3, {0, f, m}},
+                         {"status", H5T_NATIVE_UCHAR, 3, {0, f, m}},
+                         {"not_modelled", H5T_NATIVE_INT, 2, {0, f}}};
+    for (int i = 0; i < COLUMNS; i++) {
+        hsize_t size[RANKS];
+        memcpy(size, column[i].size, sizeof size);
+        size[0] = (hsize_t)s->points;
+        s->column[i] = read_array(s, column[i].name, column[i].type, column[i].ranks, size);
+        if (s->column[i] == NULL)
+            return column[i].name;
+        s->points = (int)size[0];
+    }
+    return NULL;
+}
+
+static const char *read_request(sweep_file *s, results *out)
+{
+    char from[WORDS], select[WORDS];
+    snprintf(s->name, sizeof s->name, "scene");
+    if (table_reader_attribute_text(s->file, "scene", from, sizeof from)) {
+        const char *leaf = strrchr(from, '/') != NULL ? strrchr(from, '/') + 1 : from;
+        snprintf(s->name, sizeof s->name, "%.*s", (int)strcspn(leaf, "."), leaf);
+    } else if (!table_reader_attribute_text(s->file, "case", s->name, sizeof s->name)) {
+        return "case";
+    }
+    if (!table_reader_attribute_text(s->file, "parameters", s->fixed, sizeof s->fixed))
+        return "parameters";
+    if (!table_reader_attribute_text(s->file, "selection", select, sizeof select))
+        return NULL;
+    out->part.select = select_matches(select, "") >= 0 ? strdup(select) : NULL;
+    return out->part.select != NULL ? NULL : "selection";
+}
+
+/* Line `at` of a text, at most size - 1 bytes; empty: there is none. */
+static void take_line(const char *lines, double at, char *out, int size)
+{
+    const char *line = lines;
+    for (int i = 0; i < at && line != NULL; i++)
+        line = strchr(line, '\n') != NULL ? strchr(line, '\n') + 1 : NULL;
+    snprintf(out, (size_t)size, "%.*s", line != NULL ? (int)strcspn(line, "\n") : 0,
+             line != NULL ? line : "");
+}
+
+static void axis_value_text(const sweep_file *s, int axis, double value, char *out)
+{
+    const parameter_type plain = {.name = s->axis[axis].name};
+    char digits[ASSIGNMENT_VALUE];
+    if (s->word[axis][0] != '\0') {
+        take_line(s->word[axis], value, out, ASSIGNMENT_VALUE);
+        return;
+    }
+    snprintf(digits, sizeof digits, "%.*g", DIGITS, value);
+    assignment_value_text(&plain, strtod(digits, NULL), out, ASSIGNMENT_VALUE);
+}
+
+static int compare_words(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+enum { WORD = NAME + ASSIGNMENT_VALUE + 1, MOST_WORDS = 2 * CASE_MAX_PARAMETERS };
+
+/* Those that do not vary, as "name=value". */
+static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
+{
+    int count = 0;
+    for (const char *at = s->fixed; *at != '\0' && count < CASE_MAX_PARAMETERS;) {
+        const size_t length = strcspn(at, ";"), name = strcspn(at, "=");
+        int varies = 0;
+        for (int i = 0; i < s->axes; i++)
+            varies |= strlen(s->axis[i].name) == name && strncmp(at, s->axis[i].name, name) == 0;
+        if (!varies)
+            snprintf(word[count++], WORD, "%.*s", (int)length, at);
+        at += length + (at[length] == ';');
+    }
+    return count;
+}
+
+/* All parameters that the file knows. */
+static void point_text(const sweep_file *s, int place, char *out, size_t size)
+{
+    char word[MOST_WORDS][WORD];
+    int count = fixed_words(s, word);
+    size_t used = 0;
+    for (int i = 0; i < s->axes && count < MOST_WORDS; i++) {
+        char value[ASSIGNMENT_VALUE];
+        axis_value_text(s, i, number(s, POINT, (size_t)place * (size_t)s->axes + (size_t)i), value);
+        snprintf(word[count++], WORD, "%s=%s", s->axis[i].name, value);
+    }
+    qsort(word, (size_t)count, sizeof *word, compare_words);
+    for (int i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i > 0 ? ";" : "", word[i]);
+}
+
+/* A cell named case/parameters/`of`, with room for its values; NULL: out of memory. */
+static result_cell *add_cell(const sweep_file *s, const char *text, const char *of, results *out)
+{
+    char name[2 * NAME + PARAMETERS_TEXT + NAME];
+    snprintf(name, sizeof name, "%s/%s/%s", s->name, text, of);
+    result_cell *cell = results_add(out);
+    if (cell == NULL || (cell->name = strdup(name)) == NULL ||
+        (cell->value = calloc((size_t)s->quantities, sizeof *cell->value)) == NULL)
+        return NULL;
+    for (int i = 0; i < s->quantities; i++) {
+        result_value *v = &cell->value[cell->values++];
+        snprintf(v->quantity, sizeof v->quantity, "%.47s", s->quantity[i].name);
+        v->value = v->error = v->limit = NAN;
+    }
+    return cell;
+}
+
+/* What the errors are against: no mesh. */
+static int add_references(const sweep_file *s, int place, const char *text, results *out)
+{
+    result_cell *cell = add_cell(s, text, "reference", out);
+    for (int i = 0; cell != NULL && i < s->quantities; i++)
+        cell->value[i].value =
+            number(s, REFERENCE, (size_t)place * (size_t)s->quantities + (size_t)i);
+    if (cell != NULL)
+        snprintf(cell->status, sizeof cell->status, "ok");
+    return cell != NULL;
+}
+
+static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text, results *out)
+{
+    const size_t at = row * (size_t)s->meshes + (size_t)mesh;
+    const int lacks = ((const int *)s->column[LACKS])[row];
+    result_cell *cell = add_cell(s, text, s->formulation[row % (size_t)s->formulations].name, out);
+    if (cell == NULL)
+        return 0;
+    cell->elements = s->mesh[mesh];
+    cell->cost = number(s, COST, at);
+    take_line(s->status, ((const unsigned char *)s->column[STATUS])[at], cell->status,
+              sizeof cell->status);
+    if (lacks != 0 && strcmp(cell->status, "ok") == 0)
+        snprintf(cell->status, sizeof cell->status, "other model");
+    for (int i = 0; i < s->quantities; i++) {
+        cell->value[i].value = number(s, VALUE, at * (size_t)s->quantities + (size_t)i);
+        cell->value[i].error = number(s, ERROR, at * (size_t)s->quantities + (size_t)i);
+    }
+    return 1;
+}
+
+/* A system that promises memory it does not have ends the program without a word. */
+static status check_size(const sweep_file *s, fault *f)
+{
+    char what[FAULT_TEXT];
+    const double two = 2; /* files */
+    const double cells = (double)s->points * (s->formulations * (double)s->meshes + 1);
+    snprintf(what, sizeof what, "%.120s: %.0f cells", s->path, cells);
+    if (cells > most_items)
+        return fault_set(f, STATUS_REFUSED, "%s are too many; compare sweeps of fewer points",
+                         what);
+    return memory_check(
+        two * cells *
+            (double)(sizeof(result_cell) + NAME + (size_t)s->quantities * sizeof(result_value)),
+        what, "compare sweeps of fewer points", f);
+}
+
+static status add_point(const sweep_file *s, int place, results *out, fault *f)
+{
+    char text[PARAMETERS_TEXT + NAME];
+    point_text(s, place, text, sizeof text);
+    int good = add_references(s, place, text, out);
+    for (int i = 0; i < s->formulations; i++)
+        for (int k = 0; k < s->meshes && good; k++)
+            good = add_mesh(s, (size_t)place * (size_t)s->formulations + (size_t)i, k, text, out);
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the cells of a sweep");
+}
+
+static status read_file(sweep_file *s, results *out, fault *f)
+{
+    long version = 0;
+    const char *bad = NULL;
+    table_reader_attribute_count(s->file, "beamwork_sweep", &version);
+    if (version != VERSION)
+        return fault_set(
+            f, STATUS_FAULT,
+            "%.120s: a sweep of version %ld, this program reads %d; run 'beamwork sweep -o' again",
+            s->path, version, VERSION);
+    if ((bad = read_request(s, out)) != NULL || (bad = read_lists(s)) != NULL)
+        return damaged(s, bad, f);
+    if (s->word == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the words of a sweep");
+    if ((bad = read_columns(s)) != NULL)
+        return damaged(s, bad, f);
+    TRY(check_size(s, f));
+    for (int i = 0; i < s->points; i++)
+        TRY(add_point(s, i, out, f));
+    return STATUS_OK;
+}
+
+status results_sweep_read(const char *path, hid_t file, results *out, fault *f)
+{
+    sweep_file s = {.path = path, .file = file};
+    const status outcome = read_file(&s, out, f);
+    out->whole = out->swept = 1;
+    free_file(&s);
+    return outcome;
+}

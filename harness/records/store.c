@@ -1,0 +1,280 @@
+#include "harness/records/store.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/write.h"
+#include "harness/records/gather.h"
+#include "harness/records/record_rows.h"
+#include "harness/records/store_shapes.h"
+#include "harness/records/vtkhdf.h"
+#include "harness/study/price.h"
+#include "harness/study/sentence.h"
+
+static void put_environment(record *r, const environment *e)
+{
+    char noise[32];
+    record_text(r, r->file, "schema", SCHEMA_NAME);
+    record_count(r, r->file, "schema_version", SCHEMA_VERSION);
+    record_text(r, r->file, "program_version", e->version);
+    record_text(r, r->file, "commit", e->commit);
+    record_text(r, r->file, "compiler", e->compiler);
+    record_text(r, r->file, "flags", e->flags);
+    record_text(r, r->file, "libraries", e->libraries);
+    record_text(r, r->file, "processor", e->processor);
+    record_text(r, r->file, "clock", e->clock);
+    record_count(r, r->file, "threads", e->threads);
+    snprintf(noise, sizeof noise, "%.15g", price_noise);
+    record_text(r, r->file, "cost_noise", noise); /* ratios of costs below it tie */
+}
+
+/* A column of its own for each parameter. The record is the point: the offset counts its
+ * parameters. */
+static void get_choice(const subject *s, field_value *out)
+{
+    const size_t i = out->of->offset;
+    assignment_value_text(parameter_at(s->point->type->parameters, i), s->point->parameter[i],
+                          out->room, sizeof out->room);
+    out->text = out->room;
+}
+
+static void get_parameter(const subject *s, field_value *out)
+{
+    out->numbers = &s->point->parameter[out->of->offset];
+}
+
+static int parameter_fields(const case_type *type, schema_field out[CASE_MAX_PARAMETERS])
+{
+    const parameter_type *p;
+    int i = 0;
+    for (; (p = parameter_at(type->parameters, i)) != NULL; i++) {
+        out[i] = (schema_field){
+            p->name, p->unit, FIELD_DOUBLE, p->summary, .offset = (size_t)i, .get = get_parameter};
+        if (p->choices != NULL)
+            out[i] = (schema_field){
+                p->name, "", FIELD_TEXT, p->summary, .offset = (size_t)i, .get = get_choice};
+    }
+    return i;
+}
+
+static void put_points(record *r, hid_t at, const case_type *type, const subjects *list)
+{
+    const schema_field *fields[SCHEMA_MOST_FIELDS + CASE_MAX_PARAMETERS];
+    schema_field parameter[CASE_MAX_PARAMETERS];
+    int count = schema_fields(&record_point, KEY, fields);
+    const int parameters = parameter_fields(type, parameter);
+    for (int i = 0; i < parameters; i++)
+        fields[count++] = &parameter[i];
+    record_rows(r, at, record_point.table, count, fields, list->count, list->row);
+}
+
+/* The record of a scene is its text; of a point that was refused, or that no file can say, "". */
+static void put_scenes(record *r, hid_t at, subjects *list)
+{
+    char **text = calloc((size_t)list->count + 1, sizeof *text);
+    r->bad |= text == NULL;
+    for (int i = 0; i < list->count && !r->bad; i++) {
+        const point *p = list->row[i].point;
+        const write_head head = {p->type->name, p->type->summary, p->type->source};
+        text[i] = write_scene_text(p->status == STATUS_OK ? &p->scene : NULL, &head);
+        r->bad |= text[i] == NULL;
+        list->row[i].record = &text[i];
+    }
+    if (!r->bad)
+        record_rows_of_type(r, at, &record_scene, list->count, list->row);
+    for (int i = 0; text != NULL && i < list->count; i++)
+        free(text[i]);
+    free(text);
+}
+
+/* The points of all curves, one after the other: records of curves say where each begins. */
+static void put_curves(record *r, hid_t at, const subjects *list)
+{
+    size_t points = 0;
+    for (int i = 0; i < list->count; i++)
+        points += (size_t)((const quantity_result *)list->row[i].record)->curve.points;
+    double *x = malloc((points + 1) * sizeof *x), *value = malloc((points + 1) * sizeof *value);
+    r->bad |= x == NULL || value == NULL;
+    for (int i = 0; i < list->count && !r->bad; i++) {
+        const curve *c = &((const quantity_result *)list->row[i].record)->curve;
+        memcpy(x + list->row[i].group, c->x, (size_t)c->points * sizeof *x);
+        memcpy(value + list->row[i].group, c->value, (size_t)c->points * sizeof *value);
+    }
+    const hsize_t size = points;
+    H5Dclose(record_values(r, at, "curve_x", 1, &size, x, NULL));
+    H5Dclose(record_values(r, at, "curve_value", 1, &size, value, NULL));
+    free(x);
+    free(value);
+}
+
+/* One picture of a point is enough: that of the first formulation with a solution. */
+static void put_pictures(record *r, hid_t at, const subjects *cells)
+{
+    hid_t all = -1;
+    for (int i = 0; i < cells->count && !r->bad; i++) {
+        const subject *s = &cells->row[i];
+        const cell_result *cell = s->record;
+        if (cell->solve.shapes.states == 0 || cell->solve.status != STATUS_OK)
+            continue;
+        all = all >= 0 ? all : record_group(r, at, "shapes");
+        if (H5Lexists(all, s->point->name, H5P_DEFAULT) > 0)
+            continue;
+        const hid_t one =
+            store_shapes(r, all, s->point->name, &s->point->scene, &cell->solve.shapes);
+        record_text(r, one, "formulation", s->series->formulation.key);
+        record_count(r, one, "elements", s->series->mesh[s->mesh]);
+        H5Gclose(one);
+    }
+    if (all >= 0)
+        H5Gclose(all);
+}
+
+static void put_records(record *r, hid_t at, const gathering *g, const record_type *type,
+                        const case_type *of)
+{
+    subjects list = {0};
+    gather_case(g, type, of, &list);
+    r->bad |= list.bad;
+    if (type == &record_point)
+        put_points(r, at, of, &list);
+    else if (type == &record_scene)
+        put_scenes(r, at, &list);
+    else if (!r->bad && ((type != &record_motion && type != &record_assumption) || /* few have */
+                         list.count > 0))
+        record_rows_of_type(r, at, type, list.count, list.row);
+    if (type == &record_curve)
+        put_curves(r, at, &list);
+    if (type == &record_cell)
+        put_pictures(r, at, &list);
+    gather_free(&list);
+}
+
+static void put_case(record *r, hid_t cases, const gathering *g, const case_type *of)
+{
+    if (r->bad || H5Lexists(cases, of->name, H5P_DEFAULT) > 0)
+        return;
+    const hid_t here = record_group(r, cases, of->name);
+    record_text(r, here, "summary", of->summary);
+    record_text(r, here, "source", of->source);
+    for (int i = 0; record_types[i] != NULL && !r->bad; i++)
+        put_records(r, here, g, record_types[i], of);
+    H5Gclose(here);
+}
+
+/* Attribute of names, a line each. at(s, i): name i, NULL behind the last. */
+static void put_names(record *r, const char *attribute, const sweep *s,
+                      const char *(*at)(const sweep *s, int i))
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    if (to == NULL) {
+        r->bad = 1;
+        return;
+    }
+    for (int i = 0; at(s, i) != NULL; i++)
+        fprintf(to, "%s%s", i > 0 ? "\n" : "", at(s, i));
+    r->bad |= fclose(to) != 0;
+    if (!r->bad && size > 0)
+        record_text(r, r->file, attribute, text);
+    free(text);
+}
+
+static const char *case_at(const sweep *s, int i)
+{
+    return s->cases[i] != NULL ? s->cases[i]->name : NULL;
+}
+
+static const char *given_at(const sweep *s, int i)
+{
+    return i < s->givens ? s->given[i].key : NULL;
+}
+
+/* What a run was asked for: what lies outside was left out, not lost. */
+static void put_selection(record *r, const sweep *s)
+{
+    if (s->cases == NULL)
+        return;
+    if (s->select != NULL && s->select[0] != '\0')
+        record_text(r, r->file, "selection", s->select);
+    put_names(r, "selection_cases", s, case_at);
+    put_names(r, "selection_formulations", s, given_at);
+}
+
+static void put_declarations(record *r, const gathering *g)
+{
+    subjects list = {0};
+    gather_declarations(g, &list);
+    r->bad |= list.bad;
+    if (!r->bad)
+        record_rows_of_type(r, r->file, &record_declaration, list.count, list.row);
+    gather_free(&list);
+}
+
+status store_open(const sweep *s, const judgement *j, store *out, fault *f)
+{
+    *out = (store){.sweep = s, .judged = j};
+    TRY(record_open(&out->file, f));
+    out->cases = record_group(&out->file, out->file.file, "cases");
+    return STATUS_OK;
+}
+
+void store_case(store *to, const case_type *of)
+{
+    const gathering g = {to->sweep, to->judged, NULL};
+    put_case(&to->file, to->cases, &g, of);
+}
+
+/* How the run ended, as its last line says it. */
+static void put_outcome(record *r, const sweep *s, const judgement *j)
+{
+    char sentence[SENTENCE_OF_RUN];
+    sentence_of_run(s, j, sentence, sizeof sentence);
+    record_text(r, r->file, "outcome", judgement_outcome(j));
+    record_text(r, r->file, "sentence", sentence);
+}
+
+/* All cases that are not there yet, and what is said of the run. */
+static void finish(store *to, const environment *e)
+{
+    const sweep *s = to->sweep;
+    const gathering g = {s, to->judged, NULL};
+    for (int i = 0; i < s->seriess; i++)
+        store_case(to, s->point[s->series[i].point].type);
+    H5Gclose(to->cases);
+    put_environment(&to->file, e);
+    put_selection(&to->file, s);
+    put_declarations(&to->file, &g);
+}
+
+status store_close(store *to, const char *path, const environment *e, fault *f)
+{
+    if (path != NULL) {
+        record_count(&to->file, to->file.file, "unfinished_cells", to->sweep->unfinished);
+        finish(to, e);
+        if (to->judged != NULL)
+            put_outcome(&to->file, to->sweep, to->judged);
+    } else
+        H5Gclose(to->cases);
+    return record_close(&to->file, path, f);
+}
+
+status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
+                   fault *f)
+{
+    store to;
+    TRY(store_open(s, j, &to, f));
+    return store_close(&to, path, e, f);
+}
+
+status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f)
+{
+    store to;
+    TRY(store_open(s, NULL, &to, f));
+    finish(&to, e);
+    if (s->series[0].cell[0].solve.shapes.states > 0)
+        vtkhdf_write(&to.file, &s->point[s->series[0].point].scene,
+                     &s->series[0].cell[0].solve.shapes);
+    return record_close(&to.file, path, f);
+}

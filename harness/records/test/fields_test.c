@@ -1,0 +1,283 @@
+/* What stands in a column is what its name says: a sweep that is made up, all numbers different,
+ * read field by field. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/records/gather.h"
+#include "harness/study/price.h"
+#include "harness/study/timing.h"
+
+enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
+static const case_type made_up = {.name = "made_up"};
+static const element_type element = {.name = "element"};
+
+typedef struct bench {
+    sweep s;
+    point p;
+    series one;
+    cell_result cell[MESHES];
+    quantity_result quantity[MESHES][2];
+    step_record step[STEPS];
+    iteration_record iteration[5];
+    nodal_matrices matrices;
+    double path[STATIONS], compliance[36 * STATIONS], stiffness[36 * STATIONS], curve[4];
+    truth row, other;
+    verdict v;
+    coverage c;
+    judgement j;
+} bench;
+
+static void fill_path(bench *b)
+{
+    for (int i = 0; i < 36 * STATIONS; i++) {
+        b->compliance[i] = 100 + i;
+        b->stiffness[i] = 1000 + i;
+        b->path[i / 36] = 7 + i / 36;
+    }
+    b->matrices = (nodal_matrices){.stations = STATIONS,
+                                   .path = b->path,
+                                   .compliance = b->compliance,
+                                   .stiffness = b->stiffness};
+    b->step[0] = (step_record){.first = 0, .iterations = 2};
+    b->step[1] = (step_record){.first = 2, .iterations = 3};
+    for (int i = 0; i < 5; i++)
+        b->iteration[i].correction = i + 1;
+}
+
+/* Errors of 0.4, 0.04, ...: each mesh is the first within one level more. */
+static void make(bench *b)
+{
+    memset(b, 0, sizeof *b);
+    b->p.type = &made_up;
+    scene_init(&b->p.scene, "made_up");
+    scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
+    scene_add_quantity(&b->p.scene, "force", "N", 0, scene_coordinate(0, SCENE_UX));
+    b->row.value = 2;
+    b->other.value = 4;
+    fill_path(b);
+    b->one = (series){
+        .formulation = {.type = &element, .key = "element"}, .meshes = MESHES, .cell = b->cell};
+    for (int i = 0; i < MESHES; i++) {
+        b->one.mesh[i] = 1 << i;
+        b->quantity[i][0] = (quantity_result){.value = 2 * (1 + 0.4 * pow(0.1, i)),
+                                              .curve = {2 + i, b->curve, b->curve}};
+        b->quantity[i][1] = (quantity_result){.value = 1, .curve = {3, b->curve, b->curve}};
+        b->cell[i].solve = (solve_result){.quantities = 2,
+                                          .quantity = b->quantity[i],
+                                          .steps = STEPS,
+                                          .step = b->step,
+                                          .iterations = 5,
+                                          .iteration = b->iteration,
+                                          .matrix_sets = 1,
+                                          .matrices = &b->matrices};
+        b->cell[i].counters = (counters){.strain_evaluations = 11,
+                                         .stress_evaluations = 12,
+                                         .inertia_evaluations = 13,
+                                         .iterations = 14,
+                                         .steps = 15,
+                                         .rejected_steps = 16,
+                                         .factorisations = 17,
+                                         .solutions = 18,
+                                         .factor_entries = 19,
+                                         .factor_flops = 20,
+                                         .negative_pivots = 21,
+                                         .geometric_evaluations = 22,
+                                         .dense_operations = 23};
+    }
+    b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
+    b->v.truth = &b->row;
+    b->v.model_truth = &b->other;
+    for (int k = 0; k < COVERAGE_MESHES; k++) {
+        b->c.series[k] = 50 - k;
+        b->c.covered[k] = 40 - k;
+    }
+    b->j = (judgement){.verdicts = 1, .verdict = &b->v};
+}
+
+/* Number k of a field of a record; NAN: there is no such field. */
+static double number_of(const record_type *type, const subject *s, const char *name, int k)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int count = schema_fields(type, KEY_AROUND, list);
+    for (int i = 0; i < count; i++)
+        if (strcmp(list[i]->name, name) == 0) {
+            field_value v;
+            schema_read(s, list[i], &v);
+            return list[i]->kind == FIELD_DOUBLE ? v.numbers[k] : (double)v.whole;
+        }
+    return NAN;
+}
+
+static void expect(const record_type *type, const subject *s, const char *name, int k, double right)
+{
+    const double is = number_of(type, s, name, k);
+    gsl_test(!(fabs(is - right) <= 1e-12 * fabs(right)), "%s.%s[%d]: %g, not %g", type->name, name,
+             k, is, right);
+}
+
+static void work(const gathering *g)
+{
+    static const char *const name[] = {
+        "strain_evaluations", "stress_evaluations", "inertia_evaluations", "iterations",
+        "load_steps",         "rejected_steps",     "factorisations",      "solutions",
+        "factor_entries",     "factor_flops",       "negative_pivots",     "geometric_evaluations",
+        "dense_operations"};
+    const subject s = gather_cell(g, 0, 3);
+    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
+        expect(&record_cell, &s, name[i], 0, 11 + (double)i);
+    expect(&record_cell, &s, "elements", 0, 8);
+    expect(&record_cell, &s, "priced", 0, 0);
+    expect(&record_cell, &s, "cost", 0, price_cost(&s.series->formulation, &s.series->cell[3]));
+    gsl_test(!(number_of(&record_cell, &s, "cost", 0) > 0), "a formulation without prices costs");
+}
+
+static void levels(const gathering *g, const bench *b)
+{
+    static const char *const name[] = {"reach_10", "reach_1", "reach_0.1", "reach_0.01"};
+    const subject s = gather_verdict(g, &b->v);
+    for (int i = 0; i < 4; i++)
+        expect(&record_verdict, &s, name[i], 0, 2 << i);
+    expect(&record_verdict, &s, "truth", 0, 2);
+    expect(&record_verdict, &s, "model_truth", 0, 4);
+}
+
+static void coverages(const gathering *g, const bench *b)
+{
+    for (int k = 0; k < COVERAGE_MESHES; k++) {
+        const subject s = gather_coverage(g, &b->c, k);
+        expect(&record_coverage, &s, "series", 0, 50 - k);
+        expect(&record_coverage, &s, "covered", 0, 40 - k);
+    }
+}
+
+static void paths(const gathering *g)
+{
+    subjects list = {0};
+    gather_mesh(g, &record_matrix, 0, 2, &list);
+    gsl_test_int(list.count, STATIONS, "a record for each station");
+    for (int i = 0; i < list.count; i++) {
+        expect(&record_matrix, &list.row[i], "path", 0, 7 + i);
+        for (int k = 0; k < 36; k++) {
+            expect(&record_matrix, &list.row[i], "compliance", k, 100 + 36 * i + k);
+            expect(&record_matrix, &list.row[i], "stiffness", k, 1000 + 36 * i + k);
+        }
+    }
+    list.count = 0;
+    gather_mesh(g, &record_iteration, 0, 2, &list);
+    gsl_test_int(list.count, 5, "a record for each iteration");
+    for (int i = 0; i < list.count; i++) {
+        expect(&record_iteration, &list.row[i], "step", 0, i < 2 ? 0 : 1);
+        expect(&record_iteration, &list.row[i], "iteration", 0, i < 2 ? i : i - 2);
+        expect(&record_iteration, &list.row[i], "correction", 0, i + 1);
+    }
+    gather_free(&list);
+}
+
+/* Curves of several meshes stand behind each other. */
+static void curves(const gathering *g)
+{
+    subjects list = {0};
+    double first = 0;
+    gather_mesh(g, &record_curve, 0, 2, &list);
+    gather_mesh(g, &record_curve, 0, 3, &list);
+    gsl_test_int(list.count, 4, "a record for each curve");
+    for (int i = 0; i < list.count; i++) {
+        expect(&record_curve, &list.row[i], "first", 0, first);
+        first += number_of(&record_curve, &list.row[i], "points", 0);
+    }
+    gsl_test_abs(first, 4 + 3 + 5 + 3, 0, "all points");
+    gather_free(&list);
+}
+
+static void errors(const gathering *g)
+{
+    subjects list = {0};
+    gather_mesh(g, &record_quantity, 0, 1, &list);
+    gsl_test_int(list.count, 2, "a record for each quantity");
+    expect(&record_quantity, &list.row[0], "error", 0, 0.04);
+    expect(&record_quantity, &list.row[0], "model_error", 0, 2.08 / 4 - 1);
+    gather_free(&list);
+}
+
+/* Every round, of the cell as it is and with nothing left out; none where there was none. */
+static void timings(void)
+{
+    cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},
+                     .keep_all = {.setup = 3, .solve = 4, .rounds = ROUNDS_COUNT},
+                     .free_keep_all = 7};
+    const subject s = {.record = &t};
+    static const char *const part[PHASES] = {"seconds_elements", "seconds_assembly",
+                                             "seconds_factorisation", "seconds_solution",
+                                             "seconds_rest"};
+    for (int k = 0; k < ROUNDS_COUNT; k++) {
+        t.as_is.round[k] = 20 - k;
+        t.keep_all.round[k] = 30 - k;
+    }
+    for (int k = 0; k < PHASES; k++)
+        t.phase[k] = 40 + k;
+    for (int k = 0; k < ROUNDS_COUNT; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "round_%d", k + 1);
+        expect(&record_timing, &s, name, 0, 20 - k);
+        snprintf(name, sizeof name, "keep_all_round_%d", k + 1);
+        expect(&record_timing, &s, name, 0, 30 - k);
+    }
+    for (int k = 0; k < PHASES; k++)
+        expect(&record_timing, &s, part[k], 0, 40 + k);
+    expect(&record_timing, &s, "seconds_setup", 0, 1);
+    expect(&record_timing, &s, "seconds_solve", 0, 2);
+    expect(&record_timing, &s, "seconds_least", 0, 21 - ROUNDS_COUNT);
+    expect(&record_timing, &s, "seconds_most", 0, 20);
+    expect(&record_timing, &s, "keep_all_setup", 0, 3);
+    expect(&record_timing, &s, "keep_all_solve", 0, 4);
+    expect(&record_timing, &s, "keep_all_free", 0, 7);
+    t.as_is.rounds = t.keep_all.rounds = 0;
+    gsl_test(!isnan(number_of(&record_timing, &s, "round_2", 0)), "no round was run");
+    gsl_test(!isnan(number_of(&record_timing, &s, "keep_all_setup", 0)), "nor one of all");
+}
+
+static element_order order_of(element_analysis a, const double options[])
+{
+    (void)options;
+    return (element_order){10 * (int)a + 1, 10 * (int)a + 2};
+}
+
+/* Orders of every analysis. */
+static void declarations(void)
+{
+    static const element_type ordered = {.name = "ordered", .order = order_of};
+    static const struct {
+        const char *name;
+        element_analysis analysis;
+    } row[] = {{"statics", ELEMENT_STATICS},
+               {"vibration", ELEMENT_VIBRATION},
+               {"buckling", ELEMENT_BUCKLING}};
+    const series one = {.formulation = {.type = &ordered, .key = "ordered"}};
+    const subject s = {.series = &one};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s_least", row[i].name);
+        expect(&record_declaration, &s, name, 0, 10 * row[i].analysis + 1);
+        snprintf(name, sizeof name, "%s_highest", row[i].name);
+        expect(&record_declaration, &s, name, 0, 10 * row[i].analysis + 2);
+    }
+}
+
+int main(void)
+{
+    static bench b;
+    make(&b);
+    const gathering g = {&b.s, &b.j, NULL};
+    work(&g);
+    levels(&g, &b);
+    coverages(&g, &b);
+    paths(&g);
+    curves(&g);
+    errors(&g);
+    timings();
+    declarations();
+    scene_free(&b.p.scene);
+    return gsl_test_summary();
+}

@@ -1,0 +1,143 @@
+"""beamwork compare of two sweeps: points matched by their parameters, the thresholds and statuses of runs."""
+import h5py
+
+from harness.records.test.stored import altered, verify
+from harness.test.program import ROOT, ProgramTest, run
+
+LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
+SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"
+OPTIONS = ("-f", "beamw", "-f", "sheet_third", "-n", "1,2,4")
+
+
+def sweep(path, *what):
+    done = run("sweep", *what, "-o", path)
+    assert done.returncode == 0, done.stderr
+    return path
+
+
+class Sweeps(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.class_folder()
+        cls.old, cls.new = folder / "old.h5", folder / "new.h5"
+        sweep(cls.old, "elastica", "--vary", "load=0.5..2/3", *OPTIONS)
+
+    def compared(self, code, new, *options, old=None):
+        done = self.answered("compare", old or self.old, new, *options, code=code)
+        *lines, pairs, cost = done.stdout.splitlines()
+        self.assertIn(" cells in both: ", pairs)
+        self.assertTrue(cost.startswith("cost: "), cost)
+        return lines, pairs
+
+    def check(self, change, lines, *options):
+        """Of a copy in which something was changed; and what the same says the other way round."""
+        new = altered(self.old, self.new, change)
+        self.assertEqual(self.compared(int(bool(lines)), new, *options)[0], lines)
+        back, _ = self.compared(int(bool(lines)), self.old, *options, old=new)
+        turned = {"worse": "better", "better": "worse", "gone": "new", "new": "gone", "changed": "changed"}
+        self.assertEqual([line.split()[0] for line in back], [turned[line.split()[0]] for line in lines])
+
+    def test_same(self):
+        lines, pairs = self.compared(0, self.old, "--threshold", "error=0,floor=0,work=0")
+        self.assertEqual((lines, pairs), ([], f"24 cells in both: {SAME}"))
+
+    def test_errors(self):
+        """A row for a quantity and a formulation, beyond the threshold."""
+        def grow(by):
+            def change(file):
+                file["error"][1, 0, 2, 1] = 0.01 * by
+            return change
+
+        old = altered(self.old, self.folder / "old.h5", grow(1))
+        for by, threshold, word in ((1.005, "error=0.01", None), (1.005, "error=0.001", "worse"), (1.02, "error=0.01", "worse"),
+                                    (0.9, "error=0.01", "better"), (-1, "error=0.01", "changed")):
+            new = altered(self.old, self.new, grow(by))
+            lines, _ = self.compared(int(word is not None), new, "--threshold", threshold, old=old)
+            self.assertEqual(lines, [] if word is None else [
+                f"{word:8} elastica/load=1/beamw n=4: error of u_over_L +1 % -> {by:+.4g} %"])
+
+    def test_statuses_costs_and_values(self):
+        def fails(file):
+            names = file["status"].attrs["names"].decode().split("\n")
+            file["status"][3, 1, 0] = names.index("singular")
+
+        def costs(file):
+            file["cost"][0, 0, 0] *= 1.03
+
+        def loses(file):
+            file["value"][2, 0, 0, 0] = float("nan")
+
+        def other(file):
+            file["not_modelled"][0, 0] = 1
+
+        def refers(file):
+            file["reference"][0, 2] *= 1.0001
+
+        self.check(fails, ["worse    elastica/load=2/sheet_third n=1: ok -> singular"])
+        self.check(loses, ["worse    elastica/load=1.5/beamw n=1: w_over_L has no value any more"])
+        self.check(other, [f"worse    elastica/load=0.5/beamw n={n}: ok -> other model" for n in (1, 2, 4)])
+        lines, _ = self.compared(1, altered(self.old, self.new, costs))
+        self.assertRegex("\n".join(lines), r"^worse    elastica/load=0.5/beamw n=1: cost .* ms -> .* ms \(\+3.0 %\)$")
+        self.compared(0, self.new, "--threshold", "work=0.05")
+        lines, _ = self.compared(1, altered(self.old, self.new, refers))
+        self.assertRegex("\n".join(lines), r"^changed  elastica/load=0.5/reference: theta .* -> .*$")
+
+    def test_points(self):
+        """Of another range, in another order, with a parameter fixed or varied, of numbers that round differently."""
+        one = sweep(self.folder / "one.h5", "elastica", "--vary", "load=0.1..0.4/3", "-s", "axial=1e6", *OPTIONS)
+        two = sweep(self.folder / "two.h5", "elastica", "--vary", "axial=1e7,1e6", "--vary", "load=0.3,0.2,0.7", *OPTIONS)
+        with h5py.File(one) as file:
+            self.assertNotIn(0.3, file["points"][()], "a number that rounds as in the list")
+        lines, pairs = self.compared(1, two, old=one)
+        self.assertTrue(pairs.startswith("12 cells in both: 0 worse, 0 better, 0 changed, 2 gone, 4 new"), (lines, pairs))
+        self.assertEqual(sorted(lines), sorted(
+            [f"gone     elastica/axial=1e+06;load={load}" for load in (0.1, 0.4)] +
+            ["new      elastica/axial=1e+06;load=0.7"] +
+            [f"new      elastica/axial=1e+07;load={load}" for load in (0.2, 0.3, 0.7)]))
+        self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
+
+    def test_formulations_and_meshes(self):
+        """One line for each, however many points there are; the references are those of other formulations."""
+        new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
+        lines, _ = self.compared(1, new)
+        self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),
+                         ["gone     elastica n=2", "gone     elastica/beamw", "new      elastica n=8",
+                          "new      elastica/collocation"])
+        self.refused(2, "nothing was compared", "compare", self.old, new, "-k", "beamw", silent=False)
+
+    def test_quantities(self):
+        """What the other was not asked for is not gone."""
+        new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-k", "theta", *OPTIONS)
+        with h5py.File(self.old) as old, h5py.File(new) as file:
+            self.assertEqual((len(old["quantities"]), len(file["quantities"])), (3, 1))
+        self.compared(0, new)
+        lines, _ = self.compared(1, altered(new, self.folder / "none.h5", lambda file: file.attrs.__delitem__("selection")))
+        self.assertIn("gone     elastica/load=1/beamw n=2: w_over_L", lines)
+
+    def test_words_and_scenes(self):
+        words = sweep(self.new, "c_column", "--vary", "section_data=shear_flow,printed", "-f", "beamw", "-n", "1,2")
+        lines, _ = self.compared(1, sweep(self.folder / "one.h5", "c_column", "--vary", "section_data=printed", "-f", "beamw",
+                                          "-n", "1,2"), old=words)
+        self.assertEqual(lines, ["gone     c_column/section_data=shear_flow"])
+        leaf = sweep(self.new, "--scene", LEAF, "--vary", "thickness=0.2e-3,1e-3", "-f", "collocation", "-n", "1", "-k", "k_drive")
+        self.assertEqual(self.compared(0, leaf, old=leaf)[1], f"2 cells in both: {SAME}")
+
+    def test_trouble(self):
+        results = verify("elastica/default and beamw", self.folder / "results.h5")
+        for pair in ((self.old, results), (results, self.old)):
+            self.refused(2, "old.h5 is a sweep and", "compare", *pair)
+        self.refused(2, "no short table", "compare", self.old, "-o", self.folder / "x.csv")
+        self.refused(4, "a sweep, which only", "verify", "-k", "elastica", "--not-worse-than", self.old)
+        for name in ("axes", "quantities", "formulations", "meshes", "points", "reference", "value", "error", "cost", "status",
+                     "not_modelled"):
+            def drop(file, name=name):
+                del file[name]
+
+            def empty(file, name=name):
+                del file[name]
+                file[name] = [1.5]
+
+            for change, what in ((drop, name), (empty, "value" if name == "meshes" else name)):
+                self.refused(2, f"{what} is missing or damaged", "compare", self.old, altered(self.old, self.new, change))
+        self.refused(2, "a sweep of version 7, this program reads 1", "compare", self.old,
+                     altered(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
