@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/formulations/adapters.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { NAME = 14, INDENT = 18, MEASURE = 36, COLUMN = 8 };
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/certificate/certificate.h"
-#include "harness/tables/screen.h"
+#include "harness/terminal/screen.h"
 
 /* verbose: every claim with its numbers; quiet: only what is broken. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,

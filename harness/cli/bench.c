@@ -14,7 +14,7 @@
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 #include "harness/study/timing.h"
-#include "harness/tables/table_timing.h"
+#include "harness/terminal/table_timing.h"
 
 static const double floor_seconds = 0.002; /* of each round for each cell */
 

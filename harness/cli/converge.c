@@ -15,9 +15,9 @@
 #include "harness/study/families.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
-#include "harness/tables/paragraph.h"
-#include "harness/tables/table_beside.h"
-#include "harness/tables/table_convergence.h"
+#include "harness/terminal/paragraph.h"
+#include "harness/terminal/table_beside.h"
+#include "harness/terminal/table_convergence.h"
 
 /* How many of the formulations run. */
 static int running(const sweep *s)

@@ -11,7 +11,7 @@
 #include "harness/formulations/registry.h"
 #include "harness/study/cell.h"
 #include "harness/study/glossary.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/export/deck.h"
+#include "harness/exchange/deck.h"
 #include "harness/formulations/parameters.h"
 #include "harness/records/output.h"
 #include "harness/study/cell.h"
@@ -67,7 +67,7 @@ int cli_export(int count, char **arguments)
         "and "
         "reduced integration, ends "
         "and bodies rigid; -n elements along each member (default 20), dense at its ends. "
-        "What a deck cannot say is refused. harness/export/read_back.py makes an import of "
+        "What a deck cannot say is refused. harness/exchange/read_back.py makes an import of "
         "what the program prints."
         "\vbeamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o "
         "guide.inp",

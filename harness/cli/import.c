@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/imports/import_file.h"
-#include "harness/imports/import_map.h"
+#include "harness/exchange/import_file.h"
+#include "harness/exchange/import_map.h"
 #include "harness/records/place.h"
 #include "harness/records/store.h"
 
@@ -108,7 +108,7 @@ int cli_import(int count, char **arguments)
     command_parse(
         "import", "FILE...",
         "Reads what other programs found of a case or scene: CSV with a declared header "
-        "(harness/imports/README.md). Names, units and parameters are checked, values "
+        "(harness/exchange/import.md). Names, units and parameters are checked, values "
         "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
         "it as one more contestant. --format json: the mistakes of each file, for editors."
         "\vbeamwork import theirs.csv -o theirs.h5",

@@ -12,7 +12,7 @@
 #include "harness/request/list_subject.h"
 #include "harness/request/runs_on.h"
 #include "harness/study/cell.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { COLUMN = 27 };
 

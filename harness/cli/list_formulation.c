@@ -6,7 +6,7 @@
 #include "elements/feature.h"
 #include "harness/records/schema.h"
 #include "harness/request/runs_on.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { COLUMN = 26, LINE = 4000 };
 

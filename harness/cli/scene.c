@@ -8,7 +8,7 @@
 #include "harness/cli/cli.h"
 #include "harness/records/output.h"
 #include "harness/study/cell.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 static status describe(FILE *to, const command_request *r, fault *f)
 {

@@ -5,7 +5,7 @@
 #include "harness/manual/results.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 static void show_field(const schema_field *which)
 {

@@ -15,8 +15,8 @@
 #include "harness/records/store.h"
 #include "harness/records/system_folder.h"
 #include "harness/request/restart.h"
-#include "harness/tables/table_follow.h"
-#include "harness/tables/table_solution.h"
+#include "harness/terminal/table_follow.h"
+#include "harness/terminal/table_solution.h"
 
 /* One solution from what is asked for to what is known of it. */
 typedef struct work {

@@ -9,7 +9,7 @@
 #include "harness/study/cell.h"
 #include "harness/study/derive.h"
 #include "harness/study/truth.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { NAME = 28, INDENT = 6 };
 

@@ -10,7 +10,7 @@
 #include "harness/completion/offer.h"
 #include "harness/formulations/environment.h"
 #include "harness/manual/manual.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 typedef struct verb {
     const char *name;

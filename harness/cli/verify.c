@@ -8,7 +8,7 @@
 #include "harness/command/own_tables.h"
 #include "harness/command/scenes.h"
 #include "harness/command/supports_told.h"
-#include "harness/imports/import_store.h"
+#include "harness/exchange/import_store.h"
 #include "harness/numerics/clock.h"
 #include "harness/records/output.h"
 #include "harness/request/regressions.h"
@@ -17,10 +17,10 @@
 #include "harness/spread/verification_work.h"
 #include "harness/study/plan.h"
 #include "harness/study/sentence.h"
-#include "harness/tables/table_overview.h"
-#include "harness/tables/table_run.h"
-#include "harness/tables/table_unexpected.h"
-#include "harness/tables/table_verdicts.h"
+#include "harness/terminal/table_overview.h"
+#include "harness/terminal/table_run.h"
+#include "harness/terminal/table_unexpected.h"
+#include "harness/terminal/table_verdicts.h"
 
 enum { PICTURED_STATES = 5 };
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { INDENT = 2, COLUMN = 30, TEXT = 2000 };
 

@@ -19,8 +19,8 @@
 #include "harness/study/rounding.h"
 #include "harness/study/run.h"
 #include "harness/study/sentence.h"
-#include "harness/tables/paragraph.h"
-#include "harness/tables/table.h"
+#include "harness/terminal/paragraph.h"
+#include "harness/terminal/table.h"
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 

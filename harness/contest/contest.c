@@ -10,7 +10,7 @@
 #include "harness/contest/against_error.h"
 #include "harness/contest/contestant.h"
 #include "harness/records/json.h"
-#include "harness/tables/table.h"
+#include "harness/terminal/table.h"
 
 static void show(const command_request *r, const point *p, const contestant *a, const contestant *b,
                  const against *v)

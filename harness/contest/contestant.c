@@ -11,7 +11,7 @@
 #include "harness/numerics/clock.h"
 #include "harness/study/reach.h"
 #include "harness/study/rounds.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;

@@ -6,7 +6,7 @@
 #include "harness/extremes/extreme_record.h"
 #include "harness/records/csv_record.h"
 #include "harness/study/rounding.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { NAME_WIDTH = 23, INDENT = 4, WIDEST_CELL = 10, CONDITION_WIDTH = 7 };
 

@@ -3,14 +3,14 @@
  * ascend; what is refused has a mistake with a place. */
 #include <math.h>
 
+#include "harness/exchange/import_file.h"
+#include "harness/exchange/import_map.h"
 #include "harness/fuzz/fuzz_file.h"
-#include "harness/imports/import_file.h"
-#include "harness/imports/import_map.h"
 
 enum { FORMS = 3 };
 
-#define MAPS "harness/imports/maps/"
-#define DATA "harness/imports/test/data/"
+#define MAPS "harness/exchange/maps/"
+#define DATA "harness/exchange/test/data/"
 
 static status read_form(int form, const char *path, import_set *set, mistakes *m, fault *f)
 {

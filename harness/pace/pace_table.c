@@ -8,8 +8,8 @@
 #include "harness/pace/pace_record.h"
 #include "harness/records/csv_record.h"
 #include "harness/records/fields_keys.h"
-#include "harness/tables/paragraph.h"
-#include "harness/tables/table.h"
+#include "harness/terminal/paragraph.h"
+#include "harness/terminal/table.h"
 
 enum { NAME = 16, NUMBER = 9 };
 

@@ -10,7 +10,7 @@
 #include "harness/formulations/words.h"
 #include "harness/model/missing.h"
 #include "harness/ranges/ranges_table_impl.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { SHOWN_MESHES = 7 };
 

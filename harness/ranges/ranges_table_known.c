@@ -5,7 +5,7 @@
 #include "harness/ranges/ranges_points.h"
 #include "harness/ranges/ranges_table_impl.h"
 #include "harness/study/cell.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 enum { LAST_KNOWN = 2 /* kind of reference */ };
 

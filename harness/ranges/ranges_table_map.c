@@ -1,6 +1,6 @@
 #include "harness/formulations/parameters.h"
 #include "harness/ranges/ranges_table_impl.h"
-#include "harness/tables/paragraph.h"
+#include "harness/terminal/paragraph.h"
 
 /* Errors against truths beside such against limits: only the first show what a theory leaves out.
  */

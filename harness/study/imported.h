@@ -1,4 +1,4 @@
-/* What another program found of a case: read from a file (harness/imports), never run here. */
+/* What another program found of a case: read from a file (harness/exchange), never run here. */
 #ifndef BEAMWORK_IMPORTED_H
 #define BEAMWORK_IMPORTED_H
 

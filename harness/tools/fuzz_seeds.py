@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-IMPORTS = ROOT / "harness" / "imports"
+IMPORTS = ROOT / "harness" / "exchange"
 WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5",
          "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default", "\1not not a b",
          "\2error=0.01,floor=1e-8,work=0.02", "\2work=1")

@@ -1,0 +1,176 @@
+#include "harness/exchange/carried.h"
+#include "cases/scene/names.h"
+
+#include "harness/exchange/brick.h"
+#include "harness/exchange/rigid.h"
+
+int carried_static(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_STATIC)
+            return i;
+    return SCENE_NONE;
+}
+
+static int is_zero(const double v[3])
+{
+    return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+static status check_section(const scene *s, int member, fault *f)
+{
+    const section_spec *profile = &s->section[s->member[member].section];
+    if (scene_member_tapers(&s->member[member]))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a section that changes along it is not written as solid; give it one section",
+            scene_called(s, SCENE_MEMBERS, member).text);
+    brick mesh;
+    fault why = {""};
+    if (brick_init(&mesh, s, member, 1, 1, 1, &why) != STATUS_OK)
+        return fault_set(f, STATUS_REFUSED, "%s: %.250s",
+                         scene_called(s, SCENE_MEMBERS, member).text, why.text);
+    const double poisson = profile->young / (2 * profile->shear_modulus) - 1;
+    if (poisson > -1 && poisson < 0.5)
+        return STATUS_OK;
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: a solid with E/(2 G) - 1 = %g is none; Poisson's ratio is between -1 and 0.5",
+        scene_called(s, SCENE_MEMBERS, member).text, poisson);
+}
+
+static int ends_at_node(const scene *s, int node)
+{
+    int ends = 0;
+    for (int i = 0; i < s->members; i++)
+        ends += (s->member[i].p == node) + (s->member[i].q == node);
+    return ends;
+}
+
+static status check_member(const scene *s, int member, fault *f)
+{
+    const scene_member *m = &s->member[member];
+    const int end[2] = {m->p, m->q};
+    if (!is_zero(m->curvature) || !is_zero(m->strain))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: curved or strained before it is loaded, which is not written as solid",
+            scene_called(s, SCENE_MEMBERS, member).text);
+    for (int i = 0; i < 2; i++)
+        if (ends_at_node(s, end[i]) > 1)
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: corners of members are not written as solids; make it a rigid "
+                             "body with a node for each end (part_of)",
+                             scene_called(s, SCENE_NODES, end[i]).text);
+    if (m->release[0].count + m->release[1].count > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: released ends are not written as solids; join it, and let a node "
+                         "with a rotation of its own turn",
+                         scene_called(s, SCENE_MEMBERS, member).text);
+    if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its ends warp, and rigid faces do not; say warping: fixed",
+                         scene_called(s, SCENE_MEMBERS, member).text);
+    return check_section(s, member, f);
+}
+
+static int held_rotations(const scene_node *n)
+{
+    int held = 0;
+    for (int i = 0; i < 3; i++)
+        held += n->angle[i] == SCENE_HELD;
+    return held;
+}
+
+/* A rotation node has a rotation vector: increments about fixed axes are the same where nothing is
+ * held, all is, or one axis is left. */
+static status check_node(const scene *s, int node, fault *f)
+{
+    const scene_node *n = &s->node[node];
+    const int held = held_rotations(n), large = carried_static(s) != SCENE_NONE;
+    int driven = 0;
+    for (int i = 0; i < 3; i++)
+        driven += n->angle[i] >= 0;
+    if (n->rotation == SCENE_ROTATION_VECTOR || n->attached != SCENE_NONE ||
+        rigid_single_axis(n) != SCENE_NONE)
+        return STATUS_OK;
+    if (n->rotation != SCENE_ROTATION_SPATIAL)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: several turns in sequence and forks are not written as solids",
+                         scene_called(s, SCENE_NODES, node).text);
+    if (!large || held >= 2 || (held == 0 && driven == 0))
+        return STATUS_OK;
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: of its rotations hold none, two or all; rigid faces turn by a rotation vector",
+        scene_called(s, SCENE_NODES, node).text);
+}
+
+static status check_load(const scene *s, int load, fault *f)
+{
+    const scene_load *l = &s->load[load];
+    if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: on members and weight are not written for solids; put it on nodes",
+                         scene_called(s, SCENE_LOADS, load).text);
+    if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: only dead loads at nodes, in fixed axes, are written for solids",
+                         scene_called(s, SCENE_LOADS, load).text);
+    if (!rigid_moves(s, l->where))
+        return fault_set(
+            f, STATUS_REFUSED, "%s: no solid ends at its %s; put it on the body that moves",
+            scene_called(s, SCENE_LOADS, load).text, scene_called(s, SCENE_NODES, l->where).text);
+    if (l->kind == SCENE_MOMENT && carried_static(s) != SCENE_NONE &&
+        rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
+        held_rotations(&s->node[l->where]) < 2)
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a moment on a node that turns about any axis is another one for a rotation vector",
+            scene_called(s, SCENE_LOADS, load).text);
+    return STATUS_OK;
+}
+
+static status check_analysis(const scene *s, int analysis, fault *f)
+{
+    const scene_analysis *a = &s->analysis[analysis];
+    if (a->kind != SCENE_LINEAR && a->kind != SCENE_STATIC && a->kind != SCENE_COMPLIANCE)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: linear, static and compliance are written for solids, %s not; leave "
+                         "it and its quantities out",
+                         scene_called(s, SCENE_ANALYSES, analysis).text,
+                         scene_analysis_name(a->kind));
+    if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: one static path in axes at rest is written for solids",
+                         scene_called(s, SCENE_ANALYSES, analysis).text);
+    if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: no solid ends at its node; ask for the body that moves",
+                         scene_called(s, SCENE_ANALYSES, analysis).text);
+    return STATUS_OK;
+}
+
+status carried_check(const scene *s, fault *f)
+{
+    if (s->members == 0)
+        return fault_set(f, STATUS_REFUSED, "a scene without members has no solid");
+    if (s->springs > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "springs are not written beside solids; take them out, or make the spring "
+                         "a member");
+    for (int i = 0; i < s->members; i++)
+        TRY(check_member(s, i, f));
+    for (int i = 0; i < s->nodes; i++)
+        TRY(check_node(s, i, f));
+    for (int i = 0; i < s->drivers; i++)
+        if (s->driver[i].condition_driver != SCENE_NONE)
+            return fault_set(f, STATUS_REFUSED,
+                             "driver '%s' is fixed by a condition, which no deck says",
+                             s->driver[i].name);
+    for (int i = 0; i < s->loads; i++)
+        TRY(check_load(s, i, f));
+    for (int i = 0; i < s->analyses; i++)
+        TRY(check_analysis(s, i, f));
+    return STATUS_OK;
+}

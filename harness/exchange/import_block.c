@@ -1,0 +1,299 @@
+#include "harness/exchange/import_block.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/shared/choice.h"
+#include "harness/exchange/conversion.h"
+#include "harness/exchange/import_cells.h"
+#include "harness/formulations/case_find.h"
+#include "harness/study/plan.h"
+
+static const scene *scene_of(const import_block *b)
+{
+    return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
+}
+
+/* Where mistakes about a value are. */
+static int line_of(const import_block *b, const imported_row *row)
+{
+    return b->at > 0 ? b->at : row->line;
+}
+
+void import_block_free_set(import_set *set)
+{
+    sweep_free(&set->sweep);
+    for (int i = 0; i < set->scenes; i++) {
+        scene_file_free(set->scene[i]);
+        free(set->scene_path[i]);
+    }
+    set->scenes = 0;
+}
+
+/* The case of a scene file that stands beside the imported one; NULL after a mistake. */
+static const case_type *scene_case(import_block *b, const char *name, int line)
+{
+    char path[IMPORT_TEXT + 4096];
+    const char *slash = name[0] == '/' ? NULL : strrchr(b->path, '/');
+    snprintf(path, sizeof path, "%.*s%s", slash != NULL ? (int)(slash - b->path) + 1 : 0, b->path,
+             name);
+    import_set *set = b->set;
+    for (int i = 0; i < set->scenes; i++)
+        if (strcmp(set->scene_path[i], path) == 0)
+            return scene_file_case(set->scene[i]);
+    char *copy = set->scenes < IMPORT_SCENES ? strdup(path) : NULL;
+    if (copy == NULL) {
+        mistakes_add(b->m, line, 1, "more than %d scene files; import them in parts",
+                     IMPORT_SCENES);
+        return NULL;
+    }
+    fault f = {""};
+    mistakes of_scene = {.file = copy};
+    if (scene_file_read(copy, &set->scene[set->scenes], &of_scene, &f) != STATUS_OK) {
+        mistakes_add(b->m, line, 1, "case: %.400s", f.text);
+        free(copy);
+        return NULL;
+    }
+    set->scene_path[set->scenes] = copy;
+    return scene_file_case(set->scene[set->scenes++]);
+}
+
+static int ends_in(const char *name, const char *ending)
+{
+    const size_t length = strlen(name), size = strlen(ending);
+    return length > size && strcmp(name + length - size, ending) == 0;
+}
+
+/* The point of the sweep with these parameters, made where there is none; -1 after a mistake. */
+static int point_of(import_block *b, const case_type *type, const double value[], int line)
+{
+    sweep *s = &b->set->sweep;
+    fault f = {""};
+    for (int i = 0; i < s->points; i++)
+        if (s->point[i].type == type && memcmp(s->point[i].parameter, value,
+                                               (size_t)parameters_count(type) * sizeof *value) == 0)
+            return i;
+    if (plan_add(s, type, value, NULL, NULL, 0, &f) != STATUS_OK) {
+        b->m->out_of_memory = 1;
+        return -1;
+    }
+    if (s->point[s->points - 1].status == STATUS_OK)
+        return s->points - 1;
+    mistakes_add(b->m, line, 1, "case: %.400s", s->point[s->points - 1].reason);
+    return -1;
+}
+
+/* "case; NAME=VALUE; NAME=VALUE" */
+static int find_point(import_block *b, const char *of, int line)
+{
+    char name[IMPORT_TEXT], parameters[IMPORT_TEXT];
+    double value[CASE_MAX_PARAMETERS] = {0};
+    fault f = {""};
+    size_t used = 0;
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(of, ";"), of);
+    for (size_t end = strlen(name); end > 0 && name[end - 1] == ' ';)
+        name[--end] = '\0';
+    for (const char *at = of + strcspn(of, ";"); *at != '\0'; at++)
+        if (*at != ' ' && !(used == 0 && *at == ';'))
+            parameters[used++] = *at;
+    parameters[used] = '\0';
+    const int is_scene = ends_in(name, ".yaml") || ends_in(name, ".yml");
+    const case_type *type = is_scene ? scene_case(b, name, line) : case_find(name, &f);
+    if (type == NULL) {
+        if (!is_scene)
+            mistakes_add(b->m, line, 1, "%.400s", f.text);
+        return -1;
+    }
+    parameters_default(type, value);
+    if (parameters_parse(type, parameters, value, NULL, &f) == STATUS_OK)
+        return point_of(b, type, value, line);
+    mistakes_add(b->m, line, 1, "%.400s", f.text);
+    return -1;
+}
+
+/* The moments of the compliances of a scene; -1: it has none. */
+static int moments_of(const scene *s)
+{
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_COMPLIANCE)
+            return (int)scene_compliance_of(&s->analysis[i])->moments;
+    return -1;
+}
+
+static void check_convention(const import_block *b, const import_header *h)
+{
+    const int moments = scene_of(b) != NULL ? moments_of(scene_of(b)) : -1;
+    if (h->convention[0] == '\0' || moments < 0)
+        return;
+    const char *ours = scene_moments_name((scene_moments)moments);
+    if (strcmp(ours, h->convention) != 0)
+        mistakes_add(b->m, h->convention_line, 1,
+                     "convention '%.40s': the moments of the case are %s; give the parameter that "
+                     "changes them, or convert the values",
+                     h->convention, ours);
+}
+
+static void name_series(import_block *b, const import_header *h, int line)
+{
+    imported *to = b->found;
+    if (h->program[0] == '\0')
+        mistakes_add(b->m, line, 1, "which program? Write '# program: NAME VERSION, ELEMENT'");
+    else if (strlen(h->program) >= FORMULATION_KEY || strchr(h->program, '/') != NULL)
+        mistakes_add(b->m, h->program_line, 1, "program: at most %d bytes without '/'",
+                     FORMULATION_KEY - 1);
+    else if (formulation_find(h->program) != NULL)
+        mistakes_add(b->m, h->program_line, 1,
+                     "program '%.60s' is a formulation of this program; use another name",
+                     h->program);
+    if (strlen(h->model) >= IMPORTED_WORD || strlen(h->convention) >= IMPORTED_WORD)
+        mistakes_add(b->m, h->model_line > 0 ? h->model_line : h->convention_line, 1,
+                     "model and convention are words of at most %d bytes", IMPORTED_WORD - 1);
+    snprintf(to->program, sizeof to->program, "%.*s", FORMULATION_KEY - 1, h->program);
+    snprintf(to->file, sizeof to->file, "%s", b->path);
+    snprintf(to->model, sizeof to->model, "%.*s", IMPORTED_WORD - 1,
+             h->model[0] != '\0' ? h->model : "beam");
+    snprintf(to->convention, sizeof to->convention, "%.*s", IMPORTED_WORD - 1, h->convention);
+}
+
+import_block import_block_open(import_set *set, const import_header *h, const char *path,
+                               mistakes *m)
+{
+    import_block b = {.set = set, .path = path, .m = m, .axes = h->axes, .point = -1};
+    const int line = h->of_line > 0 ? h->of_line : 1;
+    b.found = calloc(1, sizeof *b.found);
+    if (b.found == NULL) {
+        m->out_of_memory = 1;
+        return b;
+    }
+    name_series(&b, h, line);
+    if (h->of[0] == '\0')
+        mistakes_add(m, line, 2, "which case? Write '# case: NAME; PARAMETER=VALUE'");
+    else
+        b.point = find_point(&b, h->of, line);
+    check_convention(&b, h);
+    return b;
+}
+
+static const char *quantity_name(const void *context, int i)
+{
+    const scene *s = context;
+    return i < s->quantities ? s->quantity[i].name : NULL;
+}
+
+static const scene_quantity *find_quantity(const import_block *b, const imported_row *row)
+{
+    const scene *s = scene_of(b);
+    for (int i = 0; i < s->quantities; i++)
+        if (strcmp(s->quantity[i].name, row->quantity) == 0)
+            return &s->quantity[i];
+    const char *near = choice_nearest(row->quantity, quantity_name, s);
+    mistakes_add(b->m, line_of(b, row), 1, "%.40s has no quantity '%.60s'%s%s%s",
+                 b->set->sweep.point[b->point].type->name, row->quantity,
+                 near != NULL ? "; did you mean '" : "; 'beamwork list CASE' shows them",
+                 near != NULL ? near : "", near != NULL ? "'?" : "");
+    return NULL;
+}
+
+/* Does its value depend on what a moment does while the node turns? */
+static int has_moments(const scene_quantity *q)
+{
+    return (q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY) &&
+           (scene_entry_of(q)->row >= SCENE_RX || scene_entry_of(q)->column >= SCENE_RX);
+}
+
+static void check_row(const import_block *b, const imported_row *row, const scene_quantity *q)
+{
+    const int is_curve = q->reduction == SCENE_CURVE;
+    if (is_curve && !isfinite(row->x))
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is a curve: give x, its %s [%s]", q->name,
+                     q->x.name, q->x.unit);
+    if (!is_curve && !isnan(row->x))
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is no curve: leave x empty", q->name);
+    if (has_moments(q) && b->found->convention[0] == '\0')
+        mistakes_add(b->m, line_of(b, row), 3,
+                     "'%s' depends on what a moment does while the node turns; write '# "
+                     "convention: spatial|semitangential|symmetrised'",
+                     q->name);
+}
+
+/* In our axes and units; 0 after a mistake. */
+static int convert(const import_block *b, const scene_quantity *q, imported_row *row)
+{
+    int sign = 1;
+    fault f = {""};
+    const scene_quantity *ours = axes_quantity(&b->axes, scene_of(b), q, &sign);
+    if (ours == NULL) {
+        mistakes_add(b->m, line_of(b, row), 1, "'%s' in these axes is no quantity of the case",
+                     q->name);
+        return 0;
+    }
+    if (conversion_factor(row->unit, ours->unit, &row->factor, &f) != STATUS_OK) {
+        mistakes_add(b->m, line_of(b, row), 4, "%s: %.300s", q->name, f.text);
+        return 0;
+    }
+    row->factor *= sign;
+    row->value *= row->factor;
+    row->uncertainty *= fabs(row->factor);
+    snprintf(row->quantity, sizeof row->quantity, "%s", ours->name);
+    return 1;
+}
+
+/* In the order of their cells, so that what is given twice stands together. */
+static void check_again(const import_block *b)
+{
+    const imported *all = b->found;
+    import_cells_order(b->found);
+    for (int i = 1; i < all->rows; i++) {
+        const imported_row *one = &all->row[i - 1], *next = &all->row[i];
+        if (one->elements == next->elements && strcmp(one->quantity, next->quantity) == 0 &&
+            (one->x == next->x || (isnan(one->x) && isnan(next->x))))
+            mistakes_add(b->m, line_of(b, next), 5,
+                         "'%s' with %d elements is given again (line %d)", next->quantity,
+                         next->elements, one->line);
+    }
+}
+
+static int make_room(import_block *b)
+{
+    imported *to = b->found;
+    if ((to->rows & (to->rows - 1)) != 0)
+        return 1;
+    const size_t room = to->rows == 0 ? 1 : 2 * (size_t)to->rows;
+    imported_row *more = realloc(to->row, room * sizeof *more);
+    if (more == NULL) {
+        b->m->out_of_memory = 1;
+        return 0;
+    }
+    to->row = more;
+    return 1;
+}
+
+void import_block_add(import_block *b, const imported_row *row)
+{
+    imported_row one = *row;
+    if (b->found == NULL || b->point < 0)
+        return;
+    const scene_quantity *q = find_quantity(b, &one);
+    if (q == NULL)
+        return;
+    check_row(b, &one, q);
+    if (!convert(b, q, &one))
+        return;
+    if (make_room(b))
+        b->found->row[b->found->rows++] = one;
+}
+
+status import_block_close(import_block *b, fault *f)
+{
+    status outcome = STATUS_OK;
+    if (b->found != NULL)
+        check_again(b);
+    if (b->found != NULL && b->m->count == 0 && !b->m->out_of_memory && b->found->rows > 0)
+        outcome = import_cells_add(&b->set->sweep, b->point, b->found, f);
+    else
+        imported_free(b->found);
+    b->found = NULL;
+    return outcome;
+}

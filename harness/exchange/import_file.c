@@ -1,0 +1,284 @@
+#include "harness/exchange/import_file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/line.h"
+#include "elements/shared/choice.h"
+
+typedef enum column {
+    QUANTITY,
+    UNIT,
+    ELEMENTS,
+    UNKNOWNS,
+    SECONDS,
+    X,
+    VALUE,
+    UNCERTAINTY,
+    COLUMNS
+} column;
+static const char *const names[COLUMNS] = {"quantity", "unit", "elements", "unknowns",
+                                           "seconds",  "x",    "value",    "uncertainty"};
+static const int needed[COLUMNS] = {[QUANTITY] = 1, [UNIT] = 1, [ELEMENTS] = 1, [VALUE] = 1};
+
+enum { FIELDS = 32, MOST_ELEMENTS = 10000000 };
+
+/* Where the reading of a file is. */
+typedef struct reader {
+    import_set *set;
+    const char *path;
+    mistakes *m;
+    int line, rows;
+    int versioned;     /* 1: the first line said what the file is */
+    int placed;        /* 1: the columns are known */
+    int place[FIELDS]; /* of each field the column; -1: none */
+    int fields;
+    import_header header;
+    int open; /* 1: the block takes rows */
+    import_block block;
+} reader;
+
+static const char *name_at(const void *context, int i)
+{
+    const char *const *list = context;
+    return list[i];
+}
+
+static const char *const header_names[] = {"beamwork-import", "program", "case", "model",
+                                           "convention",      "axes",    NULL};
+
+static void take_text(char to[IMPORT_TEXT], int *line, const reader *r, const char *value)
+{
+    if (strlen(value) >= IMPORT_TEXT)
+        mistakes_add(r->m, r->line, 1, "a line of at most %d bytes", IMPORT_TEXT - 1);
+    snprintf(to, IMPORT_TEXT, "%s", value);
+    *line = r->line;
+}
+
+static status close_block(reader *r, fault *f)
+{
+    if (!r->open)
+        return STATUS_OK;
+    r->open = 0;
+    return import_block_close(&r->block, f);
+}
+
+static void take_header(reader *r, const char *key, const char *value)
+{
+    import_header *h = &r->header;
+    if (strcmp(key, "beamwork-import") == 0) {
+        if (strcmp(value, "1") != 0)
+            mistakes_add(r->m, r->line, 1, "format version '%.20s'; this program reads version 1",
+                         value);
+        r->versioned = 1;
+    } else if (strcmp(key, "program") == 0)
+        take_text(h->program, &h->program_line, r, value);
+    else if (strcmp(key, "case") == 0)
+        take_text(h->of, &h->of_line, r, value);
+    else if (strcmp(key, "model") == 0)
+        take_text(h->model, &h->model_line, r, value);
+    else if (strcmp(key, "convention") == 0)
+        take_text(h->convention, &h->convention_line, r, value);
+    else if (!axes_parse(value, &h->axes))
+        mistakes_add(r->m, r->line, 1,
+                     "axes '%.60s' are no signed permutation; write theirs = ours, as x=x y=-z z=y",
+                     value);
+}
+
+/* "# key: value   # remark"; other lines that begin with # are remarks. */
+static void read_header(reader *r, char *line)
+{
+    char *key = line_trim(line + 1), *colon = strchr(key, ':');
+    if (colon == NULL || strcspn(key, " \t") < (size_t)(colon - key))
+        return;
+    *colon = '\0';
+    char *value = colon + 1, *remark = strstr(value, " #");
+    if (remark != NULL)
+        *remark = '\0';
+    value = line_trim(value);
+    for (int i = 0; header_names[i] != NULL; i++)
+        if (strcmp(header_names[i], key) == 0) {
+            take_header(r, key, value);
+            return;
+        }
+    const char *near = choice_nearest(key, name_at, header_names);
+    mistakes_add(r->m, r->line, 1, "unknown header '%.40s'%s%s%s", key,
+                 near != NULL ? "; did you mean '"
+                              : "; they are program, case, model, convention, axes",
+                 near != NULL ? near : "", near != NULL ? "'?" : "");
+}
+
+static void find_column(reader *r, const char *name, int field)
+{
+    for (int c = 0; c < COLUMNS; c++)
+        if (strcmp(names[c], name) == 0) {
+            for (int i = 0; i < field; i++)
+                if (r->place[i] == c)
+                    mistakes_add(r->m, r->line, field + 1, "column '%s' is given twice", name);
+            r->place[field] = c;
+            return;
+        }
+    const char *all[COLUMNS + 1] = {0};
+    memcpy(all, names, sizeof names);
+    const char *near = choice_nearest(name, name_at, all);
+    mistakes_add(r->m, r->line, field + 1, "unknown column '%.40s'%s%s%s", name,
+                 near != NULL ? "; did you mean '"
+                              : "; they are quantity, unit, elements, unknowns, seconds, x, value, "
+                                "uncertainty",
+                 near != NULL ? near : "", near != NULL ? "'?" : "");
+}
+
+static void read_columns(reader *r, char *const field[], int count)
+{
+    r->placed = 1;
+    r->fields = count;
+    for (int i = 0; i < count; i++)
+        r->place[i] = -1;
+    for (int i = 0; i < count; i++)
+        find_column(r, field[i], i);
+    for (int c = 0; c < COLUMNS; c++) {
+        int found = !needed[c];
+        for (int i = 0; i < count; i++)
+            found |= r->place[i] == c;
+        if (!found)
+            mistakes_add(r->m, r->line, FIELDS + c, "column '%s' is missing", names[c]);
+    }
+}
+
+/* A number; an empty field is NAN where it may be empty. */
+static double number_of(const reader *r, const char *text, column c)
+{
+    double value;
+    if (text == NULL || text[0] == '\0') {
+        if (needed[c])
+            mistakes_add(r->m, r->line, 10 + c, "%s is missing", names[c]);
+        return NAN;
+    }
+    if (!line_number(text, &value)) {
+        mistakes_add(r->m, r->line, 10 + c, "%s '%.40s' is no number", names[c], text);
+        return NAN;
+    }
+    if ((c == SECONDS || c == UNCERTAINTY) && value < 0)
+        mistakes_add(r->m, r->line, 10 + c, "%s is below zero", names[c]);
+    return value;
+}
+
+static int count_of(const reader *r, const char *text, column c)
+{
+    const double value = number_of(r, text, c);
+    if (isnan(value))
+        return 0;
+    if (value >= 1 && value <= MOST_ELEMENTS && value == floor(value))
+        return (int)value;
+    mistakes_add(r->m, r->line, 10 + c, "%s '%.40s': give a whole number from 1 to %d", names[c],
+                 text, MOST_ELEMENTS);
+    return 0;
+}
+
+static void take_fields(const reader *r, const char *const at[COLUMNS], imported_row *row)
+{
+    *row = (imported_row){.line = r->line,
+                          .elements = count_of(r, at[ELEMENTS], ELEMENTS),
+                          .unknowns = count_of(r, at[UNKNOWNS], UNKNOWNS),
+                          .seconds = number_of(r, at[SECONDS], SECONDS),
+                          .x = number_of(r, at[X], X),
+                          .value = number_of(r, at[VALUE], VALUE),
+                          .uncertainty = number_of(r, at[UNCERTAINTY], UNCERTAINTY)};
+    if (strlen(at[UNIT]) >= sizeof row->unit || strlen(at[QUANTITY]) >= sizeof row->quantity)
+        mistakes_add(r->m, r->line, 1, "a quantity or a unit with too many letters");
+    snprintf(row->unit, sizeof row->unit, "%s", at[UNIT]);
+    snprintf(row->quantity, sizeof row->quantity, "%s", at[QUANTITY]);
+}
+
+static void read_row(reader *r, char *const field[], int count)
+{
+    const char *at[COLUMNS] = {0};
+    imported_row row;
+    if (count > r->fields) {
+        mistakes_add(r->m, r->line, 1, "%d fields under %d columns", count, r->fields);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        if (r->place[i] >= 0)
+            at[r->place[i]] = field[i];
+    if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
+        mistakes_add(r->m, r->line, 1, "%d fields under %d columns", count, r->fields);
+        return;
+    }
+    take_fields(r, at, &row);
+    if (!r->open)
+        r->block = import_block_open(r->set, &r->header, r->path, r->m);
+    r->open = 1;
+    if (row.elements > 0 && isfinite(row.value))
+        import_block_add(&r->block, &row);
+}
+
+static void read_fields(reader *r, char *line)
+{
+    char *field[FIELDS];
+    if (!r->versioned) {
+        mistakes_add(r->m, r->line, 1, "the file begins with '# beamwork-import: 1'");
+        r->versioned = 1;
+    }
+    const int count = line_split(line, field, FIELDS);
+    if (count > FIELDS)
+        mistakes_add(r->m, r->line, 1, "more than %d fields", FIELDS);
+    else if (!r->placed || strcmp(field[0], names[QUANTITY]) == 0)
+        read_columns(r, field, count);
+    else if (++r->rows > IMPORT_ROWS)
+        mistakes_add(r->m, r->line, 1, "more than %d rows", IMPORT_ROWS);
+    else
+        read_row(r, field, count);
+}
+
+static status read_line(reader *r, char *line, fault *f)
+{
+    line = line_trim(line);
+    if (line[0] == '\0')
+        return STATUS_OK;
+    if (!line_is_text(line)) {
+        mistakes_add(r->m, r->line, 1, "not a line of UTF-8 text without control characters");
+    } else if (line[0] == '#') {
+        TRY(close_block(r, f));
+        read_header(r, line);
+    } else {
+        read_fields(r, line);
+    }
+    return STATUS_OK;
+}
+
+/* With what import_file_read frees. */
+static status read_lines(reader *r, FILE *from, char **line, fault *f)
+{
+    size_t room = 0;
+    while (r->rows <= IMPORT_ROWS && getline(line, &room, from) >= 0) {
+        r->line++;
+        TRY(read_line(r, *line, f));
+    }
+    if (ferror(from))
+        return fault_set(f, STATUS_FAULT, "%.200s: %s", r->path, strerror(errno));
+    TRY(close_block(r, f));
+    if (r->rows == 0 && r->m->count == 0)
+        mistakes_add(r->m, r->line > 0 ? r->line : 1, 1,
+                     "no values; the first line that is no remark "
+                     "names the columns, the others are values");
+    return mistakes_status(r->m, f);
+}
+
+status import_file_read(const char *path, import_set *into, mistakes *m, fault *f)
+{
+    FILE *from = line_open(path);
+    if (from == NULL)
+        return fault_set(f, STATUS_FAULT, "%.200s: %s", path, strerror(errno));
+    reader r = {.set = into, .path = path, .m = m, .header = {.axes = axes_same}};
+    char *line = NULL;
+    const status outcome = read_lines(&r, from, &line, f);
+    if (r.open)
+        imported_free(r.block.found);
+    free(line);
+    fclose(from);
+    return outcome;
+}

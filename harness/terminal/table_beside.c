@@ -1,0 +1,280 @@
+#include "harness/terminal/table_beside.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/study/rounding.h"
+#include "harness/study/sentence.h"
+#include "harness/terminal/paragraph.h"
+#include "harness/terminal/table.h"
+#include "harness/terminal/table_curves.h"
+#include "harness/terminal/table_stability.h"
+
+enum {
+    HEAD = 8,
+    COLUMN = 15,
+    COLUMNS = (PARAGRAPH_WIDTH - HEAD) / COLUMN,
+    LINE = 1000,
+    DIGITS = 9
+};
+
+/* A series that ran, and what it is measured by. */
+typedef struct column {
+    const series *one;
+    const truth *row; /* NULL: none */
+    verdict shown;
+    const char *name; /* what is left of it to be written in the header */
+    char title[FORMULATION_KEY + 16];
+} column;
+
+/* A quantity of some formulations. */
+typedef struct block {
+    const scene_quantity *q;
+    int quantity, count;
+    column list[COLUMNS];
+} block;
+
+/* How much of a name goes on one line: to the last sign between its words that fits. */
+static int piece_of(const char *name)
+{
+    const int length = (int)strlen(name);
+    int fits = 0;
+    if (length < COLUMN)
+        return length;
+    for (int i = 0; i < COLUMN - 1; i++)
+        if (strchr("_:,= ", name[i]) != NULL)
+            fits = i + 1;
+    return fits > 0 ? fits : COLUMN - 1;
+}
+
+/* One line of the names; 0: they are written. */
+static int write_names(FILE *to, block *b, const char *head)
+{
+    int left = 0, last = -1;
+    for (int i = 0; i < b->count; i++)
+        last = b->list[i].name[0] != '\0' ? i : last;
+    fprintf(to, "%*s", HEAD, head);
+    for (int i = 0; i <= last; i++) {
+        column *c = &b->list[i];
+        const int length = piece_of(c->name);
+        fprintf(to, " %*.*s", COLUMN - 1, length, c->name);
+        c->name += length;
+        left += c->name[0] != '\0';
+    }
+    fputc('\n', to);
+    return left;
+}
+
+static const solve_result *result_of(const series *one, int elements)
+{
+    for (int k = 0; k < one->meshes; k++)
+        if (one->mesh[k] == elements)
+            return &one->cell[k].solve;
+    return NULL;
+}
+
+/* The error, or the value where nothing is known to measure it by; why there is none. */
+static void write_cell(FILE *to, const block *b, const column *c, int elements)
+{
+    const solve_result *r = result_of(c->one, elements);
+    const double x =
+        r != NULL && b->quantity < r->quantities ? r->quantity[b->quantity].value : (double)NAN;
+    char text[ROUNDING_TEXT] = "-";
+    if (r != NULL && !isfinite(x))
+        snprintf(text, sizeof text, "%s",
+                 status_name(r->status == STATUS_OK ? STATUS_NO_VALUE : r->status));
+    else if (c->row != NULL)
+        rounding_percent(verdict_error(b->q, x, c->row->value), text);
+    else
+        rounding_digits(x, DIGITS, text);
+    fprintf(to, "%*s", COLUMN, text);
+}
+
+static void write_limit(FILE *to, const block *b, const column *c)
+{
+    char text[ROUNDING_TEXT];
+    if (c->row != NULL)
+        rounding_percent(verdict_error(b->q, c->shown.fit.limit, c->row->value), text);
+    else
+        rounding_known(c->shown.fit.limit, c->shown.fit.limit_uncertainty, text);
+    fprintf(to, "%*s", COLUMN, text);
+}
+
+/* In percent of what the error is relative to, as the error is. */
+static void write_uncertainty(FILE *to, const block *b, const column *c)
+{
+    const double own = c->shown.fit.limit_uncertainty;
+    const double shown =
+        c->row != NULL ? 100 * fabs(verdict_error(b->q, c->row->value + own, c->row->value)) : own;
+    char text[ROUNDING_TEXT], unit[ROUNDING_TEXT + 2];
+    rounding_digits(shown, 2, text);
+    snprintf(unit, sizeof unit, "%s%s", text, c->row != NULL && isfinite(shown) ? " %" : "");
+    fprintf(to, "%*s", COLUMN, unit);
+}
+
+static void write_order(FILE *to, const block *b, const column *c)
+{
+    (void)b;
+    table_value(to, COLUMN, 2, 'f', c->shown.fit.order);
+}
+
+static void write_row(FILE *to, const block *b, const char *head,
+                      void (*cell)(FILE *, const block *, const column *))
+{
+    fprintf(to, "%*s", HEAD, head);
+    for (int i = 0; i < b->count; i++)
+        cell(to, b, &b->list[i]);
+    fputc('\n', to);
+}
+
+/* Every number of elements that a formulation of the block was solved with, ascending. */
+static void write_meshes(FILE *to, const block *b)
+{
+    for (int last = 0, next = 0;; last = next) {
+        next = 0;
+        for (int i = 0; i < b->count; i++)
+            for (int k = 0; k < b->list[i].one->meshes; k++) {
+                const int n = b->list[i].one->mesh[k];
+                next = n > last && (next == 0 || n < next) ? n : next;
+            }
+        if (next == 0)
+            return;
+        fprintf(to, "%*d", HEAD, next);
+        for (int i = 0; i < b->count; i++)
+            write_cell(to, b, &b->list[i], next);
+        fputc('\n', to);
+    }
+}
+
+/* What a limit shows that is no pass, in words. */
+static void write_sentences(FILE *to, const block *b)
+{
+    for (int i = 0; i < b->count; i++) {
+        char text[2 * FAULT_TEXT];
+        const column *c = &b->list[i];
+        if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
+            continue; /* of the latter once, at the end */
+        sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
+        paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
+    }
+}
+
+static void write_block(FILE *to, block *b)
+{
+    const char *head = "n";
+    for (int i = 0; i < b->count; i++)
+        b->list[i].name = b->list[i].title;
+    while (write_names(to, b, head))
+        head = "";
+    write_meshes(to, b);
+    write_row(to, b, "limit", write_limit);
+    write_row(to, b, "+-", write_uncertainty);
+    write_row(to, b, "order", write_order);
+    write_sentences(to, b);
+}
+
+/* "; exact 11419457.12 (haringx)". */
+static void add_truth(char *line, size_t size, const truth *row)
+{
+    const size_t used = strlen(line);
+    char value[ROUNDING_TEXT];
+    rounding_known(row->value, row->uncertainty, value);
+    snprintf(line + used, size - used, "%s%s %s%s%s%s", used > 0 ? "; " : "errors against ",
+             row->kind, value, row->theory[0] != '\0' ? " (" : "", row->theory,
+             row->theory[0] != '\0' ? ")" : "");
+}
+
+/* Name, unit and what the formulations are measured by, each once. */
+static void write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
+{
+    const point *p = &s->point[0];
+    const scene_quantity *q = &p->scene.quantity[quantity];
+    char line[LINE] = "";
+    const truth *last = NULL;
+    for (int i = 0; i < s->seriess; i++) {
+        const truth *row = verdict_reference(t, p, &s->series[i].formulation, quantity);
+        int known = row == NULL || s->series[i].missing[0] != '\0' || row == last;
+        for (int k = 0; k < i && !known; k++)
+            known = s->series[k].missing[0] == '\0' &&
+                    verdict_reference(t, p, &s->series[k].formulation, quantity) == row;
+        if (!known)
+            add_truth(line, sizeof line, row);
+        last = row != NULL && s->series[i].missing[0] == '\0' ? row : last;
+    }
+    const int at = fprintf(to, "\n%s [%s], ", q->name, q->unit) - 1;
+    paragraph_write(to, at, 4, line[0] != '\0' ? line : "values: no truth, and no agreement");
+    if (q->prediction.source != NULL)
+        fprintf(to, "  prediction %.8g %s (%s, analytic)\n", q->prediction.value, q->unit,
+                q->prediction.source);
+}
+
+static void write_quantity(FILE *to, const sweep *s, const truths *t, int quantity)
+{
+    block b = {.q = &s->point[0].scene.quantity[quantity], .quantity = quantity};
+    int blocks = 0;
+    write_heading(to, s, t, quantity);
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        if (one->missing[0] == '\0') {
+            column *c = &b.list[b.count++];
+            *c = (column){.one = one,
+                          .row = verdict_reference(t, &s->point[0], &one->formulation, quantity),
+                          .shown = {.series = i, .quantity = quantity}};
+            snprintf(c->title, sizeof c->title, "%s%s", one->formulation.key,
+                     one->without.other ? " (other model)" : "");
+            verdict_reach(s, t, &c->shown);
+        }
+        if (b.count == COLUMNS || (b.count > 0 && i + 1 == s->seriess)) {
+            if (blocks++ > 0)
+                fputc('\n', to);
+            write_block(to, &b);
+            b.count = 0;
+        }
+    }
+}
+
+/* Those that miss the same stand on one line, before the first of them. */
+static void write_missing(FILE *to, const sweep *s)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        const char *missing = s->series[i].missing;
+        char line[LINE] = "";
+        int first = 1;
+        for (int k = 0; k < i; k++)
+            first &= strcmp(s->series[k].missing, missing) != 0;
+        if (missing[0] == '\0' || !first)
+            continue;
+        for (int k = i; k < s->seriess; k++)
+            if (strcmp(s->series[k].missing, missing) == 0)
+                snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", k > i ? ", " : "",
+                         s->series[k].formulation.key);
+        paragraph_say(to, fprintf(to, "not run, "), 4, "does not offer %s: %s", missing, line);
+    }
+}
+
+/* What those that ran leave out. */
+static void write_omissions(FILE *to, const sweep *s)
+{
+    for (int i = 0; i < s->seriess; i++) {
+        char words[OMISSION_TEXT];
+        omission_words(&s->series[i].without, words);
+        if (words[0] != '\0')
+            paragraph_write(to, fprintf(to, "%s: ", s->series[i].formulation.key), 4, words);
+    }
+}
+
+void table_beside(FILE *to, const sweep *s, const truths *t)
+{
+    table_point(to, &s->point[0]);
+    fputc('\n', to);
+    table_omitted(to, &s->point[0]);
+    for (int q = 0; q < s->point[0].scene.quantities; q++)
+        if (s->point[0].scene.quantity[q].reduction != SCENE_CURVE)
+            write_quantity(to, s, t, q);
+    table_curves_errors(to, s);
+    table_stability_meshes(to, s);
+    fputc('\n', to);
+    write_omissions(to, s);
+    write_missing(to, s);
+}

@@ -1,0 +1,234 @@
+#include "harness/terminal/table_verdicts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/study/rounding.h"
+#include "harness/terminal/paragraph.h"
+#include "harness/terminal/table.h"
+
+enum { NAME = 23, LIMIT = 16, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
+
+/* One point's part of the table. */
+typedef struct block {
+    FILE *to;
+    const sweep *s;
+    const point *at;
+    int count;
+    const verdict **verdict; /* [count] of the point, set to NULL once they are printed */
+    int name;                /* width of the names; a longer one has a line of its own */
+    int rules;
+    const rule *rule[MOST_RULES]; /* that were named, numbered from 1 */
+} block;
+
+static const series *series_of(const block *b, const verdict *v)
+{
+    return &b->s->series[v->series];
+}
+
+static void print_columns(const block *b)
+{
+    fprintf(b->to, "    %-*s %*s %*s %*s %12s %s\n", b->name, "formulation", LIMIT, "limit", DOUBT,
+            "+-", ORDER, "order", "error", "verdict");
+}
+
+/* What another model says of a quantity that has a truth. */
+static void print_other_model(const block *b, const truth *other)
+{
+    char value[ROUNDING_TEXT];
+    rounding_known(other->value, other->uncertainty, value);
+    paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
+}
+
+/* A quantity and the truth that the verdict and those below it are judged by. */
+static void print_quantity(const block *b, const scene_quantity *q, const verdict *v)
+{
+    const truth *row = v->truth;
+    fprintf(b->to, "  %s [%s]", q->name, q->unit);
+    if (row != NULL) {
+        fprintf(b->to, ", truth ");
+        table_known(b->to, 1, row->value, row->uncertainty);
+        if (row->uncertainty > 0) {
+            fprintf(b->to, " +- ");
+            table_digits(b->to, 1, row->uncertainty, 2);
+        }
+        fprintf(b->to, " (%s%s%s)", row->kind, row->theory[0] != '\0' ? ", " : "", row->theory);
+    }
+    fputc('\n', b->to);
+    if (row != NULL && v->model_truth != NULL)
+        print_other_model(b, v->model_truth);
+}
+
+/* Its number; 0: there is none, or no room for it. */
+static int number_of_rule(block *b, const rule *r)
+{
+    int i = 0;
+    while (i < b->rules && b->rule[i] != r)
+        i++;
+    if (r == NULL || i == MOST_RULES)
+        return 0;
+    if (i == b->rules)
+        b->rule[b->rules++] = r;
+    return i + 1;
+}
+
+/* How far the limit is from what it is not judged by. */
+static void add_difference(const verdict *v, char *text, size_t size)
+{
+    const truth *other = v->model_truth;
+    if (v->kind == VERDICT_OTHER_MODEL && strcmp(other->kind, "agreement") != 0)
+        snprintf(text, size, "; %+.3g %% from the %s value", 100 * v->model_error, other->kind);
+    else if (other->theory[0] != '\0')
+        snprintf(text, size, "; %+.3g %% from %s", 100 * v->model_error, other->theory);
+    else
+        snprintf(text, size, "; %+.3g %% from %s (%s)", 100 * v->model_error,
+                 strcmp(other->kind, "agreement") == 0 ? "where families agree" : "another model",
+                 other->kind);
+}
+
+/* What stands in the last column. */
+static void verdict_words(block *b, const verdict *v, char *text, size_t size)
+{
+    const int number = v->matches ? number_of_rule(b, v->rule) : 0;
+    int used = snprintf(text, size, "%s", verdict_name(v->kind));
+    if (!v->matches)
+        used +=
+            snprintf(text + used, size - (size_t)used, "  << expected %s",
+                     v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
+    else if (number > 0)
+        used += snprintf(text + used, size - (size_t)used, " [%d]", number);
+    if (v->truth == NULL && isfinite(v->model_error))
+        add_difference(v, text + used, size - (size_t)used);
+}
+
+static void print_verdict(block *b, const verdict *v)
+{
+    const char *name = series_of(b, v)->formulation.key;
+    const int column = 4 + b->name + LIMIT + DOUBT + ORDER + 3 + 12 + 1;
+    char words[160];
+    const int begun = fprintf(b->to, "    %-*s", b->name, name);
+    if (begun > 4 + b->name)
+        fprintf(b->to, "\n%*s", 4 + b->name, "");
+    fputc(' ', b->to);
+    table_known(b->to, LIMIT, v->fit.limit, v->fit.limit_uncertainty);
+    fputc(' ', b->to);
+    table_digits(b->to, DOUBT, v->fit.limit_uncertainty, 2);
+    table_value(b->to, ORDER + 1, 2, 'f', v->fit.order);
+    table_percent(b->to, v->error);
+    verdict_words(b, v, words, sizeof words);
+    fputc(' ', b->to);
+    paragraph_write(b->to, column, 6, words);
+    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* at the end, once */
+        paragraph_say(b->to, 0, 6, "%s", v->reason);
+}
+
+/* The verdicts of a quantity, those judged by the same truth together. */
+static void print_judged(block *b, int quantity)
+{
+    const scene_quantity *q = &b->at->scene.quantity[quantity];
+    for (int i = 0; i < b->count; i++) {
+        const verdict *first = b->verdict[i];
+        if (first == NULL || first->quantity != quantity || first->kind == VERDICT_SKIP)
+            continue;
+        print_quantity(b, q, first);
+        for (int k = i; k < b->count; k++) {
+            const verdict *v = b->verdict[k];
+            if (v == NULL || v->quantity != quantity || v->kind == VERDICT_SKIP ||
+                v->truth != first->truth)
+                continue;
+            print_verdict(b, v);
+            b->verdict[k] = NULL;
+        }
+    }
+}
+
+/* What was not judged, for one reason together. */
+static void print_skipped(block *b)
+{
+    for (int i = 0; i < b->count; i++) {
+        const verdict *first = b->verdict[i];
+        paragraph words;
+        int names = 0, last = -1;
+        if (first == NULL)
+            continue;
+        FILE *line = paragraph_begin(&words, b->to);
+        fprintf(line, "skip: %s: ", first->reason);
+        for (int k = i; k < b->count; k++) {
+            const verdict *v = b->verdict[k];
+            if (v == NULL || strcmp(v->reason, first->reason) != 0)
+                continue;
+            if (v->series != last)
+                fprintf(line, "%s%s", names++ > 0 ? ", " : "", series_of(b, v)->formulation.key);
+            last = v->series;
+            if (v != first)
+                b->verdict[k] = NULL;
+        }
+        paragraph_end(&words, 0, 2);
+    }
+}
+
+/* What series leave out, those that leave out the same together. */
+static void print_omissions(const block *b)
+{
+    const sweep *s = b->s;
+    for (int i = 0; i < s->seriess; i++) {
+        const series *one = &s->series[i];
+        char text[OMISSION_TEXT];
+        paragraph words;
+        int first = &s->point[one->point] == b->at && one->without.what != 0;
+        for (int k = 0; k < i && first; k++)
+            first =
+                s->series[k].point != one->point || s->series[k].without.what != one->without.what;
+        if (!first)
+            continue;
+        omission_words(&one->without, text);
+        FILE *line = paragraph_begin(&words, b->to);
+        for (int k = i; k < s->seriess; k++)
+            if (s->series[k].point == one->point && s->series[k].without.what == one->without.what)
+                fprintf(line, "%s%s", k > i ? ", " : "", s->series[k].formulation.key);
+        fprintf(line, ": %s", text);
+        paragraph_end(&words, 0, 2);
+    }
+}
+
+static void print_rules(const block *b)
+{
+    for (int i = 0; i < b->rules; i++)
+        paragraph_say(b->to, 0, 2, "[%d] %s: %s", i + 1, b->rule[i]->name, b->rule[i]->cause);
+}
+
+static void print_point(block *b, const judgement *j, int index)
+{
+    b->count = b->rules = b->name = 0;
+    b->at = &b->s->point[index];
+    for (int i = 0; i < j->verdicts; i++) {
+        const verdict *v = &j->verdict[i];
+        if (series_of(b, v)->point != index)
+            continue;
+        b->verdict[b->count++] = v;
+        const int width = paragraph_columns(series_of(b, v)->formulation.key);
+        b->name = width <= NAME && width > b->name ? width : b->name;
+    }
+    if (b->count == 0)
+        return;
+    fputc('\n', b->to);
+    table_point(b->to, b->at);
+    fputc('\n', b->to);
+    table_omitted(b->to, b->at);
+    b->name = b->name > 11 ? b->name : 11; /* of the heading */
+    print_columns(b);
+    for (int q = 0; q < b->at->scene.quantities; q++)
+        print_judged(b, q);
+    print_skipped(b);
+    print_omissions(b);
+    print_rules(b);
+}
+
+void table_verdicts(FILE *to, const sweep *s, const judgement *j)
+{
+    block b = {.to = to, .s = s, .verdict = calloc((size_t)j->verdicts + 1, sizeof(verdict *))};
+    for (int i = 0; i < s->points && b.verdict != NULL; i++)
+        print_point(&b, j, i);
+    free(b.verdict);
+}
