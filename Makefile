@@ -111,7 +111,7 @@ stress: all ## drive every formulation to extremes; a table, and build/stress.js
 
 .PHONY: motion
 motion: all ## integrators of motions in time: orders, what they conserve, large steps; build/motion.json
-	@$(PROGRAM) motion --expected harness/pace/expected.csv --time-limit 0 --json $(BUILD)/motion.json $(MOTION)
+	@$(PROGRAM) motion --expected harness/experiments/expected.csv --time-limit 0 --json $(BUILD)/motion.json $(MOTION)
 
 .PHONY: paces
 paces: all ## integrators on all cases of motion with all formulations, for profiles in the report; the reference held against another integrator; a minute; build/paces.json

@@ -1,10 +1,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/certificate/certificate_json.h"
-#include "harness/certificate/certificate_text.h"
 #include "harness/cli/cli.h"
 #include "harness/command/named.h"
+#include "harness/experiments/certificate_json.h"
+#include "harness/experiments/certificate_text.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/output.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "elements/feature.h"
+#include "harness/experiments/runs_on.h"
 #include "harness/records/schema.h"
-#include "harness/request/runs_on.h"
 #include "harness/terminal/paragraph.h"
 
 enum { COLUMN = 26, LINE = 4000 };

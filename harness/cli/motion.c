@@ -4,11 +4,11 @@
 
 #include "harness/cli/cli.h"
 #include "harness/command/named.h"
-#include "harness/pace/pace_json.h"
-#include "harness/pace/pace_judge.h"
-#include "harness/pace/pace_plan.h"
-#include "harness/pace/pace_table.h"
-#include "harness/ranges/axis.h"
+#include "harness/experiments/axis.h"
+#include "harness/experiments/pace_json.h"
+#include "harness/experiments/pace_judge.h"
+#include "harness/experiments/pace_plan.h"
+#include "harness/experiments/pace_table.h"
 #include "harness/records/output.h"
 
 /* Motions, and what is said of them. */
@@ -154,6 +154,6 @@ int cli_motion(int count, char **arguments)
         "\vbeamwork motion free_flight_space -f collocation -n 8 --integrator "
         "alpha,radau --step "
         "0.1..0.0125\n"
-        "beamwork motion --expected harness/pace/expected.csv",
+        "beamwork motion --expected harness/experiments/expected.csv",
         "fnsylau13vFoJjLYT", count, arguments, answer);
 }

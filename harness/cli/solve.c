@@ -7,6 +7,7 @@
 #include "harness/command/defaults.h"
 #include "harness/command/guard.h"
 #include "harness/command/supports_told.h"
+#include "harness/experiments/restart.h"
 #include "harness/formulations/parameters.h"
 #include "harness/records/csv.h"
 #include "harness/records/follow_record.h"
@@ -14,7 +15,6 @@
 #include "harness/records/output.h"
 #include "harness/records/store.h"
 #include "harness/records/system_folder.h"
-#include "harness/request/restart.h"
 #include "harness/terminal/table_follow.h"
 #include "harness/terminal/table_solution.h"
 

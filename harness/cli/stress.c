@@ -4,8 +4,8 @@
 
 #include "harness/cli/cli.h"
 #include "harness/command/named.h"
-#include "harness/extremes/extreme_json.h"
-#include "harness/extremes/extreme_table.h"
+#include "harness/experiments/extreme_json.h"
+#include "harness/experiments/extreme_table.h"
 #include "harness/records/output.h"
 #include "harness/spread/extreme_work.h"
 

@@ -12,10 +12,10 @@
 #include "harness/command/named.h"
 #include "harness/command/option_check.h"
 #include "harness/command/option_table.h"
+#include "harness/experiments/meshes.h"
+#include "harness/experiments/shard.h"
 #include "harness/newton/shapes.h"
 #include "harness/numerics/team.h"
-#include "harness/request/meshes.h"
-#include "harness/shards/shard.h"
 
 static int whole_number(const char *text, const char *what, long least, long most)
 {

@@ -4,7 +4,7 @@
 
 #include "harness/command/case_input.h"
 #include "harness/command/errors.h"
-#include "harness/request/solution.h"
+#include "harness/experiments/solution.h"
 
 solution_request defaults_request(const command_request *r, const case_type *type)
 {

@@ -3,7 +3,7 @@
 #define BEAMWORK_DEFAULTS_H
 
 #include "harness/command/command.h"
-#include "harness/request/solution.h"
+#include "harness/experiments/solution.h"
 
 enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
 

@@ -1,5 +1,6 @@
 #include <limits.h>
 
+#include "harness/experiments/meshes.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
 #include "harness/library/known.h"
@@ -8,7 +9,6 @@
 #include "harness/library/text.h"
 #include "harness/records/json_convergence.h"
 #include "harness/records/reach_line.h"
-#include "harness/request/meshes.h"
 #include "harness/study/families.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"

@@ -1,10 +1,10 @@
 #include <string.h>
 
+#include "harness/experiments/list_json.h"
+#include "harness/experiments/list_subject.h"
 #include "harness/library/call.h"
 #include "harness/library/known.h"
 #include "harness/library/text.h"
-#include "harness/request/list_json.h"
-#include "harness/request/list_subject.h"
 
 static status write(FILE *to, const list_subject *what, const truths *ledger, fault *f)
 {

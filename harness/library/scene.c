@@ -2,12 +2,12 @@
 #include <string.h>
 
 #include "cases/format/write.h"
+#include "harness/experiments/list_json.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/parameters.h"
 #include "harness/library/call.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"
-#include "harness/request/list_json.h"
 #include "harness/study/cell.h"
 
 /* At its defaults; the file and its name are taken. */

@@ -2,12 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/experiments/meshes.h"
+#include "harness/experiments/solution.h"
 #include "harness/library/call.h"
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"
 #include "harness/numerics/team.h"
-#include "harness/request/meshes.h"
-#include "harness/request/solution.h"
 #include "harness/study/scene_truths.h"
 
 enum { STEPS_MOST = 1000000 };

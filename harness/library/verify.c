@@ -1,5 +1,7 @@
 #include <limits.h>
 
+#include "harness/experiments/regressions.h"
+#include "harness/experiments/verification.h"
 #include "harness/library/call.h"
 #include "harness/library/contestants.h"
 #include "harness/library/known.h"
@@ -9,8 +11,6 @@
 #include "harness/records/json.h"
 #include "harness/records/output.h"
 #include "harness/records/store.h"
-#include "harness/request/regressions.h"
-#include "harness/request/verification.h"
 #include "harness/study/plan.h"
 #include "harness/study/scene_truths.h"
 #include "harness/study/worker.h"

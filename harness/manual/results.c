@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/extremes/extreme_record.h"
+#include "harness/experiments/extreme_record.h"
 
 const char *const results_about[] = {
     "HDF5; the last line of the file, behind it, holds its length and checksum. Attributes of the "

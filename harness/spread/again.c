@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/shards/stock.h"
+#include "harness/experiments/stock.h"
 
 enum { MOST = 1024 }; /* arguments */
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/shards/deal.h"
+#include "harness/experiments/deal.h"
 #include "harness/spread/cells.h"
 #include "harness/spread/identity.h"
 #include "harness/spread/sweep_work.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_EXTREME_WORK_H
 #define BEAMWORK_EXTREME_WORK_H
 
-#include "harness/extremes/extreme_run.h"
+#include "harness/experiments/extreme_run.h"
 #include "harness/spread/spread.h"
 
 /* A batch is one extreme or several, with the neighbouring meshes that its numbers need: whether

@@ -3,7 +3,7 @@
 #define BEAMWORK_SPREAD_IDENTITY_H
 
 #include "harness/command/command.h"
-#include "harness/shards/work.h"
+#include "harness/experiments/work.h"
 #include "harness/study/sweep.h"
 
 enum { IDENTITY_TEXT = 2000 };

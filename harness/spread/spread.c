@@ -4,11 +4,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/experiments/forecast.h"
+#include "harness/experiments/merge.h"
+#include "harness/experiments/shard.h"
 #include "harness/formulations/words.h"
 #include "harness/records/output.h"
-#include "harness/shards/forecast.h"
-#include "harness/shards/merge.h"
-#include "harness/shards/shard.h"
 
 static int writes(const command_request *r)
 {

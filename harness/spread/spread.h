@@ -3,8 +3,8 @@
 #define BEAMWORK_SPREAD_H
 
 #include "harness/command/command.h"
+#include "harness/experiments/work.h"
 #include "harness/formulations/environment.h"
-#include "harness/shards/work.h"
 
 /* How it ended. */
 typedef struct spread_end {

@@ -1,6 +1,6 @@
 #include "harness/spread/verification_work.h"
 
-#include "harness/request/verification.h"
+#include "harness/experiments/verification.h"
 
 /* In a process of its own: one worker, which nobody asks to end. */
 static status run(const sweep_work *of, sweep *part, fault *f)

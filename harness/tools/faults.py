@@ -247,13 +247,13 @@ BESIDE = {
         "analysis/(shapes|flutter|rotor|about|along|turns|sym|divided)",
     "cases/scene/|harness/(model|scene_writer|language|truth|comparison)/":
         "scene_file/(keys|scene|loads|units|parts|contents|stability|warping)|cli/(plane|physics)",
-    "cases/extremes/|harness/extremes/": "extremes",
+    "cases/extremes/|harness/experiments/": "extremes",
     "cases/closed_forms/": "scene_file/closed",
     "harness/cli/": "timing|extremes|imports|export|pace",
 }
 # Tests in C of other rooms that are near all the same.
 NEAR = {
-    "elements": "elements/test/|harness/contract/test/contract_|harness/analysis/test/(frequency"
+    "elements": "elements/test/|harness/experiments/test/contract_|harness/analysis/test/(frequency"
                 "|critical|along_eq)|harness/time/test/consistent_test",
     "cases": "cases/test/",
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Integrators on every case of motion, with every formulation that offers it and is practical: the
-problems of work-precision diagrams and performance profiles (harness/pace/paces.csv).
+problems of work-precision diagrams and performance profiles (harness/experiments/paces.csv).
 
 usage: paces.py PROGRAM -o FILE [WORD]     JSON for the report, and a line for each problem; WORD:
 only the rows whose case has it.
@@ -19,7 +19,7 @@ import subprocess
 import sys
 import time
 
-TABLE = pathlib.Path(__file__).resolve().parents[1] / "pace" / "paces.csv"
+TABLE = pathlib.Path(__file__).resolve().parents[1] / "experiments" / "paces.csv"
 EXPLICIT = "1e-11,1e-13"  # tolerances of its steps
 CELL, CHECK = "60", "60"  # [s] that a motion may take, of them all and of the explicit ones
 LEVEL = 1e-4  # of the lines that are shown

@@ -59,15 +59,15 @@ class Examples(ProgramTest):
     def setUpClass(cls):
         folder = cls.class_folder()
         cls.before, cls.place = folder / "before", folder / "files"
-        for made in ("build", "first", "second", "harness/pace"):
+        for made in ("build", "first", "second", "harness/experiments"):
             (cls.place / made).mkdir(parents=True)
         cls.before.mkdir()
         (cls.before / "beamwork").symlink_to(PROGRAM)
         for name in ("cases", "reference"):
             (cls.place / name).symlink_to(ROOT / name)
         shutil.copy(ROOT / "harness" / "baseline.csv", cls.place / "harness")
-        pace = (ROOT / "harness" / "pace" / "expected.csv").read_text(encoding="utf-8").splitlines(keepends=True)
-        for name, text in (("leaf.yaml", LEAF), ("theirs.csv", THEIRS), ("harness/pace/expected.csv", "".join(pace[:2]))):
+        pace = (ROOT / "harness" / "experiments" / "expected.csv").read_text(encoding="utf-8").splitlines(keepends=True)
+        for name, text in (("leaf.yaml", LEAF), ("theirs.csv", THEIRS), ("harness/experiments/expected.csv", "".join(pace[:2]))):
             (cls.place / name).write_text(text, encoding="utf-8")
         compile_shared(EXAMPLES / "timoshenko.c", cls.place / "mine.so")
         small, swept = "verify" + SMALL, "sweep elastica --vary load=1,2 -f beamw -n 1,2"

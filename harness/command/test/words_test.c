@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "elements/shared/choice.h"
-#include "harness/extremes/outcome.h"
+#include "harness/experiments/outcome.h"
 #include "harness/records/comparison.h"
 #include "harness/study/against.h"
 #include "harness/study/glossary.h"

@@ -6,7 +6,7 @@
 
 #include "elements/shared/lumped.h"
 #include "elements/test/worst.h"
-#include "harness/contract/specimen.h"
+#include "harness/experiments/specimen.h"
 
 enum { MOST = SPECIMEN_COORDINATES };
 

@@ -20,7 +20,7 @@ class Table(unittest.TestCase):
         timed = {r["case"] for r in table("reference/defaults.csv")
                  if r["parameter"] == "integrator"}
         self.assertGreaterEqual(len(timed), 11)
-        self.assertEqual({r["case"] for r in table("harness/pace/paces.csv")}, timed)
+        self.assertEqual({r["case"] for r in table("harness/experiments/paces.csv")}, timed)
 
 
 class Run(ProgramTest):

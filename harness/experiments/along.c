@@ -1,0 +1,368 @@
+/* Loads along one element in linear theory: as exact as forces and moments at its ends are, with
+ * the stiffness that it has under these (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
+ * sec. 5 and 10: Timoshenko's beam). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/quadrature.h"
+#include "harness/analysis/solve.h"
+#include "harness/experiments/checks.h"
+#include "harness/experiments/specimens.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/stencil.h"
+#include "harness/model/model.h"
+
+enum { SIX = 6, END = 1 };
+
+static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
+static const double rounding = 1e-8;                /* in parts of what a cantilever has */
+
+typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
+static const char *const support_name[SUPPORTS] = {
+    "held at its first node", "clamped at both nodes",
+    "clamped at one node and propped at the other", "hinged at both nodes"};
+/* Components of its two nodes that are held, a bit each. */
+static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
+
+/* Displacement and turn of a plane, and the sign of the turn in it. */
+static const struct {
+    int shift, turn, sign;
+} planes[2] = {{1, 5, 1}, {2, 4, -1}};
+
+/* What forces and moments at its end find: 1/EA, 1/GIt, and of each plane 1/EI and what shears. */
+typedef struct softness {
+    double axial, twist, bend[2], shear[2];
+} softness;
+
+/* Of both nodes: displacements, or reactions where they are held. */
+typedef struct ends {
+    double of[2][SIX];
+} ends;
+
+static void make_scene(support of, scene *s)
+{
+    const double y[3] = {0, 1, 0};
+    section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
+    spec.given.Iw = 0;
+    scene_init(s, "along");
+    const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
+              to = scene_add_node(s, L, 0, 0);
+    scene_add_member(s, from, to, profile, y);
+    for (int node = 0; node < 2; node++)
+        for (int c = 0; c < SIX; c++)
+            if (held[of][node] >> c & 1)
+                scene_hold(s, node, c, c);
+    scene_omit(s, SCENE_OMITTABLE & ~(unsigned)(FEATURE_WARPING | FEATURE_SHEAR));
+}
+
+static void ask(scene *s, int analysis, int number, scene_extract what)
+{
+    char name[SCENE_NAME];
+    snprintf(name, sizeof name, "v%d", number);
+    scene_add_quantity(s, name, "1", analysis, what);
+}
+
+/* The values of its quantities. */
+static status solve(const formulation *chosen, const scene *s, double value[], fault *f)
+{
+    const model_request what = {s, chosen->type, chosen->option, 1, 0, 0};
+    const solve_options options = {.newton = formulation_newton(chosen)};
+    solve_result found = {0};
+    model *m = NULL;
+    status outcome = scene_validate(s, f);
+    if (outcome == STATUS_OK)
+        outcome = model_alloc(&what, &m, f);
+    if (outcome == STATUS_OK) {
+        outcome = solve_scene(s, m, &options, &found, f);
+        for (int i = 0; i < found.quantities && outcome == STATUS_OK; i++)
+            value[i] = found.quantity[i].value;
+        result_free(&found);
+    }
+    model_free(m);
+    return outcome;
+}
+
+/* As the displacements between nodes have it: elements/field. */
+static double shear_of(const formulation *chosen, const section *c, int plane)
+{
+    const int rigid = !(chosen->type->offers & FEATURE_SHEAR) ||
+                      (plane == 0 && (chosen->type->lacks & LACKS_SHEAR_Y));
+    return rigid ? 0 : c->F[4 * plane] / c->shear_modulus;
+}
+
+/* REFUSED: one element does not take forces and moments at its end as the exact beam does, which no
+ * rule for loads along it can mend. */
+static status measure(const formulation *chosen, softness *out, fault *f)
+{
+    double C[SIX * SIX];
+    section c = {0};
+    scene s;
+    make_scene(CANTILEVER, &s);
+    const int analysis = scene_add_compliance(&s, SCENE_NONE, (scene_compliance){.node = END});
+    for (int i = 0; i < SIX * SIX; i++)
+        ask(&s, analysis, i, scene_compliance_entry(i / SIX, i % SIX));
+    status outcome = solve(chosen, &s, C, f);
+    if (outcome == STATUS_OK)
+        outcome = scene_constants(&s, 0, &c, f);
+    scene_free(&s);
+    TRY(outcome);
+    out->axial = C[0] / L;
+    out->twist = C[3 * SIX + 3] / L;
+    for (int k = 0; k < 2; k++) {
+        const int v = planes[k].shift, t = planes[k].turn;
+        const double tip = C[t * SIX + t] * L * L / 3, cross = planes[k].sign * C[v * SIX + t];
+        out->bend[k] = C[t * SIX + t] / L;
+        out->shear[k] = shear_of(chosen, &c, k);
+        if (!(fabs(C[v * SIX + v] / (tip + out->shear[k] * L) - 1) < rounding &&
+              fabs(cross / (out->bend[k] * L * L / 2) - 1) < rounding))
+            return fault_set(f, STATUS_REFUSED,
+                             "one element is not exact under a force at its end (along %c by "
+                             "%.2g)",
+                             "yz"[k], C[v * SIX + v] / (tip + out->shear[k] * L) - 1);
+    }
+    return STATUS_OK;
+}
+
+/* Stretch or twist, component c, under a load along it. */
+static void exact_along(support of, double soft, double load, int c, ends *out)
+{
+    const int both = held[of][END] >> c & 1;
+    out->of[END][c] = both ? -load * L / 2 : load * L * L / 2 * soft;
+    out->of[0][c] = both ? -load * L / 2 : -load * L;
+}
+
+/* Bending in a plane under a force and a moment along it, by the force method: R and M hold the
+ * end of a cantilever, which a hinge at its beginning turns. */
+static void exact_across(support of, const softness *soft, int k, double along, double turning,
+                         ends *out)
+{
+    const double bend = soft->bend[k], shear = soft->shear[k],
+                 vv = L * L * L / 3 * bend + shear * L, vt = L * L / 2 * bend, tt = L * bend,
+                 sign = planes[k].sign,
+                 v = along * (L * L * L * L / 8 * bend + L * L / 2 * shear) +
+                     turning * L * L * L / 3 * bend,
+                 t = along * L * L * L / 6 * bend + turning * L * L / 2 * bend;
+    double R = 0, M = 0, root = 0;
+    if (of == CLAMPED) {
+        const double det = vv * tt - vt * vt;
+        R = -(tt * v - vt * t) / det;
+        M = -(vv * t - vt * v) / det;
+    } else if (of == PROPPED) {
+        R = -v / vv;
+    } else if (of == HINGED) {
+        R = -(along * L / 2 + turning);
+        root = -(v + vv * R) / L;
+    }
+    double *begin = out->of[0], *end = out->of[END];
+    const int y = planes[k].shift, z = planes[k].turn;
+    begin[y] = -(along * L + R);
+    begin[z] = sign * (of == HINGED ? root : -(along * L * L / 2 + turning * L + R * L + M));
+    end[y] = of == CANTILEVER ? v : R;
+    end[z] = sign * (of == CLAMPED ? M : t + vt * R + root);
+}
+
+/* q: force and moment per length. */
+static ends exact_ends(support of, const softness *soft, const double q[SIX])
+{
+    ends out;
+    exact_along(of, soft->axial, q[0], 0, &out);
+    exact_along(of, soft->twist, q[3], 3, &out);
+    for (int k = 0; k < 2; k++)
+        exact_across(of, soft, k, q[planes[k].shift], planes[k].sign * q[planes[k].turn], &out);
+    return out;
+}
+
+static status found_ends(const formulation *chosen, support of, const double q[SIX], ends *out,
+                         fault *f)
+{
+    scene s;
+    make_scene(of, &s);
+    scene_add_load(&s, SCENE_DISTRIBUTED, 0, q[0], q[1], q[2]);
+    scene_add_load(&s, SCENE_DISTRIBUTED_MOMENT, 0, q[3], q[4], q[5]);
+    const int analysis = scene_add_linear(&s);
+    for (int i = 0; i < 2 * SIX; i++)
+        ask(&s, analysis, i,
+            held[of][i / SIX] >> i % SIX & 1 ? scene_reaction(i / SIX, i % SIX)
+                                             : scene_coordinate(i / SIX, i % SIX));
+    const status outcome = solve(chosen, &s, out->of[0], f);
+    scene_free(&s);
+    return outcome;
+}
+
+/* What it would be of a cantilever. */
+static double size_of(const softness *soft, int component, int reaction)
+{
+    const ends of =
+        exact_ends(CANTILEVER, soft, (const double[]){force, force, force, moment, moment, moment});
+    const int turns = component >= 3;
+    if (reaction)
+        return turns ? force * L * L / 2 + moment * L : force * L + moment;
+    return fabs(of.of[END][component]);
+}
+
+static void compare(const formulation *chosen, support of, const softness *soft,
+                    const double q[SIX], claim *one)
+{
+    ends found;
+    fault f = {""};
+    const ends right = exact_ends(of, soft, q);
+    if (found_ends(chosen, of, q, &found, &f) != STATUS_OK) {
+        claims_asks(one, 0, "%s under loads along it: %s", support_name[of], f.text);
+        return;
+    }
+    for (int i = 0; i < 2 * SIX; i++) {
+        const int node = i / SIX, c = i % SIX, reaction = held[of][node] >> c & 1;
+        const double a = found.of[node][c], b = right.of[node][c];
+        char words[SPECIMEN_WORDS];
+        claims_departs(
+            one, fabs(a - b) / size_of(soft, c, reaction),
+            "strain, stress: one element %s has under a load along it %.9g, not %.9g, as "
+            "%s%s; what is right under forces at the nodes is so under loads between "
+            "them where the strains are those of r and R of node_state, and at rest of "
+            "x axes along the element",
+            support_name[of], a, b, reaction ? "reaction to the " : "",
+            specimen_coordinate(NODE_COORDINATES * node + c, words));
+    }
+}
+
+/* Loads that the element takes itself. */
+enum { X = ELEMENT_ALONG_COORDINATES, M = SPECIMEN_STRAINS, SETTLING = 40, FINER = 50 };
+
+typedef struct taken {
+    const specimen *s;
+    const node_state *x;
+    double q[3 * ELEMENT_ALONG_POINTS];
+    double *inner; /* of x, from where states near it are settled */
+} taken;
+
+/* Forces with settled inner unknowns, K too where it is wanted. */
+static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
+{
+    const specimen *s = of->s;
+    const element_data *data = s->data;
+    const double none[M] = {0};
+    double e[M], J[M * X], sigma[M], C[M * M], mixed[3 * M], H[X * X], cross[M * X], both[X * X],
+        inner[SPECIMEN_INNER], memory[SPECIMEN_MEMORY], work[M * X];
+    along_output out = {.force = of->q,
+                        .e = e,
+                        .inner = inner,
+                        .sigma = sigma,
+                        .C = C,
+                        .memory = s->memory > 0 ? memory : NULL,
+                        .mixed = mixed,
+                        .H = H};
+    status outcome = STATUS_OK;
+    s->type.strain(data, x, &(strain_output){.e = e, .J = J});
+    memcpy(inner, of->inner, (size_t)s->inner * sizeof *inner);
+    for (int i = 0; i < SETTLING; i++) {
+        s->type.along(1, &data, x, &out, &outcome);
+        if (outcome != STATUS_OK || s->inner == 0 || s->type.update == NULL ||
+            s->type.update(data, none, memory, inner) < 1e-15)
+            break;
+    }
+    TRY(outcome);
+    s->type.along(1, &data, x, &out, &outcome);
+    memset(F, 0, X * sizeof *F);
+    dense_add_transpose_mul(X, s->strains, 1, J, sigma, F);
+    dense_add_transpose_mul(X, 3, 1, out.turn, out.moment, F);
+    for (int i = 0; i < X; i++)
+        F[i] -= out.ends[i];
+    if (K == NULL)
+        return outcome;
+    memcpy(of->inner, inner, (size_t)s->inner * sizeof *inner);
+    s->type.strain(data, x, &(strain_output){.s = sigma, .H = K});
+    dense_add_congruence(s->strains, X, J, C, K, work);
+    dense_add_congruence(3, X, out.turn, out.second, K, work);
+    memset(both, 0, sizeof both);
+    dense_mul(s->strains, 3, X, mixed, out.turn, cross);
+    dense_add_transpose_mul(X, s->strains, X, J, cross, both);
+    for (int i = 0; i < X; i++)
+        for (int j = 0; j < X; j++)
+            K[i * X + j] += H[i * X + j] + both[i * X + j] + both[j * X + i];
+    return outcome;
+}
+
+static int forces_of(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const taken *of = context;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_moved(&(specimen_place){of->s, of->x}, i, si / FINER, j, sj / FINER, x);
+    return (int)forces_under(of, x, values, NULL);
+}
+
+static void check_taken(const specimen *s, claims *c)
+{
+    static const double turn[3] = {0.5, -0.6, 0.7};
+    const double l = s->request.length;
+    double K[X * X], F[X], found[X][X], none[M] = {0}, inner[SPECIMEN_INNER], C[M * M], size = 0;
+    node_state bent[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
+    taken of = {.s = s, .x = x, .inner = inner};
+    if (s->type.along == NULL || s->nodes != 2)
+        return;
+    claims_doing(c, "along%s", s->words);
+    specimen_rest(s, inner);
+    if (specimen_settled(s, none, inner, &(stress_output){.C = C}) != STATUS_OK)
+        return;
+    for (int i = 0; i < s->strains && i < SIX; i++)
+        size = size > 0 ? fmin(size, C[i * (s->strains + 1)]) : C[i * (s->strains + 1)];
+    for (int i = 0; i < 3 * ELEMENT_ALONG_POINTS; i++)
+        of.q[i] = 0.01 * size * cos(1 + 2.3 * i);
+    specimen_state(s, 0.0002, 5, bent);
+    specimen_carry(s, turn, bent, x);
+    claim *derives =
+              claims_open(c, "under a load that it takes K is the derivative of the forces", 1e-7),
+          *sums = claims_open(c, "and the load is the sum of the forces", 1e-9);
+    specimen_rest(s, inner);
+    status outcome = forces_under(&of, x, F, K);
+    for (int a = 0; a < X && outcome == STATUS_OK; a++)
+        outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
+    claims_asks(derives, outcome == STATUS_OK,
+                "along: a state under a small load is outside what it can evaluate%s", s->words);
+    for (int a = 0; a < X && outcome == STATUS_OK; a++)
+        for (int b = 0; b < X; b++) { /* the symmetric part is that of the exponential chart */
+            const double ua = chart_unit(a, l), ub = chart_unit(b, l),
+                         change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
+                         scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
+            claims_departs(
+                derives, fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
+                "along: the derivative of force %d in coordinate %d is %.6g, differences "
+                "give %.6g%s",
+                a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
+        }
+    double point[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS];
+    quadrature_points(ELEMENT_ALONG_POINTS, point, weight);
+    for (int i = 0; i < 3 && outcome == STATUS_OK; i++) {
+        double load = 0;
+        for (int j = 0; j < ELEMENT_ALONG_POINTS; j++)
+            load += l * weight[j] * of.q[3 * j + i];
+        claims_departs(sums, fabs(F[i] + F[NODE_COORDINATES + i] + load) / (size * l),
+                       "along: forces on the nodes are %.6g for a load of %.6g%s",
+                       -F[i] - F[NODE_COORDINATES + i], load, s->words);
+    }
+}
+
+void checks_along(const formulation *chosen, claims *out)
+{
+    specimens_each(chosen, out, check_taken);
+    static const struct {
+        const char *name;
+        double q[SIX];
+    } load[] = {{"a uniform force along one element, and a torque", {force, force, force, moment}},
+                {"a uniform moment along one element", {0, 0, 0, 0, moment, moment}}};
+    softness soft;
+    fault f = {""};
+    claims_doing(out, "one element as a cantilever");
+    const status outcome = measure(chosen, &soft, &f);
+    for (size_t i = 0; i < sizeof load / sizeof load[0]; i++) {
+        if (outcome != STATUS_OK) {
+            claims_not_made(out, load[i].name, f.text);
+            continue;
+        }
+        for (support of = 0; of < SUPPORTS; of++) {
+            claims_doing(out, "one element %s under loads along it", support_name[of]);
+            compare(chosen, of, &soft, load[i].q, claims_open(out, load[i].name, rounding));
+        }
+    }
+}

@@ -1,0 +1,189 @@
+/* Inertia in time: what a motion takes derives from the kinetic energy T = 1/2 x' . M x' by
+ * Lagrange's equations,
+ *   taken = d(M x')/dt + p x w - dT/dx,  p x w at the rotations of each node,
+ * where p = M x' there and w is its angular velocity, x' and derivatives spatial. */
+#include <math.h>
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/experiments/checks.h"
+#include "harness/experiments/specimens.h"
+#include "harness/formulations/chart.h"
+#include "harness/formulations/stencil.h"
+
+enum { N = SPECIMEN_COORDINATES };
+
+/* Where derivatives of M x' are taken. */
+typedef struct moving_place {
+    specimen_place at;
+    const double *rate; /* [7n] */
+} moving_place;
+
+static int momenta_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const moving_place *m = context;
+    const specimen *s = m->at.s;
+    node_state x[ELEMENT_MAX_NODES];
+    double M[N * N];
+    specimen_moved(&m->at, i, si, j, sj, x);
+    const double rate[N] = {0};
+    const status outcome =
+        s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M, .rate = rate});
+    dense_mul_vec(s->coordinates, s->coordinates, M, m->rate, values);
+    return (int)outcome;
+}
+
+/* By differences: what a motion takes without accelerations. */
+static void by_differences(const moving_place *m, const double M[], double h[])
+{
+    const specimen *s = m->at.s;
+    const int n = s->coordinates;
+    double p[N], column[N];
+    dense_mul_vec(n, n, M, m->rate, p);
+    memset(h, 0, (size_t)n * sizeof *h);
+    for (int k = 0; k < s->nodes; k++)
+        vec3_cross(p + NODE_COORDINATES * k + 3, m->rate + NODE_COORDINATES * k + 3,
+                   h + NODE_COORDINATES * k + 3);
+    for (int i = 0; i < n; i++) {
+        const double unit = chart_unit(i, s->request.length);
+        stencil_first(momenta_at, m, n, i, column);
+        for (int j = 0; j < n; j++)
+            h[j] += column[j] / unit * m->rate[i];
+        h[i] -= dense_dot(n, column, m->rate) / unit / 2;
+    }
+}
+
+static double size_of(const specimen *s, const double F[])
+{
+    double size = 0;
+    for (int i = 0; i < s->coordinates; i++)
+        size = fmax(size, fabs(F[i]) * chart_unit(i, s->request.length));
+    return size;
+}
+
+static void compare(const specimen *s, const double found[], const double right[], double size,
+                    const char *what, claim *one)
+{
+    char where[SPECIMEN_WORDS];
+    for (int i = 0; i < s->coordinates; i++)
+        claims_departs(
+            one, claims_share(fabs(found[i] - right[i]) * chart_unit(i, s->request.length), size),
+            "inertia: taken in coordinate %d (%s) is %.6g, %s give %.6g%s", i + 1,
+            specimen_coordinate(i, where), found[i], what, right[i], s->words);
+}
+
+/* The forces are quadratic in the rates: central differences are exact. */
+static void check_rates(const specimen *s, const node_state x[], const double rate[],
+                        const double C[], double size, claim *one)
+{
+    const int n = s->coordinates;
+    char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
+    double moved[N], taken[2][N];
+    memcpy(moved, rate, (size_t)n * sizeof *moved);
+    for (int j = 0; j < n; j++) {
+        const double step = chart_unit(j, s->request.length);
+        for (int side = 0; side < 2; side++) {
+            moved[j] = rate[j] + (side ? step : -step);
+            s->type.inertia(s->data, x, NULL,
+                            &(inertia_output){.rate = moved, .taken = taken[side]});
+        }
+        moved[j] = rate[j];
+        for (int i = 0; i < n; i++) {
+            const double found = (taken[1][i] - taken[0][i]) / (2 * step);
+            claims_departs(
+                one, fabs(C[n * i + j] - found) * chart_unit(i, s->request.length) * step / size,
+                "inertia: C entry %d, %d (%s, %s) is %.6g, differences of what is taken "
+                "give %.6g%s",
+                i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
+                C[n * i + j], found, s->words);
+        }
+    }
+}
+
+/* An element that is turned as a whole, with its rates, takes the turned forces. */
+static void check_turned(const specimen *s, const node_state x[], const inertia_output *out,
+                         double size, claim *one)
+{
+    static const double turn[3] = {0.71, -1.93, 1.37};
+    const int n = s->coordinates;
+    node_state turned[ELEMENT_MAX_NODES];
+    double q[4], R[9], rate[N], acceleration[N], taken[N], right[N];
+    rotation_exp(turn, q);
+    rotation_matrix(q, R);
+    specimen_carry(s, turn, x, turned);
+    memcpy(rate, out->rate, (size_t)n * sizeof *rate);
+    memcpy(acceleration, out->acceleration, (size_t)n * sizeof *rate);
+    memcpy(right, out->taken, (size_t)n * sizeof *right);
+    for (int at = 0; at < n; at += NODE_COORDINATES)
+        for (int part = at; part < at + 6; part += 3) {
+            mat3_mul_vec(R, out->rate + part, rate + part);
+            mat3_mul_vec(R, out->acceleration + part, acceleration + part);
+            mat3_mul_vec(R, out->taken + part, right + part);
+        }
+    s->type.inertia(s->data, turned, NULL,
+                    &(inertia_output){.rate = rate, .acceleration = acceleration, .taken = taken});
+    compare(s, taken, right, size, "the same element turned as a whole", one);
+}
+
+static void check_one(const specimen *s, claims *c)
+{
+    const int n = s->coordinates;
+    if (n > 2 * NODE_COORDINATES) /* with other options */
+        return;
+    node_state x[ELEMENT_MAX_NODES];
+    double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
+    const moving_place place = {{s, x}, rate};
+    specimen_state(s, 0.2, 31, x);
+    specimen_numbers(2 * n, 77, numbers);
+    for (int i = 0; i < n; i++) {
+        rate[i] = 40 * numbers[i] * chart_unit(i, s->request.length);
+        acceleration[i] = 900 * numbers[n + i] * chart_unit(i, s->request.length);
+    }
+    claims_doing(c, "inertia in time%s", s->words);
+    inertia_output out = {.M = M, .rate = rate, .taken = h, .C = C};
+    const status outcome = s->type.inertia(s->data, x, NULL, &out);
+    claims_asks(claims_open(c, "it has inertia in time", 0), outcome == STATUS_OK,
+                "inertia: status '%s' in time%s", status_name(outcome), s->words);
+    if (outcome != STATUS_OK)
+        return;
+    by_differences(&place, M, right);
+    const double size = size_of(s, right);
+    compare(s, h, right, size, "differences of the kinetic energy",
+            claims_open(c, "what is taken derives from the energy", 1e-8));
+    check_rates(s, x, rate, C, size, claims_open(c, "C is the derivative by the rates", 1e-11));
+    dense_mul_vec(n, n, M, acceleration, right);
+    for (int i = 0; i < n; i++)
+        right[i] += h[i];
+    out = (inertia_output){.rate = rate, .acceleration = acceleration, .taken = taken};
+    s->type.inertia(s->data, x, NULL, &out);
+    compare(s, taken, right, size_of(s, right), "M times accelerations and what is taken without",
+            claims_open(c, "accelerations take M", 1e-12));
+    check_turned(s, x, &out, size_of(s, right),
+                 claims_open(c, "what is taken turns with the element", 1e-11));
+}
+
+/* Also without rotary inertia, where the twist alone has a moment of it. */
+static void check(const specimen *s, claims *c)
+{
+    specimen_request what = s->made;
+    specimen line;
+    fault f = {""};
+    check_one(s, c);
+    if (s->section.matrices || !(s->made.features & FEATURE_ROTARY_INERTIA))
+        return;
+    what.features &= ~(unsigned)FEATURE_ROTARY_INERTIA;
+    if (specimen_make(&what, &line, &f) == STATUS_OK)
+        check_one(&line, c);
+    specimen_free(&line);
+}
+
+void checks_in_time(const formulation *chosen, claims *out)
+{
+    if (!element_spreads(chosen->type, chosen->option)) {
+        claims_not_made(out, "what is taken derives from the energy",
+                        "in time its mass is lumped at its nodes");
+        return;
+    }
+    specimens_each(chosen, out, check);
+}

@@ -1,0 +1,190 @@
+#include "harness/experiments/list_json.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "cases/format/meaning.h"
+#include "elements/feature.h"
+#include "elements/shared/choice.h"
+#include "harness/experiments/runs_on.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/parameters.h"
+#include "harness/formulations/registry.h"
+#include "harness/records/json.h"
+#include "harness/records/json_record.h"
+#include "harness/study/cell.h"
+
+enum { MOST_CASES = 256 };
+
+static json_t *value_of(const parameter_type *p, double value)
+{
+    char word[ASSIGNMENT_VALUE];
+    if (p->choices == NULL)
+        return json_real(value);
+    choice_name(p->choices, (int)value, word, sizeof word);
+    return json_string(word);
+}
+
+/* "a|b|c". */
+static json_t *choices_of(const parameter_type *p)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < parameter_choices(p); i++)
+        json_array_append_new(list, value_of(p, i));
+    return list;
+}
+
+/* A limit; null: none. */
+static json_t *bound_of(const parameter_type *p, double value)
+{
+    const int none = p->choices != NULL || value <= -DBL_MAX || value >= DBL_MAX;
+    return none ? json_null() : json_real(value);
+}
+
+/* Of a table; value NULL: the defaults. */
+static json_t *parameters_of(const assignment_list *all, const double value[])
+{
+    json_t *list = json_array();
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(all->part, i)) != NULL; i++)
+        json_array_append_new(
+            list, json_pack("{s:s,s:s,s:o,s:o,s:o,s:o,s:o,s:s}", "name", p->name, "unit", p->unit,
+                            "value", value_of(p, value != NULL ? value[i] : p->value), "default",
+                            value_of(p, p->value), "min", bound_of(p, p->min), "max",
+                            bound_of(p, p->max), "choices", choices_of(p), "summary", p->summary));
+    return list;
+}
+
+static json_t *quantities_of(const scene *s)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < s->quantities; i++) {
+        const scene_quantity *q = &s->quantity[i];
+        char meaning[MEANING_ROOM];
+        meaning_of_quantity(s, i, meaning, sizeof meaning);
+        json_array_append_new(list, json_pack("{s:s,s:s,s:s,s:b}", "name", q->name, "unit", q->unit,
+                                              "meaning", meaning, "is_curve",
+                                              q->reduction == SCENE_CURVE));
+    }
+    return list;
+}
+
+static json_t *runs_of(const char *what, const runs_on *r)
+{
+    return json_pack("{s:s,s:b,s:s,s:b}", what, r->name, "runs", r->runs, "without", r->words,
+                     "other_model", r->other);
+}
+
+/* What a type declares at its options. */
+static json_t *declaration_of(const formulation *chosen)
+{
+    const series one = {.formulation = *chosen};
+    const subject s = {.series = &one};
+    const assignment_list options = formulation_options(chosen->type);
+    json_t *out = json_record(&record_declaration, &s, KEY);
+    json_object_set_new(out, "options", parameters_of(&options, chosen->option));
+    return out;
+}
+
+static json_t *all_cases(void)
+{
+    json_t *list = json_array();
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        json_array_append_new(list, json_pack("{s:s,s:s,s:s}", "case", registry_cases[i]->name,
+                                              "summary", registry_cases[i]->summary, "source",
+                                              registry_cases[i]->source));
+    return list;
+}
+
+static json_t *all_formulations(void)
+{
+    json_t *list = json_array();
+    formulation one;
+    for (int i = 0; formulations_at(i) != NULL; i++) {
+        formulation_default(formulations_at(i), &one);
+        json_array_append_new(list, declaration_of(&one));
+    }
+    return list;
+}
+
+static json_t *all_physics(void)
+{
+    json_t *list = json_array();
+    for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
+        json_array_append_new(list, json_pack("{s:s,s:s}", "name", feature_name(bit), "summary",
+                                              feature_summary(bit)));
+    return list;
+}
+
+static json_t *begin(void)
+{
+    return json_pack("{s:i}", "schema_version", SCHEMA_VERSION);
+}
+
+status list_json_all(FILE *to, int cases, int formulations, fault *f)
+{
+    json_t *root = begin();
+    if (cases)
+        json_object_set_new(root, "cases", all_cases());
+    if (formulations) {
+        json_object_set_new(root, "formulations", all_formulations());
+        json_object_set_new(root, "physics", all_physics());
+    }
+    return json_finish(root, to, f);
+}
+
+static json_t *scene_of(const case_type *type, const double value[], const scene *s)
+{
+    const assignment_list all = parameters_list(type);
+    json_t *root = begin(), *list = json_array();
+    json_object_set_new(root, "case", json_string(type->name));
+    json_object_set_new(root, "summary", json_string(type->summary));
+    json_object_set_new(root, "source", json_string(type->source));
+    json_object_set_new(root, "parameters", parameters_of(&all, value));
+    json_object_set_new(root, "quantities", quantities_of(s));
+    for (int i = 0; formulations_at(i) != NULL; i++) {
+        runs_on one;
+        runs_on_scene(s, formulations_at(i), &one);
+        json_array_append_new(list, runs_of("formulation", &one));
+    }
+    json_object_set_new(root, "formulations", list);
+    return root;
+}
+
+status list_json_case(FILE *to, const case_type *type, const double value[], fault *f)
+{
+    scene s = {0};
+    status outcome = cell_scene(type, value, NULL, &s, f);
+    if (outcome == STATUS_OK)
+        outcome = json_finish(scene_of(type, value, &s), to, f);
+    scene_free(&s);
+    return outcome;
+}
+
+static json_t *findings_of(const formulation *chosen, const rule *rules, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++)
+        if (rules_speak_of(&rules[i], chosen->key))
+            json_array_append_new(
+                list, json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:s}", "rule", rules[i].name, "cases",
+                                rules[i].cases, "condition", rules[i].condition, "quantities",
+                                rules[i].quantities, "verdicts", rules[i].verdicts, "cause",
+                                rules[i].cause, "proof", rules[i].proof));
+    return list;
+}
+
+status list_json_formulation(FILE *to, const formulation *chosen, const rule *rules, int count,
+                             fault *f)
+{
+    runs_on all[MOST_CASES];
+    json_t *root = begin(), *list = json_array();
+    json_object_update_new(root, declaration_of(chosen));
+    json_object_set_new(root, "findings",
+                        rules != NULL ? findings_of(chosen, rules, count) : json_null());
+    const int cases = runs_on_cases(chosen->type, all, MOST_CASES);
+    for (int i = 0; i < cases; i++)
+        json_array_append_new(list, runs_of("case", &all[i]));
+    json_object_set_new(root, "cases", list);
+    return json_finish(root, to, f);
+}

@@ -1,0 +1,248 @@
+#include "harness/experiments/ranges_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/experiments/ranges_file_impl.h"
+#include "harness/model/missing.h"
+#include "harness/study/checksum.h"
+
+enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
+static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
+
+/* A column of the file: its place in rows, its dimensions beside the points. */
+typedef struct column {
+    const char *name, *unit;
+    hid_t type;
+    int ranks, size[MOST_RANKS - 1];
+    const void *first; /* of these rows; of points: NULL */
+    int missing;       /* whole numbers: what stands where nothing was computed */
+} column;
+
+static int columns_of(const ranges *r, const rows *w, column out[RANGES_FILE_COLUMNS])
+{
+    const int f = r->formulations, m = r->meshes, q = r->quantities;
+    const rows none = {.points = 0};
+    const rows *from = w != NULL ? w : &none;
+    const column all[RANGES_FILE_COLUMNS] = {
+        {"points", NULL, H5T_NATIVE_DOUBLE, 1, {r->design.axes}, NULL, 0},
+        {"reference", NULL, H5T_NATIVE_DOUBLE, 1, {q}, from->reference, 0},
+        {"reference_doubt", "1", H5T_NATIVE_DOUBLE, 1, {q}, from->doubt, 0},
+        {"reference_kind", NULL, H5T_NATIVE_UINT8, 1, {q}, from->kind, ROWS_NONE},
+        {"value", NULL, H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->value, 0},
+        {"error", "1", H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->error, 0},
+        {"status", NULL, H5T_NATIVE_UINT8, 2, {f, m}, from->status, ROWS_NOT_COMPUTED},
+        {"cost", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->cost, 0},
+        {"seconds", "s", H5T_NATIVE_DOUBLE, 2, {f, m}, from->seconds, 0},
+        {"least", NULL, H5T_NATIVE_INT32, 2, {f, q}, from->least, 0},
+        {"not_modelled", NULL, H5T_NATIVE_INT32, 1, {f}, from->lacks, 0}};
+    memcpy(out, all, sizeof all);
+    return RANGES_FILE_COLUMNS;
+}
+
+static hsize_t line_of(const column *c)
+{
+    hsize_t line = 1;
+    for (int i = 0; i < c->ranks; i++)
+        line *= (hsize_t)c->size[i];
+    return line;
+}
+
+/* Points of a compressed piece: whole batches, as long as they are small. */
+static hsize_t piece_of(const ranges *r, const column *c)
+{
+    const double most = fmax(1, piece_bytes / (double)(line_of(c) * H5Tget_size(c->type)));
+    const long batch = r->points_in_batch;
+    double points = batch <= most ? floor(most / (double)batch) * (double)batch : floor(most);
+    points = fmin(points, (double)r->design.points);
+    return (hsize_t)points;
+}
+
+static void put_unit(record *r, hid_t set, const char *unit)
+{
+    if (unit != NULL)
+        record_text(r, set, "unit", unit);
+}
+
+static hid_t make_column(ranges_file *file, const column *c)
+{
+    hsize_t size[MOST_RANKS] = {(hsize_t)file->of->design.points}, piece[MOST_RANKS];
+    piece[0] = piece_of(file->of, c);
+    for (int i = 0; i < c->ranks; i++)
+        size[i + 1] = piece[i + 1] = (hsize_t)c->size[i];
+    const hid_t space = H5Screate_simple(c->ranks + 1, size, NULL),
+                layout = H5Pcreate(H5P_DATASET_CREATE), access = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_chunk(layout, c->ranks + 1, piece);
+    H5Pset_shuffle(layout);
+    H5Pset_deflate(layout, LEVEL);
+    if (c->type == H5T_NATIVE_DOUBLE)
+        H5Pset_fill_value(layout, H5T_NATIVE_DOUBLE, &(const double){NAN});
+    else
+        H5Pset_fill_value(layout, H5T_NATIVE_INT, &c->missing);
+    H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, (size_t)cache_bytes,
+                       H5D_CHUNK_CACHE_W0_DEFAULT);
+    const hid_t set =
+        H5Dcreate2(file->record.file, c->name, c->type, space, H5P_DEFAULT, layout, access);
+    file->record.bad |= set < 0;
+    put_unit(&file->record, set, c->unit);
+    H5Pclose(access);
+    H5Pclose(layout);
+    H5Sclose(space);
+    return set;
+}
+
+/* Names by number, a line each. */
+static void put_names(record *r, hid_t set, const char *name, const char *(*of)(int), int count)
+{
+    char text[LINE] = "";
+    size_t used = 0;
+    for (int i = 0; i < count && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i > 0 ? "\n" : "", of(i));
+    record_text(r, set, name, text);
+}
+
+static const char *name_of_bit(int bit)
+{
+    static char words[OMIT_WORDS];
+    missing_omit_words(1u << bit, words);
+    return words;
+}
+
+/* Words of an axis: its values in the file are their numbers. */
+static void put_words(record *r, hid_t points, const axis *a)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    for (int i = 0; to != NULL && i < a->count; i++) {
+        char word[ASSIGNMENT_VALUE];
+        axis_text(a, a->value[i], word, sizeof word);
+        fprintf(to, "%s%s", i > 0 ? "\n" : "", word);
+    }
+    r->bad |= to == NULL || fclose(to) != 0;
+    if (!r->bad)
+        record_text(r, points, a->of->name, text);
+    free(text);
+}
+
+static void put_columns(ranges_file *file)
+{
+    column all[RANGES_FILE_COLUMNS];
+    record *r = &file->record;
+    const int count = columns_of(file->of, NULL, all);
+    for (int i = 0; i < count && !r->bad; i++)
+        file->column[i] = make_column(file, &all[i]);
+    if (r->bad)
+        return;
+    for (int i = 0; i < file->of->design.axes; i++)
+        if (file->of->axis[i].kind == AXIS_WORDS)
+            put_words(r, file->column[0], &file->of->axis[i]);
+    put_names(r, file->column[3], "names", rows_reference_name, ROWS_REFERENCES);
+    put_names(r, file->column[6], "names", rows_status_name, ROWS_STATUSES);
+    put_names(r, file->column[10], "bits", name_of_bit, OMIT_BITS);
+}
+
+static status failed(const ranges_file *file, fault *f)
+{
+    return fault_set(f, STATUS_FAULT, "%.200s: the sweep could not be written (disk or memory)",
+                     file->to.to.path);
+}
+
+status ranges_file_open(const char *path, const ranges *r, const char *plan, ranges_file *out,
+                        fault *f)
+{
+    memset(out, 0, sizeof *out);
+    out->of = r;
+    TRY(output_open_whole(path, &out->to, f));
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    out->record =
+        (record){.file = H5Fcreate(out->to.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                 .scalar = H5Screate(H5S_SCALAR)};
+    for (int i = 0; i < RANGES_FILE_COLUMNS; i++)
+        out->column[i] = -1;
+    out->record.bad = out->record.file < 0 || out->record.scalar < 0;
+    if (!out->record.bad)
+        ranges_file_request(&out->record, r, plan);
+    if (!out->record.bad)
+        put_columns(out);
+    if (!out->record.bad)
+        return STATUS_OK;
+    return ranges_file_close(out, NULL, "", failed(out, f), f);
+}
+
+static void write_piece(record *r, hid_t set, const column *c, long first, int points,
+                        const void *value)
+{
+    hsize_t from[MOST_RANKS] = {(hsize_t)first}, size[MOST_RANKS] = {(hsize_t)points};
+    for (int i = 0; i < c->ranks; i++)
+        size[i + 1] = (hsize_t)c->size[i];
+    const hid_t file = H5Dget_space(set), memory = H5Screate_simple(c->ranks + 1, size, NULL);
+    H5Sselect_hyperslab(file, H5S_SELECT_SET, from, NULL, size, NULL);
+    r->bad |= H5Dwrite(set, c->type, memory, file, H5P_DEFAULT, value) < 0;
+    H5Sclose(memory);
+    H5Sclose(file);
+}
+
+/* Words by their number in the list. */
+static double place_of(const axis *a, double value)
+{
+    int i = 0;
+    while (a->kind == AXIS_WORDS && i < a->count && a->value[i] != value)
+        i++;
+    return a->kind == AXIS_WORDS ? i : value;
+}
+
+static status add_points(ranges_file *file, long first, int points, const column *c, fault *f)
+{
+    const int axes = file->of->design.axes;
+    double *at = malloc((size_t)points * (size_t)axes * sizeof *at);
+    status outcome = at != NULL ? design_points(&file->of->design, first, points, at, f)
+                                : fault_set(f, STATUS_FAULT, "out of memory for points");
+    for (int i = 0; i < points * axes && outcome == STATUS_OK; i++)
+        at[i] = place_of(&file->of->axis[i % axes], at[i]);
+    if (outcome == STATUS_OK)
+        write_piece(&file->record, file->column[0], c, first, points, at);
+    free(at);
+    return outcome;
+}
+
+status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
+{
+    column all[RANGES_FILE_COLUMNS];
+    const int count = columns_of(file->of, w, all);
+    TRY(add_points(file, first, w->points, &all[0], f));
+    for (int i = 1; i < count && !file->record.bad; i++)
+        write_piece(&file->record, file->column[i], &all[i], first, w->points, all[i].first);
+    return file->record.bad ? failed(file, f) : STATUS_OK;
+}
+
+/* The last line behind what the library has written, and the file in its place. */
+static status seal(ranges_file *file, fault *f)
+{
+    char line[CHECKSUM_LENGTH + 1];
+    const status summed = checksum_of_file(file->to.temporary, line, f);
+    if (summed == STATUS_OK) {
+        fseek(file->to.stream, 0, SEEK_END);
+        fputs(line, file->to.stream); /* the stream remembers an error until it is closed */
+    }
+    return output_finish(&file->to, summed, f);
+}
+
+status ranges_file_close(ranges_file *file, const tally *t, const char *content, status written,
+                         fault *f)
+{
+    record *r = &file->record;
+    if (written == STATUS_OK) {
+        record_text(r, r->file, "content", content);
+        ranges_file_worst(r, file->of, t);
+    }
+    for (int i = 0; i < RANGES_FILE_COLUMNS; i++)
+        if (file->column[i] >= 0)
+            r->bad |= H5Dclose(file->column[i]) < 0;
+    H5Sclose(r->scalar);
+    r->bad |= H5Fclose(r->file) < 0;
+    if (written == STATUS_OK && r->bad)
+        written = failed(file, f);
+    return written == STATUS_OK ? seal(file, f) : output_finish(&file->to, written, f);
+}

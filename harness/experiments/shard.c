@@ -1,0 +1,257 @@
+#include "harness/experiments/shard.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/experiments/deal.h"
+#include "harness/experiments/labour.h"
+#include "harness/experiments/stock.h"
+#include "harness/numerics/clock.h"
+#include "harness/study/child.h"
+#include "harness/study/interrupt.h"
+#include "harness/study/progress.h"
+
+status shard_parse(const char *text, int *index, int *count, fault *f)
+{
+    int used = 0;
+    if (strlen(text) < 20 && text[0] >= '0' && text[0] <= '9' &&
+        sscanf(text, "%d/%d%n", index, count, &used) == 2 && text[used] == '\0' && *count >= 1 &&
+        *count <= SHARD_MOST && *index >= 1 && *index <= *count) {
+        --*index;
+        return STATUS_OK;
+    }
+    return fault_set(f, STATUS_REFUSED,
+                     "--shard '%.40s': give K/N, the number of the shard and of how many (1/4)",
+                     text);
+}
+
+typedef struct hand {
+    pid_t process;
+    int from; /* -1: it does not run */
+} hand;
+
+typedef struct crew {
+    labour todo;
+    shard_outcome *out;
+    hand hand[SHARD_MOST_JOBS];
+    int jobs, running;
+    double cost, cost_done;
+    progress line;
+} crew;
+
+static status hire(crew *c, int self, fault *f)
+{
+    int ends[2];
+    const pid_t parent = getpid();
+    c->todo.shelf->at[self] = -1;
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe");
+    c->hand[self].process = fork();
+    if (c->hand[self].process == 0) {
+        child_begin(parent);
+        close(ends[0]);
+        labour_work(&c->todo, self, ends[1]);
+    }
+    close(ends[1]);
+    if (c->hand[self].process < 0) {
+        close(ends[0]);
+        return fault_set(f, STATUS_FAULT, "cannot start a process");
+    }
+    fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    c->hand[self].from = ends[0];
+    c->running++;
+    return STATUS_OK;
+}
+
+/* It has ended, or is ended. Returns how (of waitpid). */
+static int dismiss(crew *c, int self)
+{
+    close(c->hand[self].from);
+    c->hand[self].from = -1;
+    c->running--;
+    return child_reap(c->hand[self].process);
+}
+
+static void tell_lost(const crew *c, int batch, int how)
+{
+    char words[80];
+    child_ended(how, 0, 0, words, sizeof words);
+    if (c->todo.request->tell != NULL)
+        fprintf(c->todo.request->tell,
+                "beamwork: batch %d is lost: its process %s; start the shard again\n", batch + 1,
+                WIFSIGNALED(how) ? words : "ended before it was done");
+}
+
+/* What was left half-written of a batch is taken away; -1: of none. */
+static void clean(const crew *c, int batch, int gone)
+{
+    char stem[BATCH_STEM], name[BATCH_NAME];
+    if (batch < 0)
+        return;
+    batch_stem(c->todo.w, stem);
+    batch_name(stem, batch, name);
+    batch_clean(c->todo.request->into, name, gone);
+}
+
+/* One process that has something to say, or has ended. */
+static status attend(crew *c, int self, fault *f)
+{
+    labour_notice said;
+    const int gone = child_is_gone(c->hand[self].process);
+    const ssize_t got = read(c->hand[self].from, &said, sizeof said);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN) && !gone)
+        return STATUS_OK;
+    if (got == (ssize_t)sizeof said) {
+        if (said.status != STATUS_OK)
+            return fault_set(f, said.status, "%s", said.text);
+        c->out->done++;
+        c->out->seconds += said.seconds;
+        c->cost_done += c->todo.w->cost[said.batch];
+        char what[40];
+        snprintf(what, sizeof what, "batch %d", said.batch + 1);
+        if (progress_is_due(&c->line, clock_wall_seconds()))
+            progress_show(&c->line, clock_wall_seconds(), c->out->done,
+                          c->cost > 0 ? c->cost_done / c->cost : 0, what);
+        return STATUS_OK;
+    }
+    const int how = dismiss(c, self), batch = c->todo.shelf->at[self];
+    if (batch < 0)
+        return STATUS_OK;
+    c->out->lost++;
+    tell_lost(c, batch, how);
+    clean(c, batch, 1);
+    return hire(c, self, f);
+}
+
+static status work_off(crew *c, int asked, fault *f)
+{
+    struct pollfd ends[SHARD_MOST_JOBS + 1];
+    for (int i = 0; i < c->jobs; i++)
+        TRY(hire(c, i, f));
+    while (c->running > 0) {
+        for (int i = 0; i < c->jobs; i++)
+            ends[i] = (struct pollfd){.fd = c->hand[i].from, .events = POLLIN};
+        ends[c->jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
+        while (poll(ends, (nfds_t)c->jobs + 1, 1000) < 0 && errno == EINTR)
+            ;
+        if (ends[c->jobs].revents != 0) {
+            c->out->interrupted = 1;
+            return STATUS_OK;
+        }
+        for (int i = 0; i < c->jobs; i++)
+            if (ends[i].fd >= 0 && (ends[i].revents != 0 || child_is_gone(c->hand[i].process)))
+                TRY(attend(c, i, f));
+    }
+    return STATUS_OK;
+}
+
+/* Ends them whatever they do; what they left half-written is taken away. */
+static void end_all(crew *c)
+{
+    for (int i = 0; i < c->jobs; i++)
+        if (c->hand[i].from >= 0) {
+            kill(c->hand[i].process, SIGKILL);
+            dismiss(c, i);
+            clean(c, c->todo.shelf->at[i], 1);
+        }
+}
+
+static status run_crew(crew *c, fault *f)
+{
+    const int own = c->todo.request->stop <= 0;
+    interrupt asked = {.descriptor = -1};
+    if (own)
+        interrupt_begin(&asked);
+    c->line =
+        progress_begin(c->todo.request->progress, "batches", c->todo.count, clock_wall_seconds());
+    const status outcome = work_off(c, own ? asked.descriptor : c->todo.request->stop, f);
+    progress_end(&c->line);
+    end_all(c);
+    if (own)
+        interrupt_end(&asked);
+    return outcome;
+}
+
+static status make_folder(const char *into, fault *f)
+{
+    if (mkdir(into, 0777) == 0 || errno == EEXIST)
+        return STATUS_OK;
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be made (%s); choose another place", into,
+                     strerror(errno));
+}
+
+/* What the shard still has to do goes to list, the dearest first; mine[batches]. */
+static status make_list(crew *c, char mine[], fault *f)
+{
+    const work *w = c->todo.w;
+    stock s;
+    status outcome = stock_take(w, &c->todo.request->into, 1, mine, c->todo.request->tell, &s, f);
+    if (outcome == STATUS_OK)
+        deal_order(w->batches, w->cost, c->todo.list);
+    for (int i = 0; outcome == STATUS_OK && i < w->batches; i++) {
+        const int batch = c->todo.list[i];
+        if (!mine[batch])
+            continue;
+        c->out->mine++;
+        if (s.where[batch] >= 0) {
+            c->out->before++;
+            continue;
+        }
+        clean(c, batch, 0);
+        c->todo.list[c->todo.count++] = batch;
+        c->cost += w->cost[batch];
+    }
+    stock_free(&s);
+    return outcome;
+}
+
+/* With what shard_run frees. */
+static status run(crew *c, int shard[], char mine[], fault *f)
+{
+    const work *w = c->todo.w;
+    if (c->todo.list == NULL || shard == NULL || mine == NULL || c->todo.shelf == MAP_FAILED ||
+        deal_out(w->batches, w->cost, c->todo.request->count, shard) != 0)
+        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+    for (int i = 0; i < w->batches; i++)
+        mine[i] = shard[i] == c->todo.request->index;
+    TRY(make_folder(c->todo.request->into, f));
+    TRY(make_list(c, mine, f));
+    c->todo.here = node_here();
+    if (c->jobs > SHARD_MOST_JOBS)
+        c->jobs = SHARD_MOST_JOBS;
+    if (c->jobs > c->todo.count)
+        c->jobs = c->todo.count;
+    for (int i = 0; i < c->jobs; i++)
+        c->hand[i].from = -1;
+    return c->todo.count > 0 ? run_crew(c, f) : STATUS_OK;
+}
+
+status shard_run(const work *w, const shard_request *request, shard_outcome *out, fault *f)
+{
+    const size_t count = (size_t)w->batches + 1;
+    int *shard = malloc(count * sizeof *shard);
+    char *mine = calloc(count, 1);
+    crew c = {.todo = {.w = w,
+                       .request = request,
+                       .list = malloc(count * sizeof *c.todo.list),
+                       .shelf = mmap(NULL, sizeof *c.todo.shelf, PROT_READ | PROT_WRITE,
+                                     MAP_SHARED | MAP_ANONYMOUS, -1, 0)},
+              .out = out,
+              .jobs = request->jobs};
+    *out = (shard_outcome){.mine = 0};
+    const status outcome = run(&c, shard, mine, f);
+    if (c.todo.shelf != MAP_FAILED)
+        munmap(c.todo.shelf, sizeof *c.todo.shelf);
+    free(c.todo.list);
+    free(shard);
+    free(mine);
+    return outcome;
+}

@@ -1,0 +1,200 @@
+#include "harness/experiments/survey.h"
+#include "harness/model/features.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/shared/choice.h"
+#include "harness/experiments/ranges_points.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/parameters.h"
+#include "harness/records/assumptions.h"
+#include "harness/study/expense.h"
+#include "harness/study/plan.h"
+
+enum { LOOKED_AT = 9 };
+
+/* What the selection lets through. */
+typedef struct wanted {
+    const char *select;
+    select_words words;
+    char formulation[RANGES_FORMULATIONS]; /* 1: it holds for one of its quantities */
+    char runs[RANGES_FORMULATIONS];
+    const char *missing[RANGES_FORMULATIONS]; /* what keeps it from the first point it fails at */
+} wanted;
+
+static status add_point(const ranges *r, long index, sweep *s, fault *f)
+{
+    double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
+    TRY(design_points(&r->design, index, 1, at, f));
+    ranges_points_values(r, at, value);
+    TRY(plan_add(s, r->request.type, value, NULL, r->request.mesh, r->request.meshes, f));
+    return plan_extend(s, r->formulation, r->formulations, f);
+}
+
+/* A quantity of a scene that has one value. */
+static status add_quantity(ranges *r, const scene_quantity *q, fault *f)
+{
+    for (int i = 0; i < r->quantities; i++)
+        if (strcmp(r->quantity[i].name, q->name) == 0)
+            return STATUS_OK;
+    if (r->quantities == RANGES_QUANTITIES)
+        return fault_set(f, STATUS_REFUSED, "more than %d quantities; choose some with -k",
+                         RANGES_QUANTITIES);
+    ranges_quantity *out = &r->quantity[r->quantities++];
+    snprintf(out->name, sizeof out->name, "%s", q->name);
+    snprintf(out->unit, sizeof out->unit, "%s", q->unit);
+    return STATUS_OK;
+}
+
+/* Of one series: which quantities are asked for, and does it run? */
+static status look_at(ranges *r, const sweep *s, int index, wanted *w, fault *f)
+{
+    const series *one = &s->series[index];
+    const point *p = &s->point[one->point];
+    const int which = index % r->formulations;
+    w->runs[which] |= one->missing[0] == '\0';
+    if (one->missing[0] != '\0' && w->missing[which] == NULL)
+        w->missing[which] = one->missing;
+    for (int q = 0; q < p->scene.quantities; q++) {
+        const scene_quantity *wants = &p->scene.quantity[q];
+        char text[SWEEP_TEXT];
+        if (wants->reduction == SCENE_CURVE)
+            continue;
+        sweep_text(p, &one->formulation, wants->name, text);
+        select_meet(w->select, text, &w->words);
+        if (w->select != NULL && select_matches(w->select, text) <= 0)
+            continue;
+        w->formulation[which] = 1;
+        TRY(add_quantity(r, wants, f));
+    }
+    return STATUS_OK;
+}
+
+static const char *quantity_at(const void *context, int i)
+{
+    const scene *s = context;
+    return i < s->quantities ? s->quantity[i].name : NULL;
+}
+
+static status check_words(const wanted *w, const point *p, fault *f)
+{
+    char word[SELECT_WORD];
+    if (!select_unmet(w->select, &w->words, word))
+        return STATUS_OK;
+    const char *near = choice_nearest(word, quantity_at, &p->scene);
+    if (near == NULL)
+        return select_all_met(w->select, &w->words, f);
+    return fault_set(f, STATUS_REFUSED,
+                     "selection '%.60s': nothing is called '%.60s', did you mean '%s'?", w->select,
+                     word, near);
+}
+
+/* Formulations that are named run, or are refused; of all those that do not run are left out. */
+static status keep_running(ranges *r, const wanted *w, fault *f)
+{
+    int kept = 0, told = 0;
+    for (int i = 0; i < r->formulations; i++) {
+        const char *why = w->missing[i] != NULL ? w->missing[i] : "";
+        if (w->runs[i] && w->formulation[i]) {
+            r->formulation[kept++] = r->formulation[i];
+            continue;
+        }
+        if (w->runs[i])
+            continue;
+        if (r->request.formulations > 0)
+            return fault_set(f, STATUS_REFUSED, "%.60s does not offer %.160s, which %.60s needs",
+                             r->formulation[i].key, why, r->request.type->name);
+        if (told < (int)sizeof r->left_out)
+            told += snprintf(r->left_out + told, sizeof r->left_out - (size_t)told, "%s%s (%s)",
+                             told > 0 ? ", " : "", r->formulation[i].key, why);
+    }
+    r->formulations = kept;
+    if (kept > 0 && r->quantities > 0)
+        return STATUS_OK;
+    return w->select != NULL
+               ? fault_set(f, STATUS_REFUSED, "-k '%.100s' holds for no quantity of %.60s",
+                           w->select, r->request.type->name)
+               : fault_set(f, STATUS_REFUSED,
+                           "%.60s has no quantity of one value that a formulation can show",
+                           r->request.type->name);
+}
+
+static void take_meshes(ranges *r, const sweep *s)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->point[s->series[i].point].status == STATUS_OK) {
+            r->meshes = s->series[i].meshes;
+            memcpy(r->mesh, s->series[i].mesh, sizeof r->mesh);
+            return;
+        }
+}
+
+static status judge(ranges *r, const sweep *s, fault *f)
+{
+    wanted w = {.select = r->request.select};
+    int known = -1;
+    TRY(select_begin(w.select, &w.words, f));
+    for (int i = 0; i < s->seriess; i++)
+        if (s->point[s->series[i].point].status == STATUS_OK) {
+            known = s->series[i].point;
+            TRY(look_at(r, s, i, &w, f));
+        }
+    if (known < 0)
+        return fault_set(f, STATUS_REFUSED, "no scene can be built at the points looked at: %.200s",
+                         s->point[0].reason);
+    TRY(check_words(&w, &s->point[known], f));
+    scene_omission_words(features_omitted(&s->point[known].scene), r->omitted);
+    assumptions_words(&s->point[known], sizeof r->assumed, r->assumed);
+    take_meshes(r, s);
+    return keep_running(r, &w, f);
+}
+
+/* All that there are, until it is seen which run. */
+static void take_formulations(ranges *r)
+{
+    const ranges_request *q = &r->request;
+    r->formulations = q->formulations;
+    for (int i = 0; i < q->formulations; i++)
+        r->formulation[i] = q->formulation[i];
+    for (int i = 0; q->formulations == 0 && formulations_at(i) != NULL; i++)
+        if (r->formulations < RANGES_FORMULATIONS)
+            formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
+}
+
+/* [s] of a point beside its cells: its scene; a truth that is derived, of a case, of a scene */
+static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
+
+/* [s] about, of all cells. */
+static double cost_of(const sweep *s)
+{
+    double all = scene_cost * s->points;
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK)
+            for (int k = 0; k < s->series[i].meshes; k++)
+                all += expense_of_cell(s, i, k);
+    return all;
+}
+
+static status survey_points(ranges *r, sweep *s, fault *f)
+{
+    const long last = r->design.points - 1;
+    const int looks = last + 1 < LOOKED_AT ? (int)last + 1 : LOOKED_AT;
+    take_formulations(r);
+    for (int i = 0; i < looks; i++)
+        TRY(add_point(r, looks > 1 ? last * i / (looks - 1) : 0, s, f));
+    TRY(judge(r, s, f));
+    r->point_cost = cost_of(s) / looks;
+    if (r->request.derive != NULL)
+        r->point_cost += r->request.file != NULL ? derive_scene_cost : derive_cost;
+    return STATUS_OK;
+}
+
+status survey(ranges *r, fault *f)
+{
+    sweep s = {0};
+    const status outcome = survey_points(r, &s, f);
+    sweep_free(&s);
+    return outcome;
+}

@@ -1,0 +1,295 @@
+#include "harness/experiments/tally.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int least_of(long a, long b)
+{
+    return (int)(a < b ? a : b);
+}
+
+/* Places of an axis in the map, of at most so many. */
+static int places_of(const ranges *r, int index, int most)
+{
+    if (index >= r->design.axes)
+        return 1;
+    const axis *a = &r->axis[index];
+    if (a->count > 0)
+        return least_of(a->count, most);
+    /* fields of some points each */
+    const double fields =
+        r->design.axes > 1 ? sqrt((double)r->design.points / 4) : (double)r->design.points / 2;
+    return least_of((long)fmax(1, fields), most);
+}
+
+status tally_alloc(const ranges *r, tally *out, fault *f)
+{
+    const size_t cells = (size_t)r->formulations * (size_t)r->meshes,
+                 row = (size_t)r->formulations * (size_t)(r->quantities + 1);
+    memset(out, 0, sizeof *out);
+    out->of = r;
+    out->first_without = -1;
+    if (r->design.axes <= 2) {
+        out->columns = places_of(r, 0, TALLY_COLUMNS);
+        out->lines = places_of(r, 1, TALLY_ROWS);
+    }
+    out->series = calloc(row, sizeof *out->series);
+    out->map = calloc(row * (size_t)(out->columns * out->lines) + 1, sizeof *out->map);
+    out->failed = calloc(cells, sizeof *out->failed);
+    out->ran = calloc(cells, sizeof *out->ran);
+    out->cost = calloc(cells, sizeof *out->cost);
+    out->seconds = calloc(cells, sizeof *out->seconds);
+    return out->series != NULL && out->map != NULL && out->failed != NULL && out->ran != NULL &&
+                   out->cost != NULL && out->seconds != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for what a sweep comes to");
+}
+
+void tally_free(tally *t)
+{
+    free(t->series);
+    free(t->map);
+    free(t->failed);
+    free(t->ran);
+    free(t->cost);
+    free(t->seconds);
+    memset(t, 0, sizeof *t);
+}
+
+const tally_series *tally_of(const tally *t, int which, int quantity)
+{
+    return &t->series[which * (t->of->quantities + 1) + quantity];
+}
+
+const tally_place *tally_at(const tally *t, int which, int quantity, int line, int column)
+{
+    const int row = which * (t->of->quantities + 1) + quantity;
+    return &t->map[(row * t->lines + line) * t->columns + column];
+}
+
+double tally_edge(const tally *t, int axis_index, int place)
+{
+    const axis *a = &t->of->axis[axis_index];
+    const int places = axis_index == 0 ? t->columns : t->lines;
+    if (a->count > 0)
+        return axis_value(a, (int)(((long)place * a->count + places - 1) / places));
+    return axis_at(a, (double)place / places);
+}
+
+/* In which place of the map a value is. */
+static int place_of(const tally *t, int axis_index, double value)
+{
+    const int places = axis_index == 0 ? t->columns : t->lines;
+    int low = 0;
+    if (axis_index >= t->of->design.axes)
+        return 0;
+    const axis *a = &t->of->axis[axis_index];
+    if (a->value != NULL) {
+        while (low < a->count - 1 && a->value[low] != value)
+            low++;
+        return (int)((long)low * places / a->count);
+    }
+    const int falls = a->to < a->from;
+    while (low < places - 1) {
+        const double next = tally_edge(t, axis_index, low + 1);
+        if (falls ? value > next : value < next)
+            break;
+        low++;
+    }
+    return low;
+}
+
+/* One formulation and quantity at one point. */
+typedef struct seen {
+    int asked;  /* 0: nothing to measure by */
+    int proven; /* 1: by a truth */
+    int open;   /* 1: there is a value all the same */
+    int other;  /* 1: it is one of another model */
+    int least;  /* 0: never */
+    char within[SERIES_MAX_MESHES];
+} seen;
+
+/* A value without an error has nothing to be measured by: of another theory, for one. */
+static seen look_at(const tally *t, const rows *w, int here, int which, int quantity)
+{
+    const int kind = w->kind[rows_quantity(w, here, quantity)];
+    seen s = {.asked = kind != ROWS_NONE && kind != ROWS_DISPUTED,
+              .least = w->least[rows_least(w, here, which, quantity)]};
+    for (int k = 0; k < t->of->meshes; k++) {
+        const size_t at = rows_value(w, here, which, k, quantity);
+        s.open |= isfinite(w->value[at]) && isnan(w->error[at]);
+        if (w->status[rows_cell(w, here, which, k)] == ROWS_NOT_OFFERED)
+            s.asked = 0;
+        s.within[k] = fabs(w->error[at]) <= t->of->request.tolerance;
+    }
+    s.other = w->lacks[rows_lacks(w, here, which)] != 0;
+    s.open &= !s.other;
+    s.asked &= !s.open && !s.other;
+    s.proven = s.asked && (kind == ROWS_STORED || kind == ROWS_DERIVED);
+    return s;
+}
+
+static void count(const tally *t, tally_series *to, tally_place *place, const seen *s)
+{
+    if (place != NULL) {
+        place->points++;
+        place->other += s->other;
+    }
+    to->open += s->open;
+    if (!s->asked)
+        return;
+    to->asked++;
+    to->proven += s->proven;
+    for (int k = 0; k < t->of->meshes; k++)
+        to->within[k] += s->within[k];
+    to->never += s->least == 0;
+    to->everywhere = s->least > to->everywhere ? s->least : to->everywhere;
+    if (place == NULL)
+        return;
+    place->asked++;
+    place->proven += s->proven;
+    place->never += s->least == 0;
+    place->least = s->least > place->least ? s->least : place->least;
+}
+
+static void join(const tally *t, seen *all, const seen *one)
+{
+    const int open = all->open | one->open, proven = all->proven | one->proven,
+              other = all->other | one->other;
+    if (one->asked && !all->asked)
+        *all = *one;
+    all->other = other;
+    all->open = open;
+    all->proven = proven;
+    if (!one->asked)
+        return;
+    for (int k = 0; k < t->of->meshes; k++)
+        all->within[k] = all->within[k] && one->within[k];
+    if (all->least != 0 && (one->least == 0 || one->least > all->least))
+        all->least = one->least;
+}
+
+/* What is open may be within or not: only that another is not is known. */
+static void close(seen *all)
+{
+    if (!all->open)
+        return;
+    all->asked &= all->least == 0;
+    all->proven &= all->asked;
+    memset(all->within, 0, sizeof all->within);
+}
+
+/* No value is worse than any error. */
+static int is_worse(const tally_worst *a, const tally_worst *b)
+{
+    if (isnan(a->error) || isnan(b->error))
+        return isnan(a->error) && !isnan(b->error);
+    return fabs(a->error) > fabs(b->error);
+}
+
+static void keep_worst(tally *t, int which, const tally_worst *one)
+{
+    tally_worst *list = t->worst[which];
+    int *have = &t->worsts[which], at = *have;
+    while (at > 0 && is_worse(one, &list[at - 1]))
+        at--;
+    if (at == TALLY_WORST)
+        return;
+    *have += *have < TALLY_WORST;
+    for (int i = *have - 1; i > at; i--)
+        list[i] = list[i - 1];
+    list[at] = *one;
+}
+
+/* With the finest mesh: no solution, or the largest error of all quantities. */
+static void look_for_worst(tally *t, const rows *w, int here, long index, int which)
+{
+    const int finest = t->of->meshes - 1;
+    const int how = w->status[rows_cell(w, here, which, finest)];
+    tally_worst one = {.point = index, .quantity = -1, .status = how, .error = NAN};
+    if (how == ROWS_NOT_OFFERED || how == ROWS_NO_SCENE ||
+        w->lacks[rows_lacks(w, here, which)] != 0)
+        return;
+    for (int q = 0; q < t->of->quantities && how == STATUS_OK; q++) {
+        const double error = w->error[rows_value(w, here, which, finest, q)];
+        if (isnan(error) || (one.quantity >= 0 && fabs(error) <= fabs(one.error)))
+            continue;
+        one.quantity = q;
+        one.error = error;
+    }
+    if (how != STATUS_OK || one.quantity >= 0)
+        keep_worst(t, which, &one);
+}
+
+static void count_cells(tally *t, const rows *w, int here, int which)
+{
+    for (int k = 0; k < t->of->meshes; k++) {
+        const size_t from = rows_cell(w, here, which, k);
+        const int to = which * t->of->meshes + k, how = w->status[from];
+        if (how == ROWS_NOT_OFFERED || how == ROWS_NO_SCENE)
+            continue;
+        t->failed[to] += how != STATUS_OK;
+        t->ran[to]++;
+        t->cost[to] += w->cost[from];
+        t->seconds[to] += w->seconds[from];
+    }
+}
+
+static void count_formulation(tally *t, const rows *w, int here, int which, int line, int column)
+{
+    const int quantities = t->of->quantities, first = which * (quantities + 1);
+    const int mapped = t->columns > 0;
+    seen all = {.asked = 0};
+    for (int q = 0; q <= quantities; q++) {
+        if (q == quantities)
+            close(&all);
+        const seen one = q < quantities ? look_at(t, w, here, which, q) : all;
+        tally_place *place =
+            mapped ? &t->map[((first + q) * t->lines + line) * t->columns + column] : NULL;
+        count(t, &t->series[first + q], place, &one);
+        if (q < quantities)
+            join(t, &all, &one);
+    }
+    count_cells(t, w, here, which);
+}
+
+static void count_references(tally *t, const rows *w, int here)
+{
+    for (int q = 0; q < t->of->quantities; q++) {
+        const size_t at = rows_quantity(w, here, q);
+        t->kind[q][w->kind[at] < ROWS_REFERENCES ? w->kind[at] : ROWS_NONE]++;
+        t->doubt[q] = fmax(t->doubt[q], w->doubt[at]); /* a NAN is passed over */
+    }
+}
+
+static void count_point(tally *t, const rows *w, int here, long index, const double at[])
+{
+    const int mapped = t->columns > 0, column = mapped ? place_of(t, 0, at[0]) : 0,
+              line = mapped ? place_of(t, 1, t->of->design.axes > 1 ? at[1] : 0) : 0;
+    t->points++;
+    if (w->status[rows_cell(w, here, 0, 0)] == ROWS_NO_SCENE) {
+        t->first_without = t->without_scene++ == 0 ? index : t->first_without;
+        return;
+    }
+    count_references(t, w, here);
+    for (int i = 0; i < t->of->formulations; i++) {
+        const unsigned lacks = (unsigned)w->lacks[rows_lacks(w, here, i)];
+        t->others[i] += lacks != 0;
+        t->lacks[i] |= lacks;
+        count_formulation(t, w, here, i, line, column);
+        look_for_worst(t, w, here, index, i);
+    }
+}
+
+status tally_add(tally *t, long first, const rows *w, fault *f)
+{
+    const int axes = t->of->design.axes;
+    double *at = malloc((size_t)w->points * (size_t)axes * sizeof *at);
+    const status outcome = at != NULL ? design_points(&t->of->design, first, w->points, at, f)
+                                      : fault_set(f, STATUS_FAULT, "out of memory for points");
+    for (int i = 0; i < w->points && outcome == STATUS_OK; i++)
+        count_point(t, w, i, first + i, at + (size_t)i * (size_t)axes);
+    free(at);
+    return outcome;
+}

@@ -1,0 +1,146 @@
+/* Points of a sweep: grids, and sequences that fill a box. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/experiments/design.h"
+
+static const parameter_type table[] = {
+    {"a", "m", 1, -100, 100, NULL, ""},
+    {"b", "m", 1, -100, 100, NULL, ""},
+    {"c", "m", 1, -100, 100, NULL, ""},
+    {NULL, NULL, 0, 0, 0, NULL, NULL},
+};
+static const case_type box = {.name = "box", .parameters = {table}};
+
+/* Of the unit box, without parts. */
+static void unit_axes(axis out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (axis){.of = &table[i], .index = i, .kind = AXIS_LINEAR, .from = 0, .to = 1};
+}
+
+/* The last axis changes first. */
+static void grid(void)
+{
+    static const double right[] = {0, 1, 0, 2, 0, 3, 5, 1, 5, 2, 5, 3};
+    axis a[2];
+    design d;
+    double at[12];
+    axis_read(&box, "a=0..5/1", &a[0], NULL);
+    axis_read(&box, "b=1,2,3", &a[1], NULL);
+    gsl_test(design_make(DESIGN_GRID, 2, a, 0, 0, &d, NULL) != STATUS_OK, "a grid");
+    gsl_test_int((int)d.points, 6, "points of a grid");
+    design_points(&d, 0, 6, at, NULL);
+    gsl_test(memcmp(at, right, sizeof right) != 0, "order of a grid");
+    design_points(&d, 4, 1, at, NULL);
+    gsl_test(memcmp(at, right + 8, 2 * sizeof *at) != 0, "any point of a grid");
+    design_free(&d);
+    axis_free(&a[1]);
+}
+
+/* The manual of GSL, quasi-random sequences, prints these five. */
+static void sobol(void)
+{
+    static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};
+    axis a[3];
+    design d;
+    double at[10];
+    unit_axes(a);
+    gsl_test(design_make(DESIGN_SOBOL, 2, a, 5, 0, &d, NULL) != STATUS_OK, "Sobol");
+    design_points(&d, 0, 5, at, NULL);
+    gsl_test(memcmp(at, right, sizeof right) != 0, "the first points of Sobol");
+    design_free(&d);
+}
+
+/* The digits of n in a base, mirrored at the point. */
+static double mirrored(int n, int base)
+{
+    double out = 0, digit = 1.0 / base;
+    for (; n > 0; n /= base, digit /= base)
+        out += n % base * digit;
+    return out;
+}
+
+static void halton(void)
+{
+    static const int base[] = {2, 3, 5};
+    axis a[3];
+    design d;
+    double at[3 * 200];
+    unit_axes(a);
+    gsl_test(design_make(DESIGN_HALTON, 3, a, 200, 0, &d, NULL) != STATUS_OK, "Halton");
+    design_points(&d, 0, 200, at, NULL);
+    double worst = 0;
+    for (int i = 0; i < 600; i++)
+        worst = fmax(worst, fabs(at[i] - mirrored(i / 3 + 1, base[i % 3])));
+    gsl_test(!(worst < 1e-15), "200 points of Halton: %g", worst);
+    design_free(&d);
+}
+
+/* However points are asked for, they are the same: across the marks too. */
+static void anywhere(design_kind kind)
+{
+    enum { POINTS = 2 * DESIGN_STRIDE + 100 };
+    axis a[3];
+    design d;
+    double *all = malloc(3 * POINTS * sizeof *all), some[3 * 40];
+    unit_axes(a);
+    gsl_test(all == NULL || design_make(kind, 3, a, POINTS, 7, &d, NULL) != STATUS_OK, "%s",
+             design_name(kind));
+    design_points(&d, 0, POINTS, all, NULL);
+    static const long from[] = {0, 1, DESIGN_STRIDE - 20, DESIGN_STRIDE, 2 * DESIGN_STRIDE + 60};
+    for (size_t i = 0; i < sizeof from / sizeof from[0]; i++) {
+        design_points(&d, from[i], 40, some, NULL);
+        gsl_test(memcmp(some, all + 3 * from[i], sizeof some) != 0, "%s: 40 points from %ld",
+                 design_name(kind), from[i]);
+    }
+    for (int i = 0; i < 3 * POINTS; i++)
+        if (!(all[i] >= 0 && all[i] < 1))
+            gsl_test(1, "%s: outside the box", design_name(kind));
+    design_free(&d);
+    free(all);
+}
+
+/* Another seed, other points; the same, the same. */
+static void seeds(void)
+{
+    axis a[3];
+    double at[3][3];
+    unit_axes(a);
+    for (int i = 0; i < 3; i++) {
+        design d;
+        design_make(DESIGN_RANDOM, 3, a, 1, i < 2 ? 1 : 2, &d, NULL);
+        design_points(&d, 0, 1, at[i], NULL);
+        design_free(&d);
+    }
+    gsl_test(memcmp(at[0], at[1], sizeof at[0]) != 0, "one seed, one sequence");
+    gsl_test(memcmp(at[0], at[2], sizeof at[0]) == 0, "two seeds, two sequences");
+}
+
+static void is_refused(design_kind kind, const axis *a, long points, const char *word)
+{
+    design d;
+    fault f = {""};
+    gsl_test(design_make(kind, 1, a, points, 0, &d, &f) != STATUS_REFUSED, "refused: %s", word);
+    gsl_test(strstr(f.text, word) == NULL, "says '%s': %s", word, f.text);
+}
+
+int main(void)
+{
+    axis open[3], parted;
+    grid();
+    sobol();
+    halton();
+    anywhere(DESIGN_SOBOL);
+    anywhere(DESIGN_HALTON);
+    anywhere(DESIGN_RANDOM);
+    seeds();
+    unit_axes(open);
+    axis_read(&box, "a=0..1/4", &parted, NULL);
+    is_refused(DESIGN_GRID, open, 0, "how many parts");
+    is_refused(DESIGN_SOBOL, open, 0, "--points");
+    is_refused(DESIGN_SOBOL, &parted, 10, "leave out '/4'");
+    return gsl_test_summary();
+}

@@ -1,0 +1,297 @@
+/* Faults planted into formulations that have none: each is noticed, with a sentence that names the
+ * right thing. A fault changes what one of their functions gives. */
+#include <math.h>
+
+#include "harness/experiments/test/planted.h"
+
+static void strain_changed(const element_data *d, const node_state x[], strain_output *out,
+                           void (*change)(strain_output *))
+{
+    base->strain(d, x, out);
+    change(out);
+}
+
+/* A strain function whose outputs are changed. */
+#define STRAIN(name, statement)                                                                    \
+    static void name##_change(strain_output *out)                                                  \
+    {                                                                                              \
+        statement;                                                                                 \
+    }                                                                                              \
+    static void name(const element_data *d, const node_state x[], strain_output *out)              \
+    {                                                                                              \
+        strain_changed(d, x, out, name##_change);                                                  \
+    }
+
+STRAIN(sign_in_J, if (out->J != NULL) out->J[14 * 2 + 1] *= -1)
+STRAIN(percent_in_J, if (out->J != NULL) out->J[14 * 3 + 10] *= 1.01)
+STRAIN(turn_of_root, for (int i = 0; out->J != NULL && i < 8; i++) out->J[14 * i + 5] *= 1.01)
+STRAIN(no_H, if (out->s != NULL && out->H != NULL) memset(out->H, 0, sizeof(double[14 * 14])))
+STRAIN(term_of_H, if (out->s != NULL && out->H != NULL) out->H[14 * 4 + 4] *= 0.9)
+STRAIN(beyond_J, if (out->J != NULL) out->J[14 * 8] = 0)
+STRAIN(before_e, if (out->e != NULL) out->e[-1] = 0)
+
+static status nodes_exchanged_call(const element_data *d, const node_state x[], double J[])
+{
+    double swapped[7];
+    base->strain(d, x, &(strain_output){.J = J});
+    for (int i = 0; i < 8; i++) {
+        memcpy(swapped, J + 14 * i, sizeof swapped);
+        memcpy(J + 14 * i, J + 14 * i + 7, sizeof swapped);
+        memcpy(J + 14 * i + 7, swapped, sizeof swapped);
+    }
+    return STATUS_OK;
+}
+
+static void nodes_exchanged(const element_data *d, const node_state x[], strain_output *out)
+{
+    base->strain(d, x, out);
+    if (out->J != NULL)
+        nodes_exchanged_call(d, x, out->J);
+}
+
+static status half_energy(const element_data *d, const double e[], const double inner[],
+                          stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->energy != NULL)
+        *out->energy /= 2;
+    return outcome;
+}
+
+/* What is no number is taken for a node at rest: its position, its rotation. */
+static void deaf(const node_state x[], int node, int turn, node_state out[2])
+{
+    memcpy(out, x, 2 * sizeof *out);
+    for (int i = 0; i < 3 && !turn; i++)
+        if (!isfinite(x[node].r[i]))
+            out[node].r[i] = out[node].u[i] = 0.1;
+    for (int i = 0; i < 9 && turn; i++)
+        if (!isfinite(x[node].R[i]))
+            out[node].R[i] = i % 4 == 0;
+}
+
+static void deaf_to_places(const element_data *d, const node_state x[], strain_output *out)
+{
+    node_state y[2];
+    deaf(x, 0, 0, y);
+    base->strain(d, y, out);
+}
+
+static void deaf_to_turns(const element_data *d, const node_state x[], strain_output *out)
+{
+    node_state y[2];
+    deaf(x, 1, 1, y);
+    base->strain(d, y, out);
+}
+
+static status deaf_to_strains(const element_data *d, const double e[], const double inner[],
+                              stress_output *out)
+{
+    double f[8];
+    memcpy(f, e, sizeof f);
+    f[3] = isfinite(f[3]) ? f[3] : 0;
+    return base->stress(d, f, inner, out);
+}
+
+/* Bending about z is softer than the constants of the section say. */
+static status soft_about_z(const element_data *d, const double e[], const double inner[],
+                           stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    for (int i = 4; i < 6; i++) {
+        if (out->sigma != NULL)
+            out->sigma[i] *= 0.9;
+        for (int j = 0; j < 8 && out->C != NULL; j++)
+            out->C[8 * i + j] *= 0.9;
+    }
+    return outcome;
+}
+
+/* What is not claimed says by how much the element misses. */
+static void not_exact(void)
+{
+    static claims c;
+    formulation chosen;
+    element_type t = changed("beamw_consistent");
+    int said = 0;
+    t.stress = soft_about_z;
+    formulation_default(base, &chosen);
+    chosen.type = &t;
+    checks_along(&chosen, &c);
+    for (int i = 0; i < c.count; i++)
+        said += strstr(c.claim[i].sentence,
+                       "not exact under a force at its end (along y by 0.00") != NULL;
+    gsl_test_int(said, 2, "loads along an element that is too soft");
+    for (int i = 0; i < c.count && said != 2; i++)
+        gsl_test(1, "it said: %s", c.claim[i].sentence);
+}
+
+static status softer(const element_data *d, const double e[], const double inner[],
+                     stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->C != NULL)
+        out->C[0] *= 0.99;
+    return outcome;
+}
+
+static status unsymmetric(const element_data *d, const double e[], const double inner[],
+                          stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->C != NULL)
+        out->C[1] += 0.01 * out->C[0];
+    return outcome;
+}
+
+static status stressed_at_rest(const element_data *d, const double e[], const double inner[],
+                               stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    if (out->sigma != NULL)
+        out->sigma[0] += 1;
+    if (out->energy != NULL)
+        *out->energy += e[0];
+    return outcome;
+}
+
+static status gives_up(const element_data *d, const double e[], const double inner[],
+                       stress_output *out)
+{
+    const status outcome = base->stress(d, e, inner, out);
+    return fabs(e[0]) > 1e-5 ? STATUS_SINGULAR : outcome;
+}
+
+static void lopsided(const element_data *d, const double sigma[], double G[])
+{
+    base->geometric(d, sigma, G);
+    G[8] += 0.1 * sigma[0];
+}
+
+static void constant_geometric(const element_data *d, const double sigma[], double G[])
+{
+    base->geometric(d, sigma, G);
+    G[9] += 1e6;
+}
+
+static double lazy(const element_data *d, const double de[], const double memory[], double inner[])
+{
+    (void)d, (void)de, (void)memory, (void)inner;
+    return 1;
+}
+
+static status stiff_in_units(const element_request *request, element_data *out, fault *f)
+{
+    element_request longer = *request;
+    longer.length *= longer.length > 1 ? 1.01 : 1;
+    return base->prepare(&longer, out, f);
+}
+
+static status no_reason(const element_request *request, element_data *out, fault *f)
+{
+    return request->features & FEATURE_SHEAR ? base->prepare(request, out, f) : STATUS_REFUSED;
+}
+
+/* Of many elements at once, the energy of one for all. */
+static void one_energy(int count, const element_data *const data[], const double *const e[],
+                       const double *const inner[], stress_output out[], status outcome[])
+{
+    for (int k = 0; k < count; k++) {
+        outcome[k] = base->stress(data[k], e[k], inner[k], &out[k]);
+        if (out[k].energy != NULL)
+            *out[k].energy = *out[0].energy;
+    }
+}
+
+static void one_strain(int count, const element_data *const data[], const node_state x[],
+                       strain_output out[])
+{
+    for (int k = 0; k < count; k++) {
+        base->strain(data[k], x + (size_t)(2 * k), &out[k]);
+        if (k > 0 && out[k].e != NULL)
+            out[k].e[0] = out[0].e[0];
+    }
+}
+
+/* The features that are asked for, but some. */
+static status without(const element_request *request, unsigned features, element_data *out,
+                      fault *f)
+{
+    element_request less = *request;
+    less.features &= ~features;
+    return base->prepare(&less, out, f);
+}
+
+static status no_wagner(const element_request *request, element_data *out, fault *f)
+{
+    return without(request, FEATURE_WAGNER_MOMENTS, out, f);
+}
+
+static status no_shear(const element_request *request, element_data *out, fault *f)
+{
+    return without(request, FEATURE_SHEAR | FEATURE_ENGESSER | FEATURE_HARINGX, out, f);
+}
+
+static void no_amplitudes(const element_data *d, const node_state x[], strain_output *out)
+{
+    node_state flat[2] = {x[0], x[1]};
+    flat[0].a = flat[1].a = 0;
+    base->strain(d, flat, out);
+}
+
+static int one_order_less(const double options[])
+{
+    (void)options;
+    return -1;
+}
+
+static void derivatives(void)
+{
+    PLANT(strain, sign_in_J, "derivatives", "J: the derivative of strain 3 in coordinate 2",
+          "displacement along y of node 1");
+    PLANT(strain, percent_in_J, "derivatives", "J: the derivative of strain 4 in coordinate 11",
+          "rotation about x of node 2");
+    PLANT(strain, nodes_exchanged, "derivatives", "J: the derivative of strain", "differences");
+    PLANT(strain, no_H, "derivatives", "H: the second derivative of strain", "is 0, differences");
+    PLANT(strain, term_of_H, "derivatives", "in coordinates 5 and 5",
+          "rotation about y of node 1, rotation about y of node 1");
+    PLANT(stress, half_energy, "energy", "stress: sigma", "the energy's derivative");
+    PLANT(stress, softer, "energy", "C: the derivative of sigma 1 in strain 1", "differences");
+    PLANT(stress, unsymmetric, "energy", "C: entry 2, 1", "symmetric");
+    PLANT(stress, stressed_at_rest, "energy", "stress: sigma 1 of the undeformed element", "N");
+    PLANT(stress, gives_up, "energy", "stress: strains of some hundredths", "'singular'");
+    PLANT(geometric, lopsided, "energy", "geometric: G entry 1, 2", "symmetric");
+    PLANT(geometric, constant_geometric, "energy", "geometric: G entry 2, 2", "sum");
+}
+
+static void the_rest(void)
+{
+    PLANT(strain, beyond_J, "bounds", "strain: J: it has 112 entries", "entry 113");
+    PLANT(strain, before_e, "bounds", "strain: e", "before its first");
+    PLANT(prepare, stiff_in_units, "motion", "in units of", "instead of");
+    PLANT(prepare, no_reason, "features", "it is refused: no reason is given",
+          "asked for no feature");
+    PLANT(prepare, no_wagner, "features", "offers wagner moments, but nothing changes",
+          "do not offer it");
+    PLANT(prepare, no_shear, "features", "offers shear, but nothing changes", "do not offer it");
+    PLANT(strain, no_amplitudes, "features", "offers warping", "nothing depends on the warping");
+    PLANT(strain_many, one_strain, "many", "many at once gives other strains", "of 5");
+    PLANT(stress_many, one_energy, "many", "many at once gives other energies", "of 5");
+    PLANT(strain, deaf_to_places, "unsound", "a position of node 1 that is", "look sound");
+    PLANT(strain, deaf_to_turns, "unsound", "a rotation of node 2 that is", "look sound");
+    PLANT(stress, deaf_to_strains, "unsound", "stress: strain 4 that is", "look sound");
+    PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
+    PLANT(strain, turn_of_root, "along", "one element held at its first node",
+          "as reaction to the rotation about z of node 1");
+    element_type t = changed("collocation");
+    t.update = lazy;
+    planted("energy", &t, "update: after", "residual");
+}
+
+int main(void)
+{
+    derivatives();
+    not_exact();
+    the_rest();
+    return gsl_test_summary();
+}
