@@ -3,14 +3,14 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/command/help.h"
-#include "harness/contest/contest.h"
+#include "harness/cli/contest.h"
+#include "harness/cli/help.h"
+#include "harness/cli/timing_work.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/csv.h"
 #include "harness/records/output.h"
 #include "harness/records/store.h"
-#include "harness/spread/timing_work.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 #include "harness/study/timing.h"

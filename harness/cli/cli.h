@@ -2,10 +2,10 @@
 #ifndef BEAMWORK_CLI_H
 #define BEAMWORK_CLI_H
 
-#include "harness/command/case_input.h"
-#include "harness/command/command.h"
-#include "harness/command/files.h"
-#include "harness/command/message.h"
+#include "harness/cli/case_input.h"
+#include "harness/cli/command.h"
+#include "harness/cli/files.h"
+#include "harness/cli/message.h"
 
 typedef int cli_verb(int count, char **arguments);
 cli_verb cli_list, cli_solve, cli_verify, cli_converge, cli_bench, cli_stress, cli_compare,

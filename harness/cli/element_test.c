@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/command/named.h"
+#include "harness/cli/named.h"
 #include "harness/experiments/certificate_json.h"
 #include "harness/experiments/certificate_text.h"
 #include "harness/formulations/formulations.h"

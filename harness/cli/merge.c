@@ -1,8 +1,8 @@
 /* Batches of shards put together: the verb that they are of is asked again, to take them. */
 #include <string.h>
 
+#include "harness/cli/again.h"
 #include "harness/cli/cli.h"
-#include "harness/spread/again.h"
 
 static const struct {
     const char *name;

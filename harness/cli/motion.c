@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/command/named.h"
+#include "harness/cli/named.h"
 #include "harness/experiments/axis.h"
 #include "harness/experiments/pace_json.h"
 #include "harness/experiments/pace_judge.h"

@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "harness/cli/cli.h"
-#include "harness/manual/results.h"
+#include "harness/cli/results.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
 #include "harness/terminal/paragraph.h"

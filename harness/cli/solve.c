@@ -4,9 +4,9 @@
 
 #include "cases/scene/names.h"
 #include "harness/cli/cli.h"
-#include "harness/command/defaults.h"
-#include "harness/command/guard.h"
-#include "harness/command/supports_told.h"
+#include "harness/cli/defaults.h"
+#include "harness/cli/guard.h"
+#include "harness/cli/supports_told.h"
 #include "harness/experiments/restart.h"
 #include "harness/formulations/parameters.h"
 #include "harness/records/csv.h"

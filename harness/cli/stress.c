@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/command/named.h"
+#include "harness/cli/extreme_work.h"
+#include "harness/cli/named.h"
 #include "harness/experiments/extreme_json.h"
 #include "harness/experiments/extreme_table.h"
 #include "harness/records/output.h"
-#include "harness/spread/extreme_work.h"
 
 static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
 {

@@ -10,14 +10,14 @@
 
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
-#include "harness/command/errors.h"
+#include "harness/cli/errors.h"
+#include "harness/cli/identity.h"
+#include "harness/cli/spread.h"
 #include "harness/experiments/merge.h"
 #include "harness/experiments/ranges_collect.h"
 #include "harness/experiments/ranges_identity.h"
 #include "harness/experiments/ranges_table.h"
 #include "harness/experiments/shard.h"
-#include "harness/spread/identity.h"
-#include "harness/spread/spread.h"
 #include "harness/study/derive.h"
 
 /* A sweep and what it needs while it runs. */

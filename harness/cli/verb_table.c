@@ -5,11 +5,11 @@
 
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
-#include "harness/command/help.h"
-#include "harness/completion/completion.h"
-#include "harness/completion/offer.h"
+#include "harness/cli/completion.h"
+#include "harness/cli/help.h"
+#include "harness/cli/manual.h"
+#include "harness/cli/offer.h"
 #include "harness/formulations/environment.h"
-#include "harness/manual/manual.h"
 #include "harness/terminal/paragraph.h"
 
 typedef struct verb {
@@ -198,7 +198,7 @@ static void complete_verb(const char *begun, int others)
     }
 }
 
-/* What may stand in the place of the last word; shells ask (harness/completion). */
+/* What may stand in the place of the last word; shells ask (harness/cli). */
 static int complete(char *first, int count, char **words)
 {
     const completion_line line = {count - 1, words + 1};

@@ -2,7 +2,7 @@
  * documented exit code. */
 #include <setjmp.h>
 
-#include "harness/command/case_input.h"
+#include "harness/cli/case_input.h"
 #include "harness/fuzz/fuzz.h"
 
 /* Linked with --wrap: the end of the program is the end of one execution. */

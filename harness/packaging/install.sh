@@ -54,8 +54,8 @@ for file in $(find reports reference -name test -prune -o -name __pycache__ -pru
 done
 
 for page in "$build"/man/*.[0-9]; do put 644 "$page" "$SHAREDIR/man/man${page##*.}/${page##*/}"; done
-put 644 harness/completion/beamwork.bash "$SHAREDIR/bash-completion/completions/beamwork"
-put 644 harness/completion/_beamwork "$SHAREDIR/zsh/site-functions/_beamwork"
+put 644 harness/cli/beamwork.bash "$SHAREDIR/bash-completion/completions/beamwork"
+put 644 harness/cli/_beamwork "$SHAREDIR/zsh/site-functions/_beamwork"
 put 644 README.md "$SHAREDIR/doc/beamwork/README.md"
 put 644 LICENSE "$SHAREDIR/doc/beamwork/LICENSE"
 # Where README.md and the manual send authors of formulations.

@@ -1,0 +1,261 @@
+#include "harness/cli/contestant.h"
+
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/model/missing.h"
+#include "harness/numerics/clock.h"
+#include "harness/study/reach.h"
+#include "harness/study/rounds.h"
+#include "harness/terminal/paragraph.h"
+
+enum { MOST_REPEATS = 10000, NAME = 40 };
+static const double budget_seconds = 3, lap_seconds = 0.002;
+
+/* The pure numbers of a cell's record. */
+static void set_counted(contestant *c)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int fields = schema_fields(&record_cell, 0, list);
+    c->counts = 0;
+    for (int i = 0; i < fields; i++)
+        if (strcmp(list[i]->unit, "1") == 0)
+            c->counted[c->counts++] = list[i];
+}
+
+static void count_cell(contestant *c, cell_result *cell)
+{
+    const series one = {.meshes = 1, .mesh = {c->request.elements}, .cell = cell};
+    const subject s = {.series = &one, .record = cell};
+    for (int i = 0; i < c->counts; i++) {
+        field_value v;
+        schema_read(&s, c->counted[i], &v);
+        c->count[i] = c->counted[i]->kind == FIELD_DOUBLE ? *v.numbers : (double)v.whole;
+    }
+}
+
+static status lap_here(contestant *c, double *seconds, fault *f)
+{
+    const double start = clock_processor_seconds();
+    for (int i = 0; i < c->repeats; i++) {
+        cell_result cell;
+        const status outcome = cell_run(&c->request, &cell, f);
+        count_cell(c, &cell);
+        cell_result_free(&cell);
+        if (outcome != STATUS_OK)
+            return outcome;
+    }
+    const double end = start + (1 + c->plant) * (clock_processor_seconds() - start);
+    do /* planted work */
+        *seconds = clock_processor_seconds() - start;
+    while (start + *seconds < end);
+    return STATUS_OK;
+}
+
+/* What the program wrote: its seconds and its work. */
+static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
+{
+    json_error_t where;
+    json_t *root = json_loadf(from, 0, &where), *cell = json_object_get(root, record_cell.name);
+    *seconds = json_number_value(json_object_get(cell, "seconds_setup")) +
+               json_number_value(json_object_get(cell, "seconds_solve"));
+    for (int i = 0; i < c->counts; i++)
+        c->count[i] = json_number_value(json_object_get(cell, c->counted[i]->name));
+    json_decref(root);
+    return *seconds > 0 ? STATUS_OK
+                        : fault_set(f, STATUS_FAULT,
+                                    "%s: its 'solve --format json' tells no seconds", c->program);
+}
+
+static status lap_elsewhere(contestant *c, double *seconds, fault *f)
+{
+    int ends[2], how = 0;
+    const pid_t child = pipe(ends) == 0 ? fork() : -1;
+    if (child < 0)
+        return fault_set(f, STATUS_FAULT, "cannot start %s", c->program);
+    if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        execv(c->program, (char **)c->argument);
+        _exit(EXIT_FAULT);
+    }
+    close(ends[1]);
+    FILE *from = fdopen(ends[0], "r");
+    const status outcome = from != NULL
+                               ? read_lap(c, from, seconds, f)
+                               : fault_set(f, STATUS_FAULT, "cannot read from %s", c->program);
+    if (from != NULL)
+        fclose(from);
+    waitpid(child, &how, 0);
+    if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
+        return outcome;
+    return fault_set(f, STATUS_FAULT, "%s does not solve that cell", c->program);
+}
+
+static status lap(void *what, double *seconds, fault *f)
+{
+    contestant *c = what;
+    return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
+}
+
+/* Enough repeats for a lap that the clock can tell. */
+static status set_repeats(contestant *a, contestant *b, fault *f)
+{
+    double first = 0, second = 0;
+    a->repeats = b->repeats = 1;
+    for (int i = 0; i < 2; i++) { /* the first one warms up */
+        TRY(lap(a, &first, f));
+        TRY(lap(b, &second, f));
+    }
+    const double shorter = first < second ? first : second;
+    if (a->program == NULL && shorter < lap_seconds)
+        a->repeats = b->repeats =
+            lap_seconds / shorter < MOST_REPEATS ? 1 + (int)(lap_seconds / shorter) : MOST_REPEATS;
+    return STATUS_OK;
+}
+
+void contestant_here(contestant *c, const command_request *r, const scene *s,
+                     const formulation *chosen, int elements)
+{
+    memset(c, 0, sizeof *c);
+    c->request = (cell_request){.scene = s, .elements = elements, .keep_all = r->keep_all};
+    cell_formulation(&c->request, chosen);
+    snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
+}
+
+void contestant_elsewhere(contestant *c, const command_request *r, const char *program)
+{
+    int n = 0;
+    memset(c, 0, sizeof *c);
+    snprintf(c->elements, sizeof c->elements, "%d", r->mesh[0]);
+    const char *const first[] = {
+        program, "solve", "--format", "json", "-f", r->formulation[0].key, "-n", c->elements};
+    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
+        c->argument[n++] = first[i];
+    if (r->scene_count > 0)
+        c->argument[n++] = "--scene";
+    c->argument[n++] = r->scene_count > 0 ? r->scene_path[0] : r->case_name;
+    if (r->keep_all)
+        c->argument[n++] = "--keep-all";
+    for (int i = 0; i < r->assignments; i++) {
+        c->argument[n++] = "--set";
+        c->argument[n++] = r->assignment[i];
+    }
+    c->argument[n] = NULL;
+    c->program = program;
+    snprintf(c->name, sizeof c->name, "%.500s, n = %s", program, c->elements);
+}
+
+status contestant_compete(contestant *a, contestant *b, against *out, fault *f)
+{
+    set_counted(a);
+    set_counted(b);
+    rounds_pin();
+    TRY(set_repeats(a, b, f));
+    return against_run(lap, a, b, budget_seconds, out, f);
+}
+
+/* Its name and time; a long name has lines of its own. */
+static void show_one(char letter, const contestant *c, double seconds)
+{
+    int at = printf("%c  ", letter);
+    if (paragraph_columns(c->name) <= NAME)
+        at += printf("%s", c->name);
+    else {
+        paragraph_write(stdout, at, at, c->name);
+        at = 0;
+    }
+    printf("%*s %10.4g ms\n", NAME + 3 - at, "", 1e3 * seconds / c->repeats);
+}
+
+static void show_work(const contestant *a, const contestant *b)
+{
+    int first = 0;
+    while (first < a->counts && a->count[first] == b->count[first])
+        first++;
+    if (first == a->counts) {
+        puts("the same work");
+        return;
+    }
+    paragraph words;
+    const int at = printf("work differs: ");
+    FILE *to = paragraph_begin(&words, stdout);
+    for (int i = first; i < a->counts; i++)
+        if (a->count[i] != b->count[i])
+            fprintf(to, "%s%s %.10g against %.10g", i > first ? ", " : "", a->counted[i]->name,
+                    a->count[i], b->count[i]);
+    paragraph_end(&words, at, 2);
+}
+
+/* Why the two are not ranked: "" where they are. */
+static const char *unranked(const contestant *a, const contestant *b)
+{
+    const char *why = reach_unranked(a->request.formulation);
+    return why[0] != '\0' ? why : reach_unranked(b->request.formulation);
+}
+
+static const char *outcome_of(const contestant *a, const contestant *b, const against *v)
+{
+    return unranked(a, b)[0] != '\0' ? "unranked" : against_name(v->outcome);
+}
+
+void contestant_unranked(const contestant *a, const contestant *b)
+{
+    const contestant *both[] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        const char *why = reach_unranked(both[i]->request.formulation);
+        if (why[0] != '\0')
+            printf("%s: %s, its times rank nothing\n", both[i]->name, why);
+    }
+}
+
+/* What a contestant in this process leaves out of the scene, in words; "": nothing. */
+static void lacking(const contestant *c, char words[OMIT_WORDS])
+{
+    words[0] = '\0';
+    if (c->program == NULL && c->request.scene != NULL)
+        missing_omit_words(missing_omits(c->request.scene, c->request.formulation), words);
+}
+
+static void show_lacking(char letter, const contestant *c)
+{
+    char words[OMIT_WORDS];
+    lacking(c, words);
+    if (words[0] != '\0')
+        printf("%c: %s not modelled\n", letter, words);
+}
+
+void contestant_show(const contestant *a, const contestant *b, const against *v)
+{
+    show_one('A', a, v->a);
+    show_one('B', b, v->b);
+    const int at = printf("B takes ");
+    paragraph_say(stdout, at, 2,
+                  "%.4f times as long as A (%.4f to %.4f with 99.9 %% confidence, %d pairs): %s",
+                  v->ratio, v->low, v->high, v->pairs, outcome_of(a, b, v));
+    show_lacking('A', a);
+    show_lacking('B', b);
+    contestant_unranked(a, b);
+    show_work(a, b);
+}
+
+json_t *contestant_json(const contestant *a, const contestant *b, const against *v)
+{
+    json_t *work = json_array();
+    for (int i = 0; i < a->counts; i++)
+        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a",
+                                              a->count[i], "b", b->count[i]));
+    char lacks[2][OMIT_WORDS];
+    lacking(a, lacks[0]);
+    lacking(b, lacks[1]);
+    return json_pack("{s:s,s:s,s:f,s:f,s:f,s:f,s:f,s:i,s:s,s:s,s:s,s:o}", "a", a->name, "b",
+                     b->name, "seconds_a", v->a / a->repeats, "seconds_b", v->b / b->repeats,
+                     "ratio", v->ratio, "low", v->low, "high", v->high, "pairs", v->pairs,
+                     "outcome", outcome_of(a, b, v), "not_modelled_a", lacks[0], "not_modelled_b",
+                     lacks[1], "work", work);
+}

@@ -1,0 +1,147 @@
+#include "harness/cli/spread.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/experiments/forecast.h"
+#include "harness/experiments/merge.h"
+#include "harness/experiments/shard.h"
+#include "harness/formulations/words.h"
+#include "harness/records/output.h"
+
+static int writes(const command_request *r)
+{
+    return r->output != NULL || r->json != NULL || r->junit != NULL || r->markdown != NULL ||
+           r->propose != NULL;
+}
+
+status spread_asked(const command_request *r, int *asked, fault *f)
+{
+    char folder[2 * FAULT_TEXT];
+    int index, count;
+    *asked = r->into != NULL || r->shard != NULL || r->from_count > 0 || r->plan > 0;
+    if (r->plan > 0 && (r->shard != NULL || r->from_count > 0 || writes(r)))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--plan says when all shards would end, on standard output: leave --shard, "
+            "--from and outputs away");
+    if (r->from_count > 0 && (r->into != NULL || r->shard != NULL))
+        return fault_set(f, STATUS_REFUSED, "--from takes batches, --into computes them: give one");
+    if (r->shard != NULL && r->into == NULL)
+        return fault_set(f, STATUS_REFUSED, "--shard %.40s: into which folder? Give --into FOLDER",
+                         r->shard);
+    if (r->partial && r->from_count == 0)
+        return fault_set(f, STATUS_REFUSED, "--partial is of --from, and of 'beamwork merge'");
+    if (r->into == NULL || !writes(r))
+        return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
+    words_quoted(r->into, folder, sizeof folder);
+    return fault_set(f, STATUS_REFUSED,
+                     "--into writes batches; results are written by 'beamwork merge %.100s -o "
+                     "FILE': leave other outputs away",
+                     folder);
+}
+
+/* What became of the shard, in one line. */
+static int tell_shard(const command_request *r, const shard_request *q, const shard_outcome *o)
+{
+    const int left = o->mine - o->before - o->done;
+    if (left > 0) {
+        fprintf(
+            stderr, "beamwork: %s: %d of %d batches of shard %d/%d are missing; start it again\n",
+            o->interrupted ? "interrupted" : "incomplete", left, o->mine, q->index + 1, q->count);
+        return EXIT_INTERRUPTED;
+    }
+    if (!r->quiet)
+        printf("shard %d/%d: %d %s in %s, %d computed now (%.3g s)\n", q->index + 1, q->count,
+               o->mine, o->mine == 1 ? "batch" : "batches", r->into, o->done, o->seconds);
+    return EXIT_AS_EXPECTED;
+}
+
+static status compute(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+{
+    shard_request q = {.count = 1,
+                       .into = r->into,
+                       .jobs = times ? 1 : r->jobs,
+                       .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL,
+                       .tell = stderr};
+    shard_outcome done;
+    if (r->shard != NULL)
+        TRY(shard_parse(r->shard, &q.index, &q.count, f));
+    out->ended = 1;
+    TRY(shard_run(w, &q, &done, f));
+    out->code = tell_shard(r, &q, &done);
+    return output_flush(f);
+}
+
+/* All kinds that there are. */
+static void name_processors(const stock *s, spread_end *out)
+{
+    size_t at = 0;
+    for (int i = 0; i < s->kinds && at < sizeof out->processor; i++)
+        at += (size_t)snprintf(out->processor + at, sizeof out->processor - at, "%s%s (%s)",
+                               i > 0 ? "; " : "", s->kind[i].node.processor, s->kind[i].node.host);
+}
+
+environment spread_environment(const spread_end *end, int threads)
+{
+    environment e = environment_now(threads);
+    if (end->processor[0] != '\0')
+        memcpy(e.processor, end->processor, sizeof e.processor);
+    return e;
+}
+
+static status plan(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+{
+    out->ended = 1;
+    out->code = EXIT_AS_EXPECTED;
+    TRY(forecast_tell(w, r->into, r->plan, times ? 1 : r->jobs, stdout, f));
+    return output_flush(f);
+}
+
+static status take(const command_request *r, const work *w, int times, const stock *s,
+                   spread_end *out, fault *f)
+{
+    char missing[600];
+    stock_missing(s, w, missing, sizeof missing);
+    if (s->there < s->batches) {
+        fprintf(stderr, "beamwork: incomplete: %s%s\n", missing,
+                r->partial ? "" : "; compute them, or look at the rest with --partial");
+        out->code = EXIT_INTERRUPTED;
+        out->ended = !r->partial;
+        if (out->ended)
+            return STATUS_OK;
+    }
+    stock_tell_kinds(s, times, stderr);
+    name_processors(s, out);
+    for (int i = 0; i < s->batches; i++)
+        out->taken[i] = s->where[i] >= 0;
+    return merge_take(w, s, f);
+}
+
+static status merge(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+{
+    stock s = {0};
+    out->batches = w->batches;
+    out->taken = calloc((size_t)w->batches + 1, 1);
+    if (out->taken == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for batches");
+    status outcome = stock_take(w, r->from, r->from_count, NULL, stderr, &s, f);
+    if (outcome == STATUS_OK)
+        outcome = take(r, w, times, &s, out, f);
+    stock_free(&s);
+    return outcome;
+}
+
+status spread_work(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+{
+    if (r->plan > 0)
+        return plan(r, w, times, out, f);
+    return r->from_count > 0 ? merge(r, w, times, out, f) : compute(r, w, times, out, f);
+}
+
+void spread_free(spread_end *out)
+{
+    free(out->taken);
+    out->taken = NULL;
+}
