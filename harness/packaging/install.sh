@@ -38,7 +38,7 @@ fill harness/packaging/beamwork.pc.in "$LIBDIR/pkgconfig/beamwork.pc"
 fill harness/packaging/beamwork-config.cmake.in "$LIBDIR/cmake/beamwork/beamwork-config.cmake"
 fill harness/packaging/beamwork-config-version.cmake.in "$LIBDIR/cmake/beamwork/beamwork-config-version.cmake"
 
-for file in harness/python/beamwork/*.py; do put 644 "$file" "$PYTHONDIR/beamwork/${file##*/}"; done
+for file in harness/library/python/beamwork/*.py; do put 644 "$file" "$PYTHONDIR/beamwork/${file##*/}"; done
 put 644 elements/examples/beamwork_element.py "$PYTHONDIR/beamwork_element.py"
 
 put 644 "$build/truths.h5" "$data/truths.h5"
@@ -46,7 +46,7 @@ put 644 "$build/peers.h5" "$data/peers.h5"
 for file in cases/examples/*.yaml; do put 644 "$file" "$data/examples/scenes/${file##*/}"; done
 for file in elements/examples/*.*; do put 644 "$file" "$data/examples/elements/${file##*/}"; done
 
-for file in harness/python/*.ipynb; do put 644 "$file" "$data/examples/python/${file##*/}"; done
+for file in harness/library/python/*.ipynb; do put 644 "$file" "$data/examples/python/${file##*/}"; done
 
 # What draws reports and what derives truths, with what they read.
 for file in $(find reports reference -name test -prune -o -name __pycache__ -prune -o -type f -print | sort) elements/*.md; do

@@ -50,7 +50,7 @@ check() {
     compare) build/beamwork verify -k "elastica/default" -o "$work/after.h5"; build/beamwork compare "$work/before.h5" "$work/after.h5" ;;
     test) built "build/$1" && BEAMWORK_TRUTHS=build/truths.h5 timeout 300 "build/$1" ;;
     python)
-        case $1 in harness.python.* | harness.library.*) built library || return 98 ;; harness.tools.*blind_spots*) built build/planted || return 98 ;; esac
+        case $1 in harness.library.python.* | harness.library.*) built library || return 98 ;; harness.tools.*blind_spots*) built build/planted || return 98 ;; esac
         BEAMWORK=build/beamwork BEAMWORK_TRUTHS=build/truths.h5 timeout 300 /usr/bin/python3 -m unittest "$@"
         ;;
     run) timeout 300 "$@" ;;

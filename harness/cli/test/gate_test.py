@@ -10,7 +10,7 @@ import xml.etree.ElementTree
 import h5py
 
 from harness.cli.test.plugin import compile_shared
-from harness.python.test.module import SETTINGS, sanitized
+from harness.library.python.test.module import SETTINGS, sanitized
 from harness.test.program import ROOT, ProgramTest, environment, report, run
 
 EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness.python.test.module import sanitized
+from harness.library.python.test.module import sanitized
 from harness.test.program import PROGRAM, ROOT, ProgramTest, environment
 
 SCENE = """beamwork: 1

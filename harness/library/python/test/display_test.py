@@ -6,7 +6,7 @@ import sys
 import unittest
 from unittest import mock
 
-from harness.python.test.module import ModuleTest, bw, leaf
+from harness.library.python.test.module import ModuleTest, bw, leaf
 
 HOSTILE = "<script>alert(1)</script>"
 ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"

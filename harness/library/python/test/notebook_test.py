@@ -8,7 +8,7 @@ import time
 import unittest
 from unittest import mock
 
-from harness.python.test.module import FOLDER, SETTINGS, ModuleTest
+from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest
 from harness.test.program import environment
 
 NOTEBOOK = FOLDER / "sheet_flexures.ipynb"

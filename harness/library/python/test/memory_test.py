@@ -3,7 +3,7 @@ import ctypes
 import gc
 import unittest
 
-from harness.python.test.module import ModuleTest, bw, leaf
+from harness.library.python.test.module import ModuleTest, bw, leaf
 
 CYCLES = 1000
 BOUND = 300 * CYCLES  # bytes: a third of what a leak of 1 kB in each cycle would be

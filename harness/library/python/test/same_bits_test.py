@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from harness.python.test.module import ROOT, ModuleTest, bw
+from harness.library.python.test.module import ROOT, ModuleTest, bw
 
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from harness.python.test.module import ROOT, SETTINGS, ModuleTest, python
+from harness.library.python.test.module import ROOT, SETTINGS, ModuleTest, python
 from harness.test.program import environment
 
 EXAMPLES = ROOT / "elements" / "examples"

@@ -3,7 +3,7 @@ import os
 import subprocess
 import unittest
 
-from harness.python.test.module import LIBRARY, SETTINGS, ModuleTest, bw, python
+from harness.library.python.test.module import LIBRARY, SETTINGS, ModuleTest, bw, python
 from harness.test.program import environment
 
 
@@ -39,7 +39,7 @@ class Finding(ModuleTest):
         for module, library in (("here/beamwork", "here"), ("here2/beamwork", "here2/beamwork"),
                                 ("p/lib/python3/dist-packages/beamwork", "p/lib"),
                                 ("q/lib/python3/dist-packages/beamwork", "q/lib/x86_64-linux-gnu"),
-                                ("clone/harness/python/beamwork", "clone/build")):
+                                ("clone/harness/library/python/beamwork", "clone/build")):
             with self.subTest(library):
                 place = self.folder / module
                 subprocess.run(["cp", "-r", source, f"{self.folder}/copied"], check=True)

@@ -10,7 +10,7 @@ import unittest
 from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, environment
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
-FOLDER = ROOT / "harness" / "python"
+FOLDER = ROOT / "harness" / "library" / "python"
 SETTINGS = {"BEAMWORK_LIBRARY": str(LIBRARY), "BEAMWORK_TRUTHS": TRUTHS,
             "PYTHONPATH": str(FOLDER), "PYTHONDONTWRITEBYTECODE": "1"}
 

@@ -13,7 +13,7 @@ import unittest
 
 import numpy
 
-from harness.python.test.module import SETTINGS, ModuleTest, bw, leaf, python
+from harness.library.python.test.module import SETTINGS, ModuleTest, bw, leaf, python
 from harness.test.program import environment
 
 CASE = "sheet_cantilever"

@@ -5,7 +5,7 @@ import unittest
 
 import numpy
 
-from harness.python.test.module import ModuleTest, bw, leaf
+from harness.library.python.test.module import ModuleTest, bw, leaf
 
 
 def written(scene):

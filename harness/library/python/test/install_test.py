@@ -6,7 +6,7 @@ import subprocess
 import sys
 import unittest
 
-from harness.python.test.module import FOLDER, SETTINGS, ModuleTest, python
+from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest, python
 from harness.test.program import environment
 
 

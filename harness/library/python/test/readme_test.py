@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.python.test.module import FOLDER, ROOT, ModuleTest, bw, python
+from harness.library.python.test.module import FOLDER, ROOT, ModuleTest, bw, python
 
 
 class Printed(ModuleTest):
