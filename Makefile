@@ -18,11 +18,11 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c))
 LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
-LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/test/% harness/cli/main.c harness/fuzz/%,$(LIBRARY_SOURCES))
+LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/tools/kit/% harness/cli/main.c harness/tools/fuzz/%,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a room's own test folder is never part of the library.
-KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/test/*.c)))
+KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/tools/kit/*.c)))
 PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard cases/*/test/*_test.py harness/*/test/*_test.py harness/*/*/test/*_test.py))
 
 REGISTRY := $(BUILD)/registry.c
@@ -72,7 +72,7 @@ verify: all ## judge every formulation on every case against the stored truths; 
 	@$(if $(VERIFY),,$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv --loose)
 
 # What is fuzzed is compiled too: its own targets only run with clang.
-FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/fuzz/*.c))
+FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/tools/fuzz/*.c))
 tests: all library $(TESTS) $(FUZZED) $(PLANTED) ## build what make test runs
 
 test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
@@ -178,7 +178,7 @@ blind-spots: verify $(PLANTED) ## the smallest fault in each stiffness, mass and
 .PHONY: engines
 # Installs nothing: an engine that is not there is skipped by name.
 engines: all ## run shards by Slurm, mpirun, GNU parallel and Snakemake, killed, out of disk, damaged; needs what is installed of them; build/engines.json
-	@$(PYTHON) -B -m harness.cluster.engines $(PROGRAM) -o $(BUILD)/engines.json $(ENGINES)
+	@$(PYTHON) -B -m harness.tools.cluster.engines $(PROGRAM) -o $(BUILD)/engines.json $(ENGINES)
 
 mutants: ## plant faults one by one; each must be noticed
 	@harness/tools/mutants.sh $(BUILD)/mutants
@@ -304,8 +304,8 @@ $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
 
 include harness/library/library.mk
-include harness/packaging/packaging.mk
-include harness/packaging/install.mk
+include harness/library/packaging/packaging.mk
+include harness/library/packaging/install.mk
 
 FORCE:
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Any bytes as every input the program reads, under the address and undefined-behaviour sanitizers: harness/fuzz/fuzz_*.c with clang's libFuzzer.
+# Any bytes as every input the program reads, under the address and undefined-behaviour sanitizers: harness/tools/fuzz/fuzz_*.c with clang's libFuzzer.
 # Seeds come from the reference tables and stored runs. Writes BUILD/fuzz.json and ends in one line: N executions, M findings.
 # usage: fuzz.sh BUILD [FACTOR]     FACTOR multiplies the number of executions
 set -u
@@ -19,7 +19,7 @@ total=0 findings=0 rows=
 fuzz() {
     name=$1 runs=$(($2 * factor)) longest=$3
     shift 3
-    clang -std=c11 -D_GNU_SOURCE -I. $flags -fsanitize=fuzzer $include "harness/fuzz/fuzz_$name.c" "$@" "$here/libbeamwork.a" $libraries -o "$here/fuzz_$name" ||
+    clang -std=c11 -D_GNU_SOURCE -I. $flags -fsanitize=fuzzer $include "harness/tools/fuzz/fuzz_$name.c" "$@" "$here/libbeamwork.a" $libraries -o "$here/fuzz_$name" ||
         { findings=$((findings + 1)); return; }
     mkdir -p "$here/corpus/$name"
     began=$(date +%s)

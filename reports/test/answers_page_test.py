@@ -6,7 +6,7 @@ import re
 import sys
 import unittest
 
-from harness.test.program import ROOT, ProgramTest, drawn, run
+from harness.tools.kit.program import ROOT, ProgramTest, drawn, run
 from reports import answers, answers_page, answers_table, data
 from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict

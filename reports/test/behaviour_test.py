@@ -5,7 +5,7 @@ import json
 import re
 import unittest
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports.test.browser_test import CHROMIUM, chromium, console
 
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{

@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from harness.test.program import TRUTHS, ProgramTest, run
+from harness.tools.kit.program import TRUTHS, ProgramTest, run
 from reports import beside, data, pages
 
 HEAD = """# beamwork-import: 1

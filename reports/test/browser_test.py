@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from harness.test.program import ProgramTest, drawn, run
+from harness.tools.kit.program import ProgramTest, drawn, run
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which(
     "google-chrome")

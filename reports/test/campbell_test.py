@@ -1,7 +1,7 @@
 """The page of stationary rotation from a small run: its figures are there, and the curves end at the exact values."""
 import unittest
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports import campbell, data
 from reports.claims import Lookup
 

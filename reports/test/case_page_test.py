@@ -5,7 +5,7 @@ import math
 import re
 import unittest
 
-from harness.test.program import ProgramTest, report, run
+from harness.tools.kit.program import ProgramTest, report, run
 from reports import case, case_truth, data, plots, question_figures, scene_drawing
 from reports.plots import MOST_CURVES, OPEN
 from reports.style import Styles

@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from harness.test.program import TRUTHS, ProgramTest
+from harness.tools.kit.program import TRUTHS, ProgramTest
 from reports import causes
 from reports.test.results import Site
 

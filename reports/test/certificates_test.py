@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from harness.test.program import ProgramTest, drawn, read_json, run
+from harness.tools.kit.program import ProgramTest, drawn, read_json, run
 from reports import certificates
 
 

@@ -3,7 +3,7 @@ what is missing."""
 import json
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 from reports import checks, data
 from reports.test.results import Site, case, series, verdict
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from harness.test.program import ROOT, run
+from harness.tools.kit.program import ROOT, run
 from reports.drawing import describe, draw, geometry, loads, scene, sections, supports, view
 from reports.drawing.canvas import Canvas, boxes_overlap
 from reports.style import plt

@@ -6,7 +6,7 @@ import math
 import re
 import unittest
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports import data
 from reports.test.browser_test import CHROMIUM, chromium, console
 

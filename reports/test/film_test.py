@@ -10,7 +10,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ROOT, TRUTHS, ProgramTest, run
+from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, run
 from reports import film, shapes, viewer
 from reports.test import frames
 from reports.test.browser_test import CHROMIUM, chromium, console

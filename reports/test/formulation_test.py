@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.test.program import ROOT, TRUTHS, ProgramTest, run
+from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, run
 from reports import explanation, formulation, mathml
 from reports.site import Site, file_of
 from reports.verdicts import UNJUDGED

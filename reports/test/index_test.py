@@ -3,8 +3,8 @@ import re
 import sys
 import unittest
 
-from harness.test.program import ROOT, TRUTHS, ProgramTest, drawn, report, run
-from harness.test.scenes import LEAF
+from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, drawn, report, run
+from harness.tools.kit.scenes import LEAF
 from reports import agreed, data, kinds
 from reports.test.results import case, series
 

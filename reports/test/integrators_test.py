@@ -3,7 +3,7 @@ import json
 import re
 import unittest
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports import integrators_page
 from reports.integrators import answers, map as stability, stored, words
 from reports.test import motions

@@ -1,7 +1,7 @@
 """The page of the ledger: what a rule counts, what only repeats, how predictions are met."""
 import unittest
 
-from harness.test.program import TRUTHS
+from harness.tools.kit.program import TRUTHS
 from reference import pack
 from reports import data, errata, ledger, tally
 from reports.site import ROOT

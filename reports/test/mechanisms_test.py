@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 
 
 class Page(ProgramTest):

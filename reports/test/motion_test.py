@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness.test.program import TRUTHS, ProgramTest, report, run
+from harness.tools.kit.program import TRUTHS, ProgramTest, report, run
 from reports import motion_page
 from reports.motion import figures, stored, units, words
 from reports.test import balances, frames

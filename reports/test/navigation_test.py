@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 
-from harness.test.program import TRUTHS
+from harness.tools.kit.program import TRUTHS
 from reports import data, glossary, navigation
 
 PAGES = [("index.html", "beamwork"), ("ledger.html", "ledger"), ("claims.html", "claims"),

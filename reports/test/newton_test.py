@@ -3,7 +3,7 @@ import json
 import unittest
 
 from harness.tools import newton as tool
-from harness.test.program import PROGRAM, ProgramTest
+from harness.tools.kit.program import PROGRAM, ProgramTest
 from reports import newton
 from reports.test import results
 

@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.test.program import TRUTHS, ProgramTest, drawn
+from harness.tools.kit.program import TRUTHS, ProgramTest, drawn
 from reports import paths
 
 

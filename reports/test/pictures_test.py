@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports import pictures, shapes
 
 

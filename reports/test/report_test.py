@@ -5,7 +5,7 @@ import re
 import unittest
 import xml.etree.ElementTree
 
-from harness.test.program import TRUTHS, ProgramTest, drawn, report
+from harness.tools.kit.program import TRUTHS, ProgramTest, drawn, report
 
 # What other commands leave beside the results: a little of everything that the pages draw.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}

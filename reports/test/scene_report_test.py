@@ -2,8 +2,8 @@
 import re
 import unittest
 
-from harness.test.program import ProgramTest, report, run
-from harness.test.scenes import LEAF
+from harness.tools.kit.program import ProgramTest, report, run
+from harness.tools.kit.scenes import LEAF
 from reports import case, data, film, shapes
 
 SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """

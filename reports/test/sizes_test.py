@@ -4,7 +4,7 @@ parameter points."""
 import re
 import unittest
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports import data
 from reports.site import ASSETS
 

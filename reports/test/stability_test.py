@@ -3,7 +3,7 @@ import json
 import re
 import unittest
 
-from harness.test.program import TRUTHS, ProgramTest, read_json, run
+from harness.tools.kit.program import TRUTHS, ProgramTest, read_json, run
 from reports import environment, stability, stability_map
 from reports.site import Site
 

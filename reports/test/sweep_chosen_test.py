@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ProgramTest, report
+from harness.tools.kit.program import ProgramTest, report
 from reports.sweep import gather, maps, stored
 from reports.test import sweeps
 from reports.test.browser_test import CHROMIUM, chromium, console

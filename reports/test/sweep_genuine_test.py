@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ProgramTest, report, run
+from harness.tools.kit.program import ProgramTest, report, run
 from reports.sweep import gather, stored
 from reports.test import sweeps
 from reports.test.sweep_page_test import text_of

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ProgramTest, drawn, report
+from harness.tools.kit.program import ProgramTest, drawn, report
 from reports.test import sweeps
 from reports.test.sweep_test import ANGLE, SHAPE, WIDTH
 

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 from reports import data
 from reports.sweep import answers, gather, lattice, stored, words
 from reports.test import sweeps

@@ -3,7 +3,7 @@ import random
 import subprocess
 import sys
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 from reports import answers_table, data
 
 SELECTION = ("elastica/default or c_column/default or spherical_joint/default or "

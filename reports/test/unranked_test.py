@@ -10,7 +10,7 @@ import unittest
 import h5py
 import numpy
 
-from harness.test.program import ROOT, ProgramTest, report, run
+from harness.tools.kit.program import ROOT, ProgramTest, report, run
 from reference.pack import seal
 from reports import answers, answers_table, data, problems
 

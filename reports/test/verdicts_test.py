@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.test.program import run
+from harness.tools.kit.program import run
 from reports import answers, data, verdicts
 from reports.test.results import verdict
 

@@ -9,7 +9,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ProgramTest, drawn
+from harness.tools.kit.program import ProgramTest, drawn
 from reports import shapes, viewer
 from reports.test.browser_test import CHROMIUM, chromium, console
 

@@ -7,7 +7,7 @@ them; a value that is not right may never come with status ok.
 import pathlib
 import unittest
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 SCENES = sorted((ROOT / "cases" / "closed_forms").glob("*.yaml"))
 # Of a value, relative, on the mesh that solve chooses by itself.

@@ -3,7 +3,7 @@ import re
 import unittest
 
 from cases.format.test.scene_case import EXAMPLES, SceneCase, values
-from harness.test.scenes import LEAF
+from harness.tools.kit.scenes import LEAF
 
 # Every way to give a section; the constants of three place a node.
 SHAPES = """\

@@ -4,7 +4,7 @@ import re
 import unittest
 
 from cases.format.test.scene_case import EXAMPLES, SceneCase, values
-from harness.test.program import run
+from harness.tools.kit.program import run
 
 
 class ExamplesTest(SceneCase):

@@ -6,7 +6,7 @@ import unittest
 import yaml
 
 from cases.format.test.scene_case import EXAMPLES, SceneCase
-from harness.test.program import ROOT, run
+from harness.tools.kit.program import ROOT, run
 
 GOOD = ROOT / "cases/format/test/good"
 

@@ -3,7 +3,7 @@ import itertools
 import unittest
 
 from cases.format.test.scene_case import SceneCase
-from harness.test.program import run
+from harness.tools.kit.program import run
 
 SCENE = """beamwork: 1
 UNITS

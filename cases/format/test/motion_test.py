@@ -4,8 +4,8 @@ import re
 import unittest
 
 from cases.format.test.scene_case import SceneCase, values
-from harness.test.program import ROOT, run
-from harness.test.scenes import LEAF
+from harness.tools.kit.program import ROOT, run
+from harness.tools.kit.scenes import LEAF
 
 # A block on a spring and a light wire, pushed by little.
 BLOCK = """\

@@ -4,7 +4,7 @@ import re
 import unittest
 
 from cases.format.test.scene_case import SceneCase
-from harness.test.program import ROOT, ProgramTest, run
+from harness.tools.kit.program import ROOT, ProgramTest, run
 
 NUMBERED = re.compile(r"\b(node|member|section|spring|load|analysis|motion)[ _][0-9]")
 

@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from cases.format.test.scene_case import SceneCase, values
-from harness.test.scenes import LEAF
+from harness.tools.kit.scenes import LEAF
 
 # LEAF along z, as an instance of a part.
 PLACED = """\

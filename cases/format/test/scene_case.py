@@ -1,5 +1,5 @@
 """What tests of scene files share."""
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 EXAMPLES = ROOT / "cases/examples"
 

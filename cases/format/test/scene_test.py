@@ -4,8 +4,8 @@ import re
 import unittest
 
 from cases.format.test.scene_case import EXAMPLES, SceneCase, values
-from harness.test.program import ROOT, run
-from harness.test.scenes import LEAF
+from harness.tools.kit.program import ROOT, run
+from harness.tools.kit.scenes import LEAF
 
 BAD = ROOT / "cases/format/test/bad"
 GOOD = ROOT / "cases/format/test/good"

@@ -3,7 +3,7 @@ import math
 import unittest
 
 from cases.format.test.scene_case import SceneCase
-from harness.test.program import run
+from harness.tools.kit.program import run
 
 # A column, clamped below and free above, held in its plane; it stays straight, and buckles at path 1.
 EULER = math.pi**2/4*210e9*50e-3*5e-3**3/12

@@ -2,7 +2,7 @@
 import unittest
 
 from cases.format.test.scene_case import EXAMPLES, SceneCase, values
-from harness.test.program import run
+from harness.tools.kit.program import run
 
 # Units, metres and newtons of one, and what the units of values are called.
 SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3), ("in, lbf, psi", 0.0254, 4.4482216152605),

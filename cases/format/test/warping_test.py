@@ -5,7 +5,7 @@ import re
 import unittest
 
 from cases.format.test.scene_case import SceneCase, values
-from harness.test.program import run
+from harness.tools.kit.program import run
 
 E, G, IT, IW, LENGTH, TORQUE = 210e9, 81e9, 4e-7, 9e-7, 3.0, 50.0
 K = math.sqrt(G * IT / (E * IW))  # 1/m; K*LENGTH: 1.2

@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 # Euler's load is 1: E Iz = 4 L^2/pi^2 of the clamped column; hardly shortened.
 COLUMN = """beamwork: 1

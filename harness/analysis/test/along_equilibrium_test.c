@@ -8,7 +8,7 @@
 #include "elements/math/quadrature.h"
 #include "elements/test/sections.h"
 #include "elements/test/worst.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 extern const element_type element_collocation;
 

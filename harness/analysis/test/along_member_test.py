@@ -4,7 +4,7 @@ of Matrix Structural Analysis, 1968, sec. 5 and 10)."""
 import json
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 L, q, m = 0.7, 3.0, 2.0
 E, G, A, Iy, Iz, It = 70e3, 27e3, 0.04, 3e-4, 2e-4, 4e-4

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 enum { WANTED = 4, ELEMENTS = 16 };
 

@@ -11,8 +11,8 @@
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/parameters.h"
-#include "harness/test/cells.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/cells.h"
+#include "harness/tools/kit/scenes.h"
 
 static cell_result solve(const case_type *type, const char *formulation_text, int n,
                          const char *assignments)

@@ -6,7 +6,7 @@
 
 #include "elements/math/rotation.h"
 #include "harness/formulations/case_find.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 /* Last station's matrices of a sheet case with collocation elements. */
 typedef struct matrices {

@@ -6,7 +6,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/bar.h"
-#include "harness/test/accepted.h"
+#include "harness/tools/kit/accepted.h"
 
 static void compressed(scene *s, const double direction[3])
 {

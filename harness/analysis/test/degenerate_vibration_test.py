@@ -3,7 +3,7 @@ without a mass, ends that pass nothing on; closed forms, or the same structure w
 import math
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
 LINE = DENSITY * AREA

@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 RING = """beamwork: 1
 sections: {leaf: {rectangle: {width: 20e-3, thickness: %(t)s}, young: 200e9, shear_modulus: 80e9}}

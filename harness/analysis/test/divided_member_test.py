@@ -5,7 +5,7 @@ import json
 import math
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}

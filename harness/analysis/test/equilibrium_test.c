@@ -9,8 +9,8 @@
 #include "elements/test/sections.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
-#include "harness/test/cells.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/cells.h"
+#include "harness/tools/kit/scenes.h"
 
 static double value_of(const char *case_name, const char *chosen, int n,
                        const char *const assignment[], const char *quantity)

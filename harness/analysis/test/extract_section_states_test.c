@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/test/accepted.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/accepted.h"
+#include "harness/tools/kit/ask.h"
 
 /* A strip, free to shorten and to warp, twisted by 0.6 rad: kappa is uniform, M = G J kappa + 4 E c
  * kappa^3, and its edges are stretched. */

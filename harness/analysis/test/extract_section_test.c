@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/test/accepted.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/accepted.h"
+#include "harness/tools/kit/ask.h"
 
 static section_spec bar(double Iw)
 {

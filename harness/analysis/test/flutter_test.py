@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 # Clamped column of length 1, EI = 1, mass 1; P/EA = 2e-6 is what it shortens by.
 COLUMN = """beamwork: 1

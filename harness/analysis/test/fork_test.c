@@ -8,7 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 enum {
     MOVED = 0,

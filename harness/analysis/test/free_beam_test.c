@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "elements/math/pi.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 enum { MODES = 10, RIGID = 6 };
 static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,

@@ -3,7 +3,7 @@ rotary inertia, stretch, torsion, restrained warping, with bodies and springs at
 import math
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 E, NU, RHO, LENGTH = 2e11, 0.25, 8000.0, 1.0
 G = E / 2 / (1 + NU)

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/test/accepted.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/accepted.h"
+#include "harness/tools/kit/ask.h"
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 

@@ -7,7 +7,7 @@
 
 #include "harness/analysis/test/hinged.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/scenes.h"
 
 /* An end that turns or slides at a support (0), or a clamped node that it is released from (1):
  * answers of every analysis. */

@@ -6,7 +6,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/hinged.h"
-#include "harness/test/accepted.h"
+#include "harness/tools/kit/accepted.h"
 
 static const double z_axis[3] = {0, 0, 1};
 

@@ -9,7 +9,7 @@
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 enum { PLANE = 1, BALL = 2 };
 static const double E = 210e9, I = 1e-6, P = 960;

@@ -1,7 +1,7 @@
 /* What needs no truth, for every formulation on every case it runs on: the same mesh in other
  * words, mirror images, turned symmetric structures, reciprocity.  A number that is compared is
  * relative to its size.  Two discretisations of the same continuum may differ, but the difference
- * falls with the mesh.  What is asked is counted: see harness/test/ask.h. */
+ * falls with the mesh.  What is asked is counted: see harness/tools/kit/ask.h. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};
 

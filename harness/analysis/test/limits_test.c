@@ -7,7 +7,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/parameters.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 /* Asks a case on a mesh; 1: answered. */
 static int found(const char *name, const char *parameters, const element_type *e, int n,

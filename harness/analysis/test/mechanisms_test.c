@@ -9,9 +9,9 @@
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
-#include "harness/test/cells.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/ask.h"
+#include "harness/tools/kit/cells.h"
+#include "harness/tools/kit/scenes.h"
 
 /* Solves a case with n elements; assignments end with NULL. The caller frees the result. */
 static status run(const char *case_name, const char *key, int n, const char *const assignment[],

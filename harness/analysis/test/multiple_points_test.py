@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 # E Iz = 1, L = 1, pinned or clamped: P = (c pi)^2 E I, hardly shortened.
 COLUMN = """beamwork: 1

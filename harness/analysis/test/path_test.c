@@ -12,7 +12,7 @@
 #include "harness/formulations/parameters.h"
 #include "harness/formulations/registry.h"
 #include "harness/study/cell.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 static const double times = -3, shift = 0.7; /* of the abscissa */
 

@@ -9,7 +9,7 @@
 
 #include "cases/scene/inputs.h"
 #include "elements/test/sections.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 enum { ROOT, MIDDLE, TIP, BESIDE, LATER };
 static const double y_axis[3] = {0, 1, 0}, end = 1, turning[3] = {0, 3, 20};

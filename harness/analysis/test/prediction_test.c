@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/case_find.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 static void solve(const char *const assignment[], cell_result *out)
 {

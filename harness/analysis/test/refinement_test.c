@@ -10,8 +10,8 @@
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/registry.h"
 #include "harness/newton/refinement.h"
-#include "harness/test/accepted.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/accepted.h"
+#include "harness/tools/kit/ask.h"
 
 static const double length = 1;
 

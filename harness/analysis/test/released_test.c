@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 static const double young = 2e11, side = 0.02, length = 1;
 

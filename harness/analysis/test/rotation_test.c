@@ -9,7 +9,7 @@
 #include "cases/case.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 static status run(const case_type *type, const char *chosen, int n, const char *const assignment[],
                   cell_result *r)

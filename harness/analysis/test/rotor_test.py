@@ -3,7 +3,7 @@ import math
 import re
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 # Overhung disc: bending is a problem of two unknowns in the complex plane.
 SHAFT = """beamwork: 1

@@ -11,7 +11,7 @@ try:
 except ImportError:
     vtk = None
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 
 

@@ -5,7 +5,7 @@ import math
 import resource
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 
 def question(case, formulation, n, *assignments, memory=None):

@@ -12,7 +12,7 @@
 #include "harness/formulations/parameters.h"
 #include "harness/formulations/registry.h"
 #include "harness/model/supports.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 /* Two beams along x, the second beside the first and held by itself; loads along z. */
 static void two_beams(scene *s)

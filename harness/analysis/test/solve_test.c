@@ -7,7 +7,7 @@
 
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all,
                        const char *assignment, const char *quantity, long *iterations)

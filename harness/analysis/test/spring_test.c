@@ -8,7 +8,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/hinged.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/scenes.h"
 
 static const double length = 1.3, kappa = 3.7; /* kappa: of the springs, in EI/L */
 

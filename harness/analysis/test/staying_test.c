@@ -7,8 +7,8 @@
 
 #include "elements/test/sections.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/ask.h"
+#include "harness/tools/kit/scenes.h"
 
 enum { NONE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 

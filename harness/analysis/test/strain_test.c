@@ -9,8 +9,8 @@
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/ask.h"
+#include "harness/tools/kit/scenes.h"
 
 static const double E = 2e11, G = 8e10, A = 1e-3, Iy = 4e-8, Iz = 1e-8, rho = 7800, L = 2,
                     y_axis[3] = {0, 1, 0};

@@ -3,7 +3,7 @@ another one refuses nothing, and a load of zero changes no bit."""
 import json
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 BAR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,

@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 ROD = "sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9}}\n"
 WOUND = """beamwork: 1

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "harness/formulations/case_find.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 enum { STATIONS = 15 };
 

@@ -6,8 +6,8 @@
 
 #include "elements/math/vec3.h"
 #include "elements/test/sections.h"
-#include "harness/test/ask.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/ask.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_collocation, element_geometrically_exact;
 

@@ -1,7 +1,7 @@
 """What is not asked for is not computed."""
 import h5py
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 HEAD = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,

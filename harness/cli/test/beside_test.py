@@ -3,7 +3,7 @@ import json
 import re
 import unittest
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 HEAD, COLUMN, WIDEST = 8, 15, 100
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"

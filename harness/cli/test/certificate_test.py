@@ -2,7 +2,7 @@
 import json
 
 from harness.cli.test.element_test_test import EXAMPLES, FAULTS, Tested
-from harness.test.program import environment, run
+from harness.tools.kit.program import environment, run
 
 
 class Certificates(Tested):

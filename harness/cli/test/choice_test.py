@@ -5,7 +5,7 @@ import random
 import re
 import unittest
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))

@@ -8,7 +8,7 @@ import unittest
 
 import h5py
 
-from harness.test.program import ROOT, TRUTHS, ProgramTest, environment, run
+from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, environment, run
 from reference.pack import seal
 
 EXAMPLES = ROOT / "cases" / "examples"

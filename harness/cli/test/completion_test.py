@@ -3,7 +3,7 @@ import re
 import unittest
 
 from harness.cli.test.work import EVERY_VERB
-from harness.test.program import ROOT, ProgramTest, environment
+from harness.tools.kit.program import ROOT, ProgramTest, environment
 
 # the C library's argp leaves a byte when it exits
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")

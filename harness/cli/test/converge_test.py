@@ -6,7 +6,7 @@ import pathlib
 import re
 import unittest
 
-from harness.test.program import run
+from harness.tools.kit.program import run
 
 LEAF = pathlib.Path(__file__).parents[3] / "cases" / "examples" / "leaf_spring_guide.yaml"
 

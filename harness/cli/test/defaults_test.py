@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.test.program import ROOT, ProgramTest, environment
+from harness.tools.kit.program import ROOT, ProgramTest, environment
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 

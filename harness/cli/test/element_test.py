@@ -3,7 +3,7 @@ import json
 from pathlib import Path
 
 from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
-from harness.test.program import environment, run
+from harness.tools.kit.program import environment, run
 
 EXAMPLE = EXAMPLES / "timoshenko.c"
 CASE = ("elastica", "-f", "timoshenko")

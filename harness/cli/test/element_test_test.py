@@ -3,7 +3,7 @@ import json
 import os
 import subprocess
 
-from harness.test.program import ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import ROOT, ProgramTest, environment, run
 
 EXAMPLES = ROOT / "elements" / "examples"
 CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # a crash is one

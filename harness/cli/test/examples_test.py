@@ -5,7 +5,7 @@ import subprocess
 import unittest
 
 from harness.cli.test.plugin import EXAMPLES, WARNINGS, PluginTest, compile_shared
-from harness.test.program import read_json
+from harness.tools.kit.program import read_json
 
 STATICS_AND_FREQUENCIES = ("tapered_cantilever", "deep_beam", "tip_body", "sprung_beam",
                            "loaded_cantilever", "elastica", "snap_through", "right_angle_frame")

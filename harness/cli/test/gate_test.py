@@ -11,7 +11,7 @@ import h5py
 
 from harness.cli.test.plugin import compile_shared
 from harness.library.python.test.module import SETTINGS, sanitized
-from harness.test.program import ROOT, ProgramTest, environment, report, run
+from harness.tools.kit.program import ROOT, ProgramTest, environment, report, run
 
 EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 NAME = "timoshenko"

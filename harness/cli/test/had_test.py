@@ -1,7 +1,7 @@
 """What can be had is printed; what cannot is told with its reason and by the exit status."""
 import json
 
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 BAR = """beamwork: 1
 parameters: {depth: {value: 0.1, unit: m, min: 0.05, max: 0.5, about: "of the section at b"},

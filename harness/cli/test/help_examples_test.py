@@ -6,7 +6,7 @@ import subprocess
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
 from harness.cli.test.work import EVERY_VERB
-from harness.test.program import PROGRAM, ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, environment, run
 
 LEAF = """beamwork: 1
 sections: {leaf: {rectangle: {width: 50e-3, thickness: 0.5e-3}, young: 210e9, shear_modulus: 81e9}}

@@ -3,7 +3,7 @@ import re
 import unittest
 
 from harness.cli.test.work import EVERY_VERB
-from harness.test.program import ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import ROOT, ProgramTest, environment, run
 
 WIDEST = 100
 # the C library's argp leaves a byte when it exits

@@ -3,7 +3,7 @@ import csv
 import re
 import unittest
 
-from harness.test.program import ROOT, ProgramTest, environment
+from harness.tools.kit.program import ROOT, ProgramTest, environment
 
 WIDEST = 100
 

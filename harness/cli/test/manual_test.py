@@ -5,7 +5,7 @@ import subprocess
 import unittest
 
 from harness.cli.test.work import EVERY_VERB
-from harness.test.program import ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import ROOT, ProgramTest, environment, run
 
 # the C library's argp leaves a byte when it exits
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
@@ -32,7 +32,7 @@ def plain(page):
 def hand_page(name):
     """One that is written by hand, of a day and a version."""
     return run(name, "0.1.0", "2026-11-21",
-               program=ROOT / "harness" / "packaging" / "page.sh").stdout
+               program=ROOT / "harness" / "library" / "packaging" / "page.sh").stdout
 
 
 class Manual(ProgramTest):
@@ -105,7 +105,7 @@ class Manual(ProgramTest):
     def test_lint(self):
         pages = {name: self.page(name) for name in self.names()}
         hand = {path.name: hand_page(path.name)
-                for path in (ROOT / "harness" / "packaging").glob("*.[0-9]")}
+                for path in (ROOT / "harness" / "library" / "packaging").glob("*.[0-9]")}
         self.assertIn("beamwork-element.7", hand)
         for name, text in {**pages, **hand}.items():
             self.assertNotRegex(text, "@[A-Z]+@")

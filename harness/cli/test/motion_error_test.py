@@ -4,7 +4,7 @@ import math
 import random
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 # A mass on a leaf; a force comes at once: u/u_static = 1 - cos(omega t).
 SUDDEN = """beamwork: 1

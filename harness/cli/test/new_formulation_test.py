@@ -7,7 +7,7 @@ import sys
 
 import h5py
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 NAME = "sheet_second"
 

@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from harness.cli.test.work import VERBS, WORK
-from harness.test.program import TRUTHS, ProgramTest, environment, run
+from harness.tools.kit.program import TRUTHS, ProgramTest, environment, run
 
 LISTS = ("formulation", "element", "elements", "set")  # may be given again
 # the C library's argp leaves a byte when it exits

@@ -6,7 +6,7 @@ import json
 
 import h5py
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}

@@ -13,7 +13,7 @@ import unittest
 import h5py
 
 from harness.cli.test.work import TEXT, WHOLE, WORK
-from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, read_json, run
+from harness.tools.kit.program import PROGRAM, ROOT, TRUTHS, ProgramTest, read_json, run
 
 
 def shape(text):

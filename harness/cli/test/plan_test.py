@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 from harness.tools import expense
 
 CASES = "(elastica or c_column or bend_45 or tip_body) and default"

@@ -1,7 +1,7 @@
 """plane: a scene that is held in its plane."""
 import math
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 EXAMPLES = ROOT / "cases" / "examples"
 E, G, RHO = 210e9, 81e9, 7850

@@ -2,7 +2,7 @@
 import os
 import subprocess
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 EXAMPLES = ROOT / "elements" / "examples"
 WARNINGS = ("-Wall", "-Wextra", "-Werror")

@@ -4,7 +4,7 @@ import shlex
 import subprocess
 import unittest
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, environment, run
 
 EXAMPLE = (ROOT / "elements" / "examples" / "timoshenko.c").read_text(encoding="utf-8")
 SCENE = (ROOT / "cases" / "examples" / "euler_column.yaml").read_text(encoding="utf-8")

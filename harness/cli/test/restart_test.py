@@ -3,7 +3,7 @@ import csv
 import unittest
 
 from cases.format.test.scene_case import SceneCase
-from harness.test.program import TRUTHS
+from harness.tools.kit.program import TRUTHS
 
 # Turned quickly out of its place under its weight, with a load that comes at once.
 SWING = """\

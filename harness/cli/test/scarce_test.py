@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from harness.library.python.test.module import sanitized
-from harness.test.program import PROGRAM, ROOT, ProgramTest, environment
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, environment
 
 SCENE = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9}}

@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from harness.test.program import PROGRAM, TRUTHS, ProgramTest, environment
+from harness.tools.kit.program import PROGRAM, TRUTHS, ProgramTest, environment
 from reference.pack import seal
 
 SELECT = ("verify", "-k", "c_column and section_data=printed and (beamw or collocation)")

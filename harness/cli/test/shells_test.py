@@ -7,7 +7,7 @@ import shutil
 import tempfile
 import unittest
 
-from harness.test.program import PROGRAM, ROOT, TRUTHS
+from harness.tools.kit.program import PROGRAM, ROOT, TRUTHS
 
 HERE = ROOT / "harness" / "cli"
 PACKAGE = pathlib.Path("/usr/share/bash-completion/bash_completion")

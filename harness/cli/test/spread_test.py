@@ -11,7 +11,7 @@ import zlib
 
 import h5py
 
-from harness.test.program import PROGRAM, TRUTHS, ProgramTest, environment, read_json, run
+from harness.tools.kit.program import PROGRAM, TRUTHS, ProgramTest, environment, read_json, run
 
 CASES = "(roll_up or bend_45 or right_angle_frame or snap_through) and default"
 SCENE = """beamwork: 1

@@ -9,7 +9,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 

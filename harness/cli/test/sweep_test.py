@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness.test.program import ROOT, ProgramTest, run
+from harness.tools.kit.program import ROOT, ProgramTest, run
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.04/2:log",

@@ -2,7 +2,7 @@
 import json
 import subprocess
 
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 MARK = "timoshenko: by differences, its times rank nothing"
 

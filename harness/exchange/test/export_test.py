@@ -14,7 +14,7 @@ from harness.exchange.test.export_case import (
     ExportTest,
 )
 from cases.format.test.scene_case import EXAMPLES
-from harness.test.program import ROOT, run
+from harness.tools.kit.program import ROOT, run
 
 
 class Decks(ExportTest):

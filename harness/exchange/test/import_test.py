@@ -5,7 +5,7 @@ import unittest
 
 import h5py
 
-from harness.test.program import ROOT, ProgramTest, run
+from harness.tools.kit.program import ROOT, ProgramTest, run
 
 HEAD = """# beamwork-import: 1
 # program: MBDyn 1.7.3, 3-node   # as legends show it

@@ -3,8 +3,8 @@ import json
 import math
 import unittest
 
-from harness.test import program
-from harness.test.program import ProgramTest
+from harness.tools.kit import program
+from harness.tools.kit.program import ProgramTest
 
 STEEL = 200e9, 7800.0
 

@@ -6,9 +6,9 @@ import math
 import re
 import unittest
 
-from harness.test import program
-from harness.test.program import ProgramTest
-from harness.test.scenes import LEAF
+from harness.tools.kit import program
+from harness.tools.kit.program import ProgramTest
+from harness.tools.kit.scenes import LEAF
 
 FLIGHT = ("free_flight_space", "-f", "collocation", "-n", "4", "--set", "time=7.5")
 

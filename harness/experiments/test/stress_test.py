@@ -7,8 +7,8 @@ import shutil
 import sys
 import unittest
 
-from harness.test import program
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit import program
+from harness.tools.kit.program import ROOT, ProgramTest
 
 SMALL = "decay_free or soft_square or twist_wagner"
 

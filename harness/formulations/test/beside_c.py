@@ -2,7 +2,7 @@
 import json
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 
 class BesideC(ProgramTest):

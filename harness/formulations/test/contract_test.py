@@ -2,7 +2,7 @@
 import json
 import sys
 
-from harness.test.program import ROOT, ProgramTest, environment
+from harness.tools.kit.program import ROOT, ProgramTest, environment
 
 EXAMPLES = ROOT / "elements" / "examples"
 

@@ -4,7 +4,7 @@ import json
 import textwrap
 
 from harness.formulations.test.speaker import Speaker
-from harness.test.program import ROOT, run
+from harness.tools.kit.program import ROOT, run
 
 
 class Refused(Speaker):

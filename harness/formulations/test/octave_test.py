@@ -5,7 +5,7 @@ import unittest
 
 from harness.cli.test.plugin import EXAMPLES
 from harness.formulations.test.beside_c import BesideC
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 EXAMPLE = EXAMPLES / "timoshenko.m"
 NAME = "timoshenko_m"

@@ -4,7 +4,7 @@ import sys
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
 from harness.formulations.test.speaker import Speaker
-from harness.test.program import ROOT, environment, run
+from harness.tools.kit.program import ROOT, environment, run
 
 WITH_MODULES = environment(PYTHONPATH=str(EXAMPLES))
 FREQUENCIES = (("deep_beam", ()), ("c_column", ()), ("release", ("time=0.002", )), ("sheet_cantilever", ("modes=3", )))

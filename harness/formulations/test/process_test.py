@@ -5,7 +5,7 @@ import os
 import sys
 
 from harness.formulations.test.beside_c import BesideC
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit.program import ROOT, ProgramTest
 
 EXAMPLES = ROOT / "elements" / "examples"
 PYTHON = f"exec:'{sys.executable}' '{EXAMPLES / 'timoshenko.py'}'"

@@ -12,7 +12,7 @@
 #include "harness/formulations/plugin.h"
 #include "harness/formulations/process.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 enum { KINDS = 65536, M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };
 

@@ -3,7 +3,7 @@ import os
 import pathlib
 import sys
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest, run
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
 
 
 class InPython(ProgramTest):

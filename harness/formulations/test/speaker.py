@@ -4,7 +4,7 @@ import sys
 import textwrap
 import time
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 SPEAKER = '''
 import json, os, signal, struct, sys, time

@@ -5,7 +5,7 @@ import pathlib
 import re
 import unittest
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest, read_json, run
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))

@@ -8,7 +8,7 @@
 #include "elements/test/sections.h"
 #include "harness/formulations/formulation.h"
 #include "harness/model/kinematics.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/scenes.h"
 
 enum { POINTS = 13, MOST = 60 };
 

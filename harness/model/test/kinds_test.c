@@ -5,8 +5,8 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/model/model_impl.h"
-#include "harness/test/accepted.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/accepted.h"
+#include "harness/tools/kit/ask.h"
 
 enum { SECTIONS = 2, MOST_MEMBERS = 3 };
 static const double young = 1e4, side[SECTIONS] = {0.1, 0.1 * (1 + 1e-6)};

@@ -10,7 +10,7 @@
 #include "harness/formulations/parameters.h"
 #include "harness/formulations/registry.h"
 #include "harness/study/cell.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 

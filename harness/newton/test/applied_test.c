@@ -12,7 +12,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/scenes.h"
 
 enum { MOST = 120 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/registry.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
                                            "collocation"};

@@ -9,7 +9,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/test/turned_body.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/scenes.h"
 
 /* Five points: the error is of the fourth order. */
 static double slope(const turned_body *s, int k)

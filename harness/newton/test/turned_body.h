@@ -14,7 +14,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"
-#include "harness/test/scenes.h"
+#include "harness/tools/kit/scenes.h"
 
 enum { MOST = 40 };
 

@@ -2,7 +2,7 @@
 import unittest
 
 from harness.records.test.stored import altered, replace, table_of, verify
-from harness.test.program import TRUTHS, ProgramTest, run
+from harness.tools.kit.program import TRUTHS, ProgramTest, run
 
 TABLES = "cases/warping_torsion"
 

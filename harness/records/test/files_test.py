@@ -14,7 +14,7 @@ import xml.etree.ElementTree
 import h5py
 import numpy
 
-from harness.test.program import PROGRAM, TRUTHS, ProgramTest, read_json, run
+from harness.tools.kit.program import PROGRAM, TRUTHS, ProgramTest, read_json, run
 from reference.pack import seal
 
 SELECTION = ("verify", "-k", "warping_torsion/default")

@@ -6,7 +6,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 MOTION = ("solve", "elbow", "-f", "collocation", "-n", "2", "--set", "step=0.07",
           "--set", "tolerance=0", "--set", "integrator=alpha")

@@ -2,7 +2,7 @@
 import numpy
 
 from harness.records.test.stored import altered, replace, verify
-from harness.test.program import PROGRAM, ProgramTest
+from harness.tools.kit.program import PROGRAM, ProgramTest
 
 TABLES = "cases/snap_through"
 

@@ -12,7 +12,7 @@ import numpy
 import scipy.io
 import scipy.linalg
 
-from harness.test.program import PROGRAM, ProgramTest, run
+from harness.tools.kit.program import PROGRAM, ProgramTest, run
 
 FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "sheet_second",
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",

@@ -4,7 +4,7 @@ import h5py
 import numpy
 
 from harness.records.test.stored import altered, replace, table_of, verify
-from harness.test.program import ROOT, ProgramTest, run
+from harness.tools.kit.program import ROOT, ProgramTest, run
 
 CASE = "warping_torsion"
 SCENE = ROOT / "cases" / "examples" / "euler_column.yaml"

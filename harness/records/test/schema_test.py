@@ -9,8 +9,8 @@ import unittest
 
 import h5py
 
-from harness.test import program
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit import program
+from harness.tools.kit.program import ROOT, ProgramTest
 
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 
 from harness.records.test.stored import WORK, altered, table_of, verify
-from harness.test.program import ProgramTest, run
+from harness.tools.kit.program import ProgramTest, run
 
 SELECTION = "warping_torsion/default or bend_45/default and collocation"
 FLOOR, ERROR = 1e-8, 0.01  # thresholds of compare

@@ -3,7 +3,7 @@ import shutil
 
 import h5py
 
-from harness.test.program import run
+from harness.tools.kit.program import run
 from reference.pack import seal
 
 WORK = {

@@ -2,7 +2,7 @@
 import h5py
 
 from harness.records.test.stored import altered, verify
-from harness.test.program import ROOT, ProgramTest, run
+from harness.tools.kit.program import ROOT, ProgramTest, run
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"

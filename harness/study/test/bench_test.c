@@ -11,7 +11,7 @@
 #include "harness/study/reach.h"
 #include "harness/study/rounds.h"
 #include "harness/study/timing.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 enum { PAIRS = 101, TRIALS = 300 };
 

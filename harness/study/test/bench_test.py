@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 

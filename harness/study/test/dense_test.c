@@ -7,7 +7,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/newton/uncondensed.h"
 #include "harness/study/dense_reference.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 /* The order of the matrix that is eliminated. */
 static int order_of(const cell_request *request)

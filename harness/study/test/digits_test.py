@@ -4,7 +4,7 @@ The judged meshes cannot resolve them: a compliance that shear all but cancels, 
 the sheet is thick, a fast channel, a high mode.  More elements show the predicted limit."""
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 DIGITS = 1e-4  # of a limit, relative: four digits
 FINE = "32,64,128,256,512"

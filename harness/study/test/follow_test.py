@@ -4,7 +4,7 @@ import csv
 import io
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
                 "geometrically_exact", "collocation")

@@ -2,7 +2,7 @@
 have another one, so that the limit is not known well; one mesh more passes."""
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 # case, formulation, parameters, quantity, its other place on the coarsest mesh that counts; meshes:
 # that one, the next one, those of the verdict, one more

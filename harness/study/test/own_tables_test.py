@@ -2,7 +2,7 @@
 import csv
 import subprocess
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest
 
 EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 RULES = "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,cause,proof"

@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "harness/formulations/case_find.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 static const element_type *sleepy_type;
 

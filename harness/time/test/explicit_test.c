@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "cases/shared/timed.h"
-#include "harness/test/cells.h"
+#include "harness/tools/kit/cells.h"
 
 static const double J[3] = {1, 2, 3}, start[3] = {0.5, 0.2, 2};
 

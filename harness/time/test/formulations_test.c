@@ -5,8 +5,8 @@
 
 #include "elements/test/sections.h"
 #include "harness/formulations/registry.h"
-#include "harness/test/ask.h"
 #include "harness/time/test/flight.h"
+#include "harness/tools/kit/ask.h"
 
 enum { STEPS = 60 };
 

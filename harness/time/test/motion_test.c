@@ -5,8 +5,8 @@
 
 #include "elements/math/pi.h"
 #include "harness/analysis/test/hinged.h"
-#include "harness/test/accepted.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/accepted.h"
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;

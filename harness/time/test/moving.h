@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "harness/formulations/parameters.h"
-#include "harness/test/ask.h"
+#include "harness/tools/kit/ask.h"
 
 enum { MOVING_STATIONS = 20 };
 

@@ -4,7 +4,7 @@ import json
 import pathlib
 import unittest
 
-from harness.test.program import PROGRAM, ROOT, environment, run
+from harness.tools.kit.program import PROGRAM, ROOT, environment, run
 from harness.tools import blind_spots
 
 PLANTED = pathlib.Path(PROGRAM).parent / "planted"

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from harness.test.program import ROOT
+from harness.tools.kit.program import ROOT
 from harness.tools import expense
 
 

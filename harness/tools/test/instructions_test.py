@@ -1,7 +1,7 @@
 """Parts of a profile: each instruction is in one, whoever calls whom; operations by address."""
 import unittest
 
-from harness.test.program import ProgramTest
+from harness.tools.kit.program import ProgramTest
 from harness.tools.instructions import Profile, operations, parts_of
 
 # Newton's loop calls strain twice and a factor once; strain has a product of its own; the set-up

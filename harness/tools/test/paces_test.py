@@ -4,8 +4,8 @@ import json
 import sys
 import unittest
 
-from harness.test import program
-from harness.test.program import ROOT, ProgramTest
+from harness.tools.kit import program
+from harness.tools.kit.program import ROOT, ProgramTest
 from harness.tools import paces
 
 

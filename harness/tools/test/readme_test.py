@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from harness.test.program import ROOT
+from harness.tools.kit.program import ROOT
 
 # Names to be filled in, and a table inside results.h5.
 PATTERNS = ("NAME", "my_beam", "*", "cases/elastica/quantities")

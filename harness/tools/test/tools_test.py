@@ -6,7 +6,7 @@ import subprocess
 import textwrap
 import unittest
 
-from harness.test.program import PROGRAM, ROOT, ProgramTest, run
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
 
 TOOLS = ROOT / "harness" / "tools"
 COMMANDS = ("build", "verify", "report", "test", "truths")

@@ -4,7 +4,7 @@ import subprocess
 import unittest
 
 from harness.library.python.test.module import LIBRARY, SETTINGS, ModuleTest, bw, python
-from harness.test.program import environment
+from harness.tools.kit.program import environment
 
 
 class Finding(ModuleTest):

@@ -7,7 +7,7 @@ import sys
 import unittest
 
 from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest, python
-from harness.test.program import environment
+from harness.tools.kit.program import environment
 
 
 # --no-build-isolation takes them from here.

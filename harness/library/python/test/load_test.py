@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from harness.library.python.test.module import ROOT, SETTINGS, ModuleTest, python
-from harness.test.program import environment
+from harness.tools.kit.program import environment
 
 EXAMPLES = ROOT / "elements" / "examples"
 CASE = "tapered_cantilever"

@@ -14,7 +14,7 @@ import unittest
 import numpy
 
 from harness.library.python.test.module import SETTINGS, ModuleTest, bw, leaf, python
-from harness.test.program import environment
+from harness.tools.kit.program import environment
 
 CASE = "sheet_cantilever"
 

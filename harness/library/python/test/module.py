@@ -7,7 +7,7 @@ import subprocess
 import sys
 import unittest
 
-from harness.test.program import PROGRAM, ROOT, TRUTHS, ProgramTest, environment
+from harness.tools.kit.program import PROGRAM, ROOT, TRUTHS, ProgramTest, environment
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 FOLDER = ROOT / "harness" / "library" / "python"

@@ -9,7 +9,7 @@ import unittest
 from unittest import mock
 
 from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest
-from harness.test.program import environment
+from harness.tools.kit.program import environment
 
 NOTEBOOK = FOLDER / "sheet_flexures.ipynb"
 NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")

@@ -1,0 +1,24 @@
+# make install DESTDIR= PREFIX=/usr/local: program, library, headers, data, examples, manual.
+PREFIX ?= /usr/local
+BINDIR ?= $(PREFIX)/bin
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+SHAREDIR ?= $(PREFIX)/share
+DATADIR := $(SHAREDIR)/beamwork
+# Where Debian's Python looks for modules of that prefix; below one's home it looks elsewhere.
+PYTHONDIR ?= $(PREFIX)/lib/python$(if $(filter /usr,$(PREFIX)),3,$(shell $(PYTHON) -I -c 'import sys; print("%d.%d" % sys.version_info[:2])'))/$(if $(filter $(HOME)/.local,$(PREFIX)),site,dist)-packages
+
+# Programs that are not beside their data look there.
+$(BUILD)/prefix: FORCE
+	@mkdir -p $(@D); echo '$(DATADIR)' | cmp -s - $@ || echo '$(DATADIR)' >$@
+$(BUILD)/harness/study/data_place.o: $(BUILD)/prefix
+$(BUILD)/harness/study/data_place.o: DEFINES := -DBEAMWORK_DATA='"$(DATADIR)"'
+
+.PHONY: install uninstall
+install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR=, PYTHONDIR= where they differ
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
+		VERSION="$(VERSION)" LIBS="$(DEP_LIBS)" harness/library/packaging/install.sh "$(BUILD)"
+
+uninstall: ## remove what install wrote, with the same DESTDIR and PREFIX
+	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
+		harness/library/packaging/uninstall.sh

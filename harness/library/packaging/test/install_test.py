@@ -1,0 +1,226 @@
+"""The installed copy, from an empty folder: programs of others built against it in every way, its
+data found, its examples compiled, nothing left behind."""
+import json
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import unittest
+
+from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
+
+HERE = pathlib.Path(__file__).parent
+BUILD = pathlib.Path(PROGRAM).parent
+SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
+
+
+def make(*arguments):
+    """make as it runs these tests, without its processes: they are counted elsewhere. Its files by
+    the same names, or all of them would be linked again, which other tests run."""
+    given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
+    clean = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")
+             and not name.startswith("BEAMWORK")}
+    build = os.path.relpath(BUILD, ROOT)
+    return subprocess.run(["make", "--no-print-directory", f"BUILD={build}", *given, *arguments],
+                          cwd=ROOT, env=clean, text=True, check=False, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+
+
+def is_sanitized():
+    return b"__asan_" in (BUILD / "libbeamwork.so.0").read_bytes()
+
+
+@unittest.skipIf(is_sanitized(), "programs of others are built without sanitizers")
+class Installed(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = cls.class_folder() / "a place"
+        done = make("install", f"DESTDIR={cls.place}", "PREFIX=/usr/local")
+        assert done.returncode == 0, done.stdout
+        cls.root = cls.place / "usr" / "local"
+        cls.data = cls.root / "share" / "beamwork"
+        cls.program = str(cls.root / "bin" / "beamwork")
+        cls.clean = {name: value for name, value in os.environ.items()
+                     if not name.startswith("BEAMWORK")}
+
+    def installed(self, *arguments, program=None, code=0, **changes):
+        done = run(*arguments, program=program or self.program, cwd=self.folder,
+                   env={**self.clean, **changes})
+        self.assertEqual(done.returncode, code, (arguments, done.stdout[-400:], done.stderr))
+        return done.stdout
+
+    def flags(self, *options):
+        """What pkg-config says of the copy, moved to where it is."""
+        text = self.installed("--define-variable=prefix=" + str(self.root).replace(" ", r"\ "),
+                              *options, "beamwork", program="pkg-config",
+                              PKG_CONFIG_PATH=str(self.root / "lib" / "pkgconfig"))
+        return shlex.split(text)
+
+    def compiled(self, *command):
+        """The consumer, built by that command."""
+        source = self.folder / "consumer.c"
+        shutil.copy(HERE / "consumer" / "consumer.c", source)
+        self.installed("-Wall", "-Wextra", "-Werror", *command[1:], "-o", "consumer",
+                       program=command[0])
+
+    def check(self, program="./consumer", **changes):
+        """Its values and documents are those of the program, bit for bit."""
+        text = self.installed(program=str(self.folder / program), **changes)
+        version, *_ = text.splitlines()
+        self.assertIn(version.split()[1], self.installed("--version"))
+        self.assertIn("did you mean 'c_column'", text.splitlines()[-1])
+        leaf = (HERE / "consumer" / "consumer.c").read_text(encoding="utf-8")
+        lines = re.findall(r'^    "(.*)\\n"', leaf, re.M)
+        (self.folder / "leaf.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        for arguments in (["c_column", "-f", "beamw_consistent", "-n", "4"],
+                          ["--scene", "leaf.yaml"]):
+            theirs = self.installed("solve", *arguments, "--format", "json")
+            self.assertIn(SECONDS.sub("", theirs), SECONDS.sub("", text))
+            for one in json.loads(theirs)["quantities"]:
+                self.assertIn(f"\n{one['quantity']} ", text)
+                found = re.search(rf"\n{one['quantity']} (\S+) ", text).group(1)
+                self.assertEqual(float(found), one["value"])
+
+    def test_shared_library(self):
+        library = str(self.root / "lib")
+        self.compiled("cc", "-std=c99", "consumer.c", *self.flags("--cflags", "--libs"))
+        self.check(LD_LIBRARY_PATH=library)
+        self.assertIn("libbeamwork.so.0", self.installed("-d", "consumer", program="readelf"))
+
+    @unittest.skipIf(shutil.which("c++") is None, "needs c++")
+    def test_shared_library_from_cplusplus(self):
+        self.compiled("c++", "-x", "c++", "consumer.c", "-x", "none",
+                      *self.flags("--cflags", "--libs"))
+        self.check(LD_LIBRARY_PATH=str(self.root / "lib"))
+
+    def test_static_library(self):
+        libraries = [flag.replace("-lbeamwork", "-l:libbeamwork.a")
+                     for flag in self.flags("--static", "--libs")]
+        self.compiled("cc", "-std=c99", "consumer.c", *self.flags("--cflags"), *libraries)
+        self.assertNotIn("libbeamwork", self.installed("-d", "consumer", program="readelf"))
+        self.check(BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
+
+    def test_readme(self):
+        """The program that the README shows, compiled by the line it shows."""
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        program, = re.findall(r"```c\n(.*?)```", text, re.S)
+        self.assertIn("cc column.c $(pkg-config --cflags --libs beamwork) -o column", text)
+        (self.folder / "column.c").write_text(program, encoding="utf-8")
+        self.installed("-Wall", "-Wextra", "-Werror", "column.c",
+                       *self.flags("--cflags", "--libs"), "-o", "column", program="cc")
+        said = self.installed(program="./column", LD_LIBRARY_PATH=str(self.root / "lib"))
+        self.assertRegex(said, r"^\d\S+ N, error \S+\n$")
+        solved = json.loads(self.installed("solve", "c_column", "--set", "length=3", "-f",
+                                           "beamw_consistent", "-n", "16", "--format", "json"))
+        value, = (one["value"] for one in solved["quantities"]
+                  if one["quantity"] == "buckling_load")
+        self.assertEqual(said.split()[0], f"{value:.10g}")
+
+    def test_cmake(self):
+        if shutil.which("cmake") is None:
+            self.skipTest("needs cmake")
+        prefix = f"-DCMAKE_PREFIX_PATH={self.root}"
+        self.installed("-S", HERE / "consumer", "-B", "build", prefix, program="cmake")
+        self.installed("--build", "build", program="cmake")
+        self.check("build/consumer")
+        self.check("build/consumer_static", BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
+
+    def test_symbols(self):
+        """Only the functions of beamwork.h are seen from outside, and all of them."""
+        header = (self.root / "include" / "beamwork" / "beamwork.h").read_text(encoding="utf-8")
+        declared = set(re.findall(r"\b(bw_\w+)\(", header))
+        for path, options in (("libbeamwork.so.0", ["-D"]), ("libbeamwork.a", ["-g"])):
+            text = self.installed(*options, "--defined-only", self.root / "lib" / path,
+                                  program="nm")
+            seen = {line.split()[2].partition("@")[0] for line in text.splitlines()
+                    if len(line.split()) == 3}
+            self.assertEqual(seen - {"BEAMWORK_0"}, declared)
+
+    def test_program_finds_its_data(self):
+        for arguments in (["solve", "c_column"], ["truth", "elastica"], ["explain", "wrong limit"],
+                          ["truth", "elastica", "--set", "load=2.5"]):
+            self.assertNotIn("without truths", self.installed(*arguments))
+        scene = self.data / "examples" / "scenes" / "leaf_spring_guide.yaml"
+        self.assertIn("kind: exact", self.installed("truth", "--scene", scene))
+        self.assertIn("PASS", self.installed("verify", "-k", "elastica/default and collocation"))
+
+    def test_elements_compile(self):
+        """By the commands that stand in them, from a folder of one's own."""
+        for source in sorted((self.data / "examples" / "elements").iterdir()):
+            shutil.copy(source, self.folder)
+        for source in sorted(self.folder.glob("*.c")):
+            commands = re.findall(r"^ \*   ((?:cc|gfortran) .*)$",
+                                  source.read_text(encoding="utf-8"), re.M)
+            self.assertIn("FOLDER_OF_BEAMWORK", commands[-1])
+            if any(shutil.which(line.split()[0]) is None for line in commands):
+                continue
+            for line in commands:
+                flags = shlex.join(self.flags("--cflags"))
+                program, *words = shlex.split(line.replace("-I FOLDER_OF_BEAMWORK", flags))
+                self.installed(*words, program=program)
+            text = self.installed("solve", "elastica", "--element", f"./{source.stem}.so", "-f",
+                                  source.stem, "-n", "4")
+            self.assertIn("w_over_L", text)
+
+    def test_python(self):
+        """The module, from its own place; it finds the library and its truths."""
+        module, = self.root.glob("lib/python3*/dist-packages")
+        text = self.installed("-B", "-c", "import beamwork as bw; print(bw.Scene.case('c_column')"
+                              ".solve('beamw', 4).errors['buckling_load'])",
+                              program="/usr/bin/python3", PYTHONPATH=str(module))
+        self.assertGreater(abs(float(text)), 0)
+
+    def test_formulation_in_python(self):
+        """It finds its module, and what the manual names is there; no compiled file is left."""
+        shutil.copy(self.data / "examples" / "elements" / "timoshenko.py", self.folder / "mine.py")
+        text = self.installed("solve", "elastica", "-f", "timoshenko_py", "-n", "2", "--element",
+                              "exec:/usr/bin/python3 mine.py")
+        self.assertIn("w_over_L", text)
+        self.assertEqual(list(self.place.rglob("*.pyc")), [])
+        page = (self.root / "share" / "man" / "man7" / "beamwork-element.7").read_text("utf-8")
+        for name in re.findall(r"\.Pa (share/\S+)", page):
+            self.assertTrue((self.root / name).exists(), name)
+        self.assertIn("doc/beamwork/harness/formulations/protocol.md", page)
+        self.assertTrue((self.root / "share" / "doc" / "beamwork" / "CONTRIBUTING.md").exists())
+
+    def test_report(self):
+        program = str(self.root / "bin" / "beamwork-report")
+        self.installed("verify", "-k", "elastica/default and collocation", "-o", "r.h5")
+        self.installed("r.h5", "-o", "site", program=program)
+        self.assertTrue((self.folder / "site" / "index.html").exists())
+        self.assertIn("usage", self.installed(program=program, code=2))
+        done = run("nothing.h5", "-o", "site", program=program, cwd=self.folder, env=self.clean)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (4, 1), done.stderr)
+
+    def test_without_data(self):
+        """A program without its data says in one line what is missing."""
+        if pathlib.Path("/usr/local/share/beamwork").exists():
+            self.skipTest("a copy is installed in /usr/local, which has its data")
+        alone = self.folder / "beamwork"
+        shutil.copy(self.program, alone)
+        for arguments, code in ((["truth", "elastica"], 4), (["verify"], 4),
+                                (["truth", "--scene", self.data / "examples" / "scenes" /
+                                  "leaf_spring_guide.yaml"], 4)):
+            done = run(*arguments, program=str(alone), cwd=self.folder, env=self.clean)
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (code, 1), done)
+
+    def test_uninstall(self):
+        place = self.folder / "gone"
+        make("install", f"DESTDIR={place}", "PREFIX=/usr/local")
+        self.assertEqual(make("uninstall", f"DESTDIR={place}", "PREFIX=/usr/local").returncode, 0)
+        self.assertEqual([path for path in place.rglob("*") if not path.is_dir()], [])
+        again = make("uninstall", f"DESTDIR={place}", "PREFIX=/usr/local")
+        self.assertNotEqual(again.returncode, 0)
+        self.assertFalse((place / "usr" / "local" / "share" / "beamwork").exists())
+        self.assertIn("nothing is installed", again.stdout)
+
+    def test_nothing_is_written_at_work(self):
+        """Python leaves no compiled files in the installed folders."""
+        self.test_report()
+        self.assertEqual(list(self.place.rglob("*.pyc")), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+/* Any bytes as the texts that a program gives the library: behind the number of the call, a text or
+ * two with a line between them. What is refused has a reason of one line, or a list of mistakes
+ * that is JSON; what is made is JSON, or a scene that reads back; both are UTF-8. */
+#include <jansson.h>
+
+#include "harness/formulations/registry.h"
+#include "harness/library/beamwork.h"
+#include "harness/tools/fuzz/fuzz.h"
+
+static const char leaf[] =
+    "beamwork: 1\n"
+    "sections: {s: {rectangle: {width: 0.05, thickness: 5e-4}, young: 2e11, shear_modulus: 8e10}}\n"
+    "parameters: {long: {value: 0.1, unit: m, min: 0.01, max: 1, about: length}}\n"
+    "nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [long, 0, 0]}}\n"
+    "members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}\n"
+    "loads: {f: {force: [0, 1, 0], on: b}}\n";
+
+static int is_utf8(const char *text)
+{
+    json_t *one = json_string(text); /* NULL where it is not */
+    json_decref(one);
+    return one != NULL;
+}
+
+static int is_json(const char *text)
+{
+    json_error_t error;
+    json_t *root = json_loads(text, 0, &error);
+    json_decref(root);
+    return root != NULL;
+}
+
+/* made: what the call should have made. */
+static void must_tell(bw_status got, const void *made, char *why)
+{
+    fuzz_must((got == BW_OK) == (why == NULL), "a failure has a reason, and nothing else has");
+    fuzz_must(got != BW_OK || made != NULL, "a call that is well makes something");
+    fuzz_must(got != BW_REFUSED || made == NULL, "what is refused makes nothing");
+    fuzz_must(why == NULL || is_utf8(why), "a reason is UTF-8");
+    fuzz_must(why == NULL || (why[0] == '{' ? is_json(why) : strchr(why, '\n') == NULL),
+              "and a line, or a list of mistakes");
+    bw_free_text(why);
+}
+
+static void must_be_json(char *text)
+{
+    fuzz_must(text == NULL || is_json(text), "a document is JSON");
+    bw_free_text(text);
+}
+
+static bw_scene *own_scene(void)
+{
+    bw_scene *s = NULL;
+    fuzz_must(bw_scene_read(leaf, sizeof leaf - 1, "leaf", &s, NULL) == BW_OK, "the leaf is read");
+    return s;
+}
+
+/* Solved with any formulation and options: it is small and linear. */
+static void try_solve(const char *formulation, const char *options)
+{
+    char *why = NULL, *json = NULL;
+    bw_scene *s = own_scene();
+    bw_result *r = NULL;
+    const bw_status got = bw_solve(s, formulation, 1, options, &r, &why);
+    must_tell(got, r, why);
+    if (r != NULL)
+        fuzz_must(bw_result_json(r, &json, NULL) == BW_OK, "a result has a document");
+    must_be_json(json);
+    bw_result_free(r);
+    bw_scene_free(s);
+}
+
+static void try_list(const char *name)
+{
+    char *why = NULL, *json = NULL;
+    const bw_status got = bw_list(name, &json, &why);
+    must_tell(got, json, why);
+    must_be_json(json);
+}
+
+static void try_set(const char *assignment)
+{
+    char *why = NULL, *json = NULL;
+    bw_scene *s = own_scene();
+    const bw_status got = bw_scene_set(s, assignment, &why);
+    must_tell(got, got == BW_OK ? s : NULL, why);
+    fuzz_must(bw_scene_json(s, &json, NULL) == BW_OK, "a scene has a document");
+    must_be_json(json);
+    bw_scene_free(s);
+}
+
+/* Refused before anything is run: the selection names nothing. */
+static void try_converge(const char *formulations, const char *meshes)
+{
+    char *why = NULL, *json = NULL;
+    bw_scene *s = own_scene();
+    bw_status got =
+        bw_converge(s, formulations, meshes, "{\"select\": \"nothing_is_called_so\"}", &json, &why);
+    fuzz_must(got == BW_REFUSED, "it is refused");
+    must_tell(got, json, why);
+    got = bw_verify(s, formulations, "nothing_is_called_so", meshes, NULL, &json, &why);
+    fuzz_must(got == BW_REFUSED, "it is refused");
+    must_tell(got, json, why);
+    bw_scene_free(s);
+}
+
+static void try_scene(const char *bytes, size_t size)
+{
+    char *why = NULL, *yaml = NULL, *json = NULL;
+    bw_scene *s = NULL, *again = NULL;
+    const bw_status got = bw_scene_read(bytes, size, NULL, &s, &why);
+    must_tell(got, s, why);
+    if (s == NULL)
+        return;
+    if (bw_scene_json(s, &json, NULL) == BW_OK)
+        must_be_json(json);
+    if (bw_scene_write(s, &yaml, NULL) == BW_OK) {
+        fuzz_must(is_utf8(yaml), "a scene that is written is UTF-8");
+        fuzz_must(bw_scene_read(yaml, strlen(yaml), NULL, &again, NULL) == BW_OK, "and reads back");
+    }
+    bw_free_text(yaml);
+    bw_scene_free(again);
+    bw_scene_free(s);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size == 0)
+        return 0;
+    char *first = fuzz_text(data + 1, size - 1), *second = strchr(first, '\n');
+    if (second != NULL)
+        *second++ = '\0';
+    switch (data[0] % 6) {
+    case 0:
+        try_list(first);
+        break;
+    case 1:
+        try_set(first);
+        break;
+    case 2:
+        try_solve(first, second);
+        break;
+    case 3:
+        try_solve(registry_formulations[0]->name, first);
+        break;
+    case 4:
+        try_converge(first, second);
+        break;
+    default:
+        try_scene((const char *)data + 1, size - 1);
+    }
+    free(first);
+    return 0;
+}

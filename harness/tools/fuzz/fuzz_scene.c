@@ -1,0 +1,69 @@
+/* Any bytes as a scene file. What is accepted is a scene that can be written, and what is written
+ * reads back as a scene that is written the same way; what is refused has a mistake with a place.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/scene_file.h"
+#include "cases/format/write.h"
+#include "harness/study/scene_truths.h"
+#include "harness/tools/fuzz/fuzz.h"
+
+/* The scene at its defaults as text, malloced; NULL: it cannot be written. */
+static char *written(const scene_file *file, size_t *size)
+{
+    const case_type *type = scene_file_case(file);
+    double value[CASE_MAX_PARAMETERS] = {0};
+    char *text = NULL;
+    scene s;
+    fault f = {""};
+    parameter_defaults(type->parameters, value);
+    scene_init(&s, type->name);
+    fuzz_must(case_build(type, value, &s, &f) == STATUS_OK, "what was accepted can be built");
+    fuzz_must(scene_validate(&s, &f) == STATUS_OK, "and is valid");
+    FILE *to = open_memstream(&text, size);
+    fuzz_must(to != NULL, "there is memory");
+    const write_head head = {type->name, type->summary, type->source};
+    const status outcome = write_scene(to, &s, &head, &f);
+    fclose(to);
+    scene_free(&s);
+    if (outcome == STATUS_OK)
+        return text;
+    free(text);
+    return NULL;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char path[] = "scene";
+    scene_file *file = NULL, *again = NULL;
+    mistakes m;
+    fault f = {""};
+    const status outcome = scene_file_read_bytes((const char *)data, size, path, &file, &m, &f);
+    fuzz_must((outcome == STATUS_OK) == (m.count == 0 && !m.out_of_memory),
+              "what is refused has a mistake");
+    for (int i = 0; i < m.count; i++)
+        fuzz_must(m.list[i].line >= 1 && m.list[i].column >= 1 && m.list[i].text[0] != '\0' &&
+                      strchr(m.list[i].text, '\n') == NULL,
+                  "a mistake has a place and one line");
+    if (outcome != STATUS_OK)
+        return 0;
+    truths t = {0};
+    scene_truths_add_all(file, &t, &f);
+    truths_free(&t);
+    size_t one = 0, two = 0;
+    char *text = written(file, &one), *same = NULL;
+    if (text != NULL) {
+        fuzz_must(scene_file_read_bytes(text, one, path, &again, &m, &f) == STATUS_OK,
+                  "what is written can be read");
+        same = written(again, &two);
+        fuzz_must(same != NULL && one == two && memcmp(text, same, one) == 0,
+                  "and is written the same way");
+    }
+    free(text);
+    free(same);
+    scene_file_free(again);
+    scene_file_free(file);
+    return 0;
+}

@@ -1,0 +1,89 @@
+"""The program as its tests call it, and what they write: one place for every test in Python.
+
+reference/test does without it: what derives truths shares nothing with what they judge.
+"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
+TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
+if "BEAMWORK_TRUTHS" in os.environ:  # also for programs that are run in another folder
+    os.environ["BEAMWORK_TRUTHS"] = TRUTHS
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+# A shell's background job ignores it, and the program leaves ignored what was ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def run(*arguments, program=PROGRAM, **options):
+    """The finished process with its text; options as of subprocess.run. Never raises for a
+    status."""
+    return subprocess.run([program, *map(str, arguments)], text=True, check=False,
+                          **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
+
+
+def environment(**changes):
+    """That of this process with some variables of other values."""
+    return {**os.environ, **changes}
+
+
+def report(results, folder, *options):
+    """Draws results into folder, as `make report` does."""
+    return run("-B", "-m", "reports", results, TRUTHS, *options, "-o", folder,
+               program=sys.executable, cwd=ROOT)
+
+
+def drawn(folder, *selection, options=()):
+    """The report of a run of verify, drawn with those options; the run is folder/results.h5."""
+    results, site = folder / "results.h5", folder / "site"
+    run("verify", *selection, "-o", results)
+    done = report(results, site, *options)
+    assert done.returncode == 0, done.stderr
+    return site
+
+
+def read_json(path):
+    """What a file of ours says."""
+    return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a folder of its own, which is empty before and gone after it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    @classmethod
+    def class_folder(cls):
+        """A folder for all tests of the class, for setUpClass."""
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        return pathlib.Path(folder.name)
+
+    def answered(self, *arguments, code=0, **options):
+        """The process, which ended with that code."""
+        done = run(*arguments, **options)
+        self.assertEqual(done.returncode, code, (arguments, done.stderr))
+        return done
+
+    def record(self, *arguments, **options):
+        """What it prints with --format json."""
+        return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
+
+    def refused(self, code, words, *arguments, silent=True, **options):
+        """One line of error with all the words, that code, and nothing was computed."""
+        done = run(*arguments, **options)
+        self.assertEqual(done.returncode, code, (arguments, done))
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        for word in [words] if isinstance(words, str) else words:
+            self.assertIn(word, done.stderr)
+        if silent:
+            self.assertEqual(done.stdout, "", (arguments, "something was computed"))

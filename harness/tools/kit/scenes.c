@@ -1,0 +1,30 @@
+#include "harness/tools/kit/scenes.h"
+
+#include <stdio.h>
+
+int scenes_cantilever(scene *s, const section_spec *spec)
+{
+    const double y_axis[3] = {0, 1, 0};
+    const int root = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, 1, 0, 0);
+    scene_hold_all(s, root);
+    scene_add_member(s, root, tip, scene_add_section(s, spec), y_axis);
+    return tip;
+}
+
+void scenes_ask_frequencies(scene *s, const char *name, int analysis, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char text[SCENE_NAME];
+        snprintf(text, sizeof text, "%s_%d", name, i);
+        scene_add_quantity(s, text, "Hz", analysis, scene_frequency(i, SCENE_ANY));
+    }
+}
+
+void scenes_ask_motion(scene *s, const char *name, int analysis, int node)
+{
+    for (int i = 0; i < 3; i++) {
+        char text[SCENE_NAME];
+        snprintf(text, sizeof text, "%s_%d", name, i);
+        scene_add_quantity(s, text, "m", analysis, scene_coordinate(node, i));
+    }
+}
