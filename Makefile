@@ -18,10 +18,10 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c))
 LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
-LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/tools/kit/% harness/cli/main.c harness/tools/fuzz/%,$(LIBRARY_SOURCES))
+LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/cli/main.c,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
-# What tests share; a room's own test folder is never part of the library.
+# What tests share; a folder's own tests are never part of the library.
 KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/tools/kit/*.c)))
 PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard cases/*/test/*_test.py harness/*/test/*_test.py harness/*/*/test/*_test.py))
 

@@ -230,32 +230,35 @@ def chosen(count, span=None):
     return left, len(taken) - len(left)
 
 
-# Tests of other rooms, in Python, that show what a room does.
+# Tests of other folders, in Python, that show what a folder does.
 BESIDE = {
-    "harness/(command|catalogue|language|tables|request|schema|division|study|truth|judge|library"
-    "|model)/": "cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
-                "|printed|had|gate)",
-    "harness/(record|judge|study|request|command|tables|schema|shards)/":
-        "comparison/compare|record/schema|study/follow|judge|analysis/shapes",
-    "harness/(contract|certificate|adapters)/": "cli/(element_test_test|certificate)",
-    "harness/(ranges|shards|spread)/": "cli/sweep|spread",
-    "harness/(timing|contest|study)/": "timing|cli/beside",
-    "harness/(pace|motion|radau|scheme|explicit|conserving)/":
-        "pace/motion|cli/(restart|own_motion|motion_error)",
-    "harness/study/": "cli/new_formulation|project",
-    "harness/(turning|flutter|solver|algebra|equations|model|recovery)/":
-        "analysis/(shapes|flutter|rotor|about|along|turns|sym|divided)",
-    "cases/scene/|harness/(model|scene_writer|language|truth|comparison)/":
-        "scene_file/(keys|scene|loads|units|parts|contents|stability|warping)|cli/(plane|physics)",
-    "cases/extremes/|harness/experiments/": "extremes",
-    "cases/closed_forms/": "scene_file/closed",
-    "harness/cli/": "timing|extremes|imports|export|pace",
+    "harness/(cli|formulations|experiments|study|library|model|records)/|cases/format/":
+        "harness/cli/(cli|outputs|asked|choice|list|converge|options|screen|defaults|help|examples"
+        "|printed|had|gate)",
+    "harness/(records|terminal|study|experiments|cli)/":
+        "harness/records/(compare|schema)|harness/study/(follow|digits|modes)"
+        "|harness/analysis/shapes",
+    "harness/(experiments|formulations)/":
+        "harness/cli/(element_test_test|certificate|sweep|spread)",
+    "harness/(study|cli)/": "harness/study/bench|harness/cli/beside",
+    "harness/(experiments|time)/":
+        "harness/experiments/motion|harness/cli/(restart|own_motion|motion_error)",
+    "harness/study/": "harness/cli/new_formulation|harness/study/own_tables",
+    "harness/(numerics|analysis|newton|section_forces|model)/":
+        "harness/analysis/(shapes|flutter|rotor|about|along|turns|sym|divided)",
+    "cases/(scene|format)/|harness/(model|study|records)/":
+        "cases/format/(keys|scene|loads|units|parts|contents|stability|warping)"
+        "|harness/cli/(plane|physics)",
+    "cases/extremes/|harness/experiments/": "harness/experiments/(extremes|stress)",
+    "cases/closed_forms/": "cases/format/closed",
+    "harness/cli/": "harness/study/bench|harness/experiments/|harness/exchange/",
 }
-# Tests in C of other rooms that are near all the same.
+# Tests in C that are near: of the folder, or of others all the same.
 NEAR = {
     "elements": "elements/test/|harness/experiments/test/contract_|harness/analysis/test/(frequency"
                 "|critical|along_eq)|harness/time/test/consistent_test",
     "cases": "cases/test/",
+    "cases/format": "cases/format/test/",
 }
 CALLERS = 8
 # They last half a minute and more: after all others.
@@ -264,7 +267,9 @@ SLOW = tuple(f"{name}_test.c" for name in ("invariants", "consistent_mesh", "inp
 JUDGED = "verify:" + " or ".join(f"{case}/default" for case in (
     "elastica", "c_column", "unsymmetric_column", "warping_torsion", "wagner_torsion",
     "lateral_buckling", "hexapod")) + " and collocation"
-UNJUDGED = tuple(f"harness/{room}/" for room in ("manual", "completion", "timing", "ranges"))
+UNJUDGED = tuple(f"harness/{name}" for name in (
+    "cli/manual", "cli/roff", "cli/completion", "cli/offer", "cli/names", "study/timing",
+    "experiments/ranges"))
 
 
 def tests():
@@ -277,7 +282,8 @@ def checks(file, texts):
     """What should notice a fault of a file: tests of its room, of others that call its functions,
     cells that are judged, and tests in Python that show it."""
     room = file.split("/")
-    near = re.compile(NEAR.get(room[0], f"{room[0]}/{room[1]}/test/"))
+    near = re.compile(NEAR.get("/".join(room[:2])) or NEAR.get(room[0]) or
+                      f"{room[0]}/{room[1]}/test/")
     defined = re.findall(r"^(?!static|typedef)\w[\w ]*[ *](\w+)\(",
                          (ROOT / file).read_text(encoding="utf-8"), re.M)
     names = re.compile(r"\b(" + "|".join([*defined, re.escape(file[:-2] + ".h")]) + r")\b")
@@ -289,7 +295,7 @@ def checks(file, texts):
                if told[test] and not near.match(test) and test.endswith(".c")][:CALLERS]
     shown = "|".join(those for rooms, those in BESIDE.items() if re.match(rooms, file))
     python = [test for test in ranked if test.endswith(".py") and (near.match(test) or (
-        shown and re.match(f"harness/({shown})", test.replace("/test/", "/"))))]
+        shown and re.match(shown, test.replace("/test/", "/"))))]
     python.sort(key=lambda test: (room[-1][:-2] not in test, not near.match(test)))
     judged = [] if file.startswith(UNJUDGED) else [JUDGED]
     return [*in_c, *callers, *judged, *(test[:-3].replace("/", ".") for test in python)]

@@ -22,7 +22,7 @@ rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
 rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
 rule cases/scene 'cases/format/' 'a scene knows no file'
-# The floors of the harness, lowest first: a room includes itself and those before it.
+# The floors of the harness, lowest first: one includes itself and those before it.
 floors="numerics formulations model section_forces newton time analysis study records terminal exchange experiments cli library"
 above=$floors
 for room in $floors; do
@@ -32,6 +32,9 @@ for room in $floors; do
 done
 rule harness/numerics 'cases/|elements/(element|section|beamw|sheet|exact)' 'numerics know no beam'
 rule harness 'reference/|reports/|elements/(beamw|sheet|exact)/' 'the harness names no formulation and no truth'
+for room in ${floors%% study *}; do
+    rule "harness/$room" 'cases/format/' 'what solves reads no files'
+done
 # The harness walks generated lists: neither a formulation nor a case is named in it.
 for file in elements/*.c cases/*.c; do
     [ -f "$file" ] || continue
