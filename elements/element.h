@@ -63,7 +63,7 @@ enum element_lack {
     LACKS_SHEAR_Y = 1 << 0 /* rigid in shear along y, though FEATURE_SHEAR is offered */
 };
 
-/* What a type leaves to differences of what it gives (harness/adapters): of sixth order in the
+/* What a type leaves to differences of what it gives (harness/formulations): of sixth order in the
  * rotation chart, exact to about ten digits, and slow. Results say so; such times rank nothing. */
 enum element_left {
     LEAVES_J = 1 << 0,      /* strain gives e only */

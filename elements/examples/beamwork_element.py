@@ -1,6 +1,6 @@
 """A beam formulation in Python and numpy for beamwork --element 'exec:python3 my_beam.py'.
 
-serve(**what it is, functions) speaks the protocol of harness/process/README.md; timoshenko.py
+serve(**what it is, functions) speaks the protocol of harness/formulations/protocol.md; timoshenko.py
 beside this file is an example. Arrays: N elements at once, n nodes, m strains; matrices are the
 last two axes. Functions (first argument: the kind of element that all N are):
   prepare(kind)           -> C[m, m], constant: sigma = C e; or None. Once for each kind; may keep

@@ -1,5 +1,5 @@
 /* The mixed equations of several elements of one kind at once, from strains and stresses that stay
- * in their lanes; the sums of harness/equations in their order. */
+ * in their lanes; the sums of harness/newton in their order. */
 #ifndef BEAMWORK_LANES_EQUATIONS_H
 #define BEAMWORK_LANES_EQUATIONS_H
 
