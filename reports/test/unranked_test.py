@@ -84,7 +84,7 @@ class Drawn(ProgramTest):
     def test_marks(self):
         """In tables and legends, beside the name."""
         for name, why in NAMES.items():
-            words = f"({why}; new, not gating)"
+            words = f"({why})"
             for page in ("index.html", "tapered_cantilever.html", "formulations.html"):
                 self.assertRegex(self.page(page),
                                  re.escape(f"formulation_{name}.html") + "[^(]*" + re.escape(words))

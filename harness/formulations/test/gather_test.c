@@ -89,6 +89,10 @@ static void begin(both *b, element_type given)
     fault f = {""};
     for (int k = 0; k < 2; k++) {
         b->given[k] = given;
+        if (given.force != NULL) {
+            b->given[k].along = NULL;
+            b->given[k].tension = NULL;
+        }
         if (k == 1) {
             b->given[k].strain_many = given.strain != NULL ? strain_many : NULL;
             b->given[k].force_many = given.force != NULL ? force_many : NULL;
