@@ -98,16 +98,16 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     p->product = calloc((size_t)size.free + 1, sizeof *p->product);
     if (p->product == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
-    TRY(quadratic_forms_alloc(c->model, &s->K, &p->staying, f));
+    TRY(quadratic_forms_alloc(c->run, &s->K, &p->staying, f));
     TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
     TRY(quadratic_forms_load(&p->staying, 0, 1, f));
     TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
-    TRY(linear_geometric_stiffness(c->model, p->staying.sigma, 0, &p->of_stay, f));
+    TRY(linear_geometric_stiffness(c->run, p->staying.sigma, 0, &p->of_stay, f));
     for (int i = 0; i < size.free + size.driven; i++)
         p->growing.load_x[i] -= p->staying.load_x[i];
     for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += p->of_stay.value[i];
-    model_counters(c->model)->factorisations++;
+    c->run->counters.factorisations++;
     const status factored = context_factor(c, s->factor, &s->K, f);
     if (factored == STATUS_SINGULAR ||
         (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
@@ -126,13 +126,13 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
     TRY(along_path_proportional(c->scene, f));
-    TRY(quadratic_forms_alloc(c->model, &s->K, &p->growing, f));
+    TRY(quadratic_forms_alloc(c->run, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
     if (loads_begin(c->model) || linear_initial(c->model) > 0)
         TRY(split_stays(c, s, p, f));
     TRY(quadratic_forms_load(&p->growing, 1, 0, f));
     TRY(sparse_alloc_like(&s->K, &p->G, f));
-    TRY(linear_geometric_stiffness(c->model, p->growing.sigma, 1, &p->G, f));
+    TRY(linear_geometric_stiffness(c->run, p->growing.sigma, 1, &p->G, f));
     if (p->stays) {
         subtract(&p->staying.loads, &p->G);
         subtract(&p->staying.loads, &p->growing.loads);
@@ -200,8 +200,12 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);
     if (result == STATUS_OK) {
-        analysis_context finer = {
-            .scene = c->scene, .model = halved, .options = c->options, .result = c->result};
+        run_state run = run_state_of(halved); /* its work does not count */
+        analysis_context finer = {.scene = c->scene,
+                                  .model = halved,
+                                  .run = &run,
+                                  .options = c->options,
+                                  .result = c->result};
         context_set_frame(&finer, analysis);
         result = solve(&finer, analysis, &b, f);
     }

@@ -88,7 +88,7 @@ static status keep(const analysis_context *c, const model_state *state, double p
     TRY(inputs(c, state, w, &out->B, f));
     if (!(model_sizes(c->model).features & FEATURE_MASS))
         return STATUS_OK;
-    TRY(rotating_frame_inertia(c->model, state, path, &w->M, out->turns ? &w->G : NULL, f));
+    TRY(rotating_frame_inertia(c->run, state, path, &w->M, out->turns ? &w->G : NULL, f));
     TRY(triplets_of(&w->M, 0, &out->M, f));
     return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
 }
@@ -103,10 +103,10 @@ static status keep_linear(const analysis_context *c, int analysis, const double 
     TRY(next(s, &out, f));
     out->analysis = analysis;
     rotating_frame_set(c->model, none, none, 0);
-    TRY(linear_stiffness(c->model, &w->K, f));
+    TRY(linear_stiffness(c->run, &w->K, f));
     if (displaced != NULL) {
-        TRY(linear_whole_stresses(c->model, displaced, w->sigma, f));
-        TRY(linear_geometric_stiffness(c->model, w->sigma, path, &w->G, f));
+        TRY(linear_whole_stresses(c->run, displaced, w->sigma, f));
+        TRY(linear_geometric_stiffness(c->run, w->sigma, path, &w->G, f));
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];
     }
@@ -130,8 +130,8 @@ static status keep_state(const analysis_context *c, int analysis, int station,
     context_set_frame(c, analysis);
     kinematics_state_copy(c->model, state, w->state);
     if (c->options->newton == NEWTON_DISPLACEMENT)
-        TRY(linearise_make_compatible(c->model, w->state, f));
-    TRY(linearise_state(c->model, w->state, &lin, f));
+        TRY(linearise_make_compatible(c->run, w->state, f));
+    TRY(linearise_state(c->run, w->state, &lin, f));
     return keep(c, w->state, path, w, out, f);
 }
 

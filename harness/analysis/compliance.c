@@ -42,7 +42,7 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
                         const model_state *s, double reaction[6])
 {
     double load[6];
-    linearise_node_force(c->model, s, NULL, what->node, reaction);
+    linearise_node_force(c->run, s, NULL, what->node, reaction);
     loads_at_node(c->model, s, kinematics_state_path(s), what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];

@@ -85,7 +85,7 @@ static status accept(continuation *p, step_record *record, fault *f)
     judge(p, &before, record);
     if (!p->here.symmetric && scene_has_mass(p->c->scene))
         TRY(flutter_judge_state(&p->judge, p->c, p->n.state, record, f));
-    model_counters(p->c->model)->steps++;
+    p->c->run->counters.steps++;
     TRY(add_point(p, f));
     return history_add_step(p->c->result, record, f);
 }
@@ -139,7 +139,7 @@ static void reject(continuation *p, const attempt *t)
 {
     continuation_step_go_back(p);
     history_drop_step(p->c->result, &t->record);
-    model_counters(p->c->model)->rejected_steps++;
+    p->c->run->counters.rejected_steps++;
 }
 
 static double next_size(const continuation *p, double size, double length, const attempt *t)

@@ -48,7 +48,7 @@ static double least_eigenvalue(continuation *p)
             product += x[k] * p->moved[k];
         eigenvalue = 1 / product;
     }
-    model_counters(p->c->model)->solutions += INVERSE_ITERATIONS;
+    p->c->run->counters.solutions += INVERSE_ITERATIONS;
     return eigenvalue;
 }
 

@@ -77,7 +77,7 @@ static status directions(continuation *p, step_record *record, fault *f)
     memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
     memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
     factor_solve(p->n.factor, p->response);
-    model_counters(m)->solutions++;
+    p->c->run->counters.solutions++;
     return STATUS_OK;
 }
 
@@ -149,7 +149,7 @@ static status index_of(continuation *p, path_point *out, fault *f)
 {
     left_of_axis left;
     TRY(left_count(p->n.factor, p->n.free, p->weight, &left, f));
-    model_counters(p->c->model)->solutions += left.solutions;
+    p->c->run->counters.solutions += left.solutions;
     out->negative = left.count;
     out->nearest = left.nearest;
     for (int i = 0; i < left.nearest; i++)

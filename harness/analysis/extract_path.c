@@ -65,9 +65,9 @@ static double force_at(const analysis_context *c, const scene_quantity *q,
     const outcome_instant *moving = moving_at(o, i);
     double value = NAN;
     fault f = {""};
-    const status outcome = resultants_of(c->model, q, outcome_path_of(o)->state[i],
-                                         moving != NULL ? moving->rate : NULL,
-                                         moving != NULL ? moving->acceleration : NULL, &value, &f);
+    const status outcome =
+        resultants_of(c->run, q, outcome_path_of(o)->state[i], moving != NULL ? moving->rate : NULL,
+                      moving != NULL ? moving->acceleration : NULL, &value, &f);
     if (outcome != STATUS_OK)
         quantity_no_value(r, outcome, f.text);
     return outcome == STATUS_OK ? value : NAN;

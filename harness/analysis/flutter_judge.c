@@ -50,7 +50,7 @@ static status count_passed(flutter_judge *j, step_record *record, fault *f)
     left_of_axis left;
     int pairs = 0;
     TRY(left_count(j->n.factor, j->n.free, j->n.weight, &left, f));
-    model_counters(j->n.c->model)->solutions += left.solutions;
+    j->n.c->run->counters.solutions += left.solutions;
     for (int i = 0; i < left.nearest; i++)
         pairs += creal(left.mu[i]) < 0 && fabs(cimag(left.mu[i])) > real_part * cabs(left.mu[i]);
     record->by_eigenvalues = left.count >= 0 && (pairs == 0 || left.count % 2 != 0);
@@ -81,13 +81,13 @@ status flutter_judge_here(flutter_judge *j, step_record *record, fault *f)
 status flutter_judge_state(flutter_judge *j, analysis_context *c, const model_state *state,
                            step_record *record, fault *f)
 {
-    const counters work = *model_counters(c->model);
+    const counters work = c->run->counters;
     const int singular = c->singular;
     TRY(flutter_judge_begin(j, c, f));
     kinematics_state_copy(c->model, state, j->n.state);
     const status outcome = flutter_judge_here(j, record, f);
     c->singular = singular;
-    *model_counters(c->model) = work;
+    c->run->counters = work;
     return outcome;
 }
 

@@ -61,13 +61,13 @@ static status look_at_parts(flutter_judge *j, const model_state *from, const mod
 status within_step(flutter_judge *j, analysis_context *c, const model_state *from,
                    const model_state *to, double *found, fault *f)
 {
-    const counters work = *model_counters(c->model);
+    const counters work = c->run->counters;
     const int singular = c->singular;
     *found = INFINITY;
     TRY(flutter_judge_begin(j, c, f));
     j->n.arrival.criterion = fmax(near_enough, c->options->criterion);
     const status outcome = look_at_parts(j, from, to, found, f);
     c->singular = singular;
-    *model_counters(c->model) = work;
+    c->run->counters = work;
     return outcome;
 }

@@ -115,7 +115,7 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
         return unsymmetric_frequencies(c, analysis, n, out, f);
     TRY(assemble_pattern(c->model, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, M, f));
-    TRY(rotating_frame_inertia(c->model, n->state, 0, M, NULL, f));
+    TRY(rotating_frame_inertia(c->run, n->state, 0, M, NULL, f));
     snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, 0));
     const sparse *upper = factor_upper(n->factor);
     const eigen_problem p = {.K = upper != NULL ? upper : &n->K,
@@ -499,7 +499,7 @@ static status hand_over(search *s, outcome_side *out, fault *f)
  * section's: above 1 it buckles by itself, and what diverges may be that alone. */
 static double thrust_of_elements(const newton *n)
 {
-    model *m = n->c->model;
+    const model *m = n->c->model;
     const internal_state at = {.s = n->state, .path = kinematics_state_path(n->state)};
     double most = 0;
     for (int i = 0; i < m->elements; i++) {
@@ -507,7 +507,7 @@ static double thrust_of_elements(const newton *n)
         const section *s = &m->section[kind->section];
         double end[2][7];
         for (int k = 0; k < 2; k++)
-            internal_at_end(m, &at, m->element[i].member, k, end[k]);
+            internal_at_end(n->c->run, &at, m->element[i].member, k, end[k]);
         const double EI = s->young * fmin(s->Iy, s->Iz), thrust = -fmin(end[0][0], end[1][0]);
         if (EI > 0) /* of a section by matrices: 0 */
             most = fmax(most, thrust * kind->length * kind->length / (PI * PI * EI));

@@ -90,7 +90,7 @@ static double eigenvalue(modal_forms *about, double mu, const double mode[])
     if (about->prestressed)
         return square;
     memcpy(about->of.x, mode, (size_t)about->of.free * sizeof *mode);
-    const double k = square * mu, b = rotating_frame_inner(about->of.m, about->of.x);
+    const double k = square * mu, b = rotating_frame_inner(about->of.run->m, about->of.x);
     return 2 * k / (mu + sqrt(mu * mu + 4 * b * k));
 }
 
@@ -142,7 +142,7 @@ static status shifted_system(analysis_context *c, linear_system *s, const sparse
     *shift = 1e-9 * k / mass;
     for (int i = 0; i < M->column[M->n]; i++)
         s->K.value[i] += *shift * M->value[i];
-    model_counters(c->model)->factorisations++;
+    c->run->counters.factorisations++;
     const status outcome = context_factor(c, s->factor, &s->K, f);
     return outcome == STATUS_SINGULAR && isfinite(k) && isfinite(mass) ? explain_massless(c, f)
                                                                        : outcome;
@@ -155,10 +155,10 @@ static status add_stresses(analysis_context *c, double path, linear_system *s, m
     about->prestressed = 1;
     TRY(quadratic_forms_load(&about->of, path, 1, f));
     TRY(sparse_alloc_like(&s->K, &about->G, f));
-    TRY(linear_geometric_stiffness(c->model, about->of.sigma, path, &about->G, f));
+    TRY(linear_geometric_stiffness(c->run, about->of.sigma, path, &about->G, f));
     for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += about->G.value[i];
-    model_counters(c->model)->factorisations++;
+    c->run->counters.factorisations++;
     return context_factor(c, s->factor, &s->K, f);
 }
 
@@ -200,7 +200,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     int singular = solved == STATUS_SINGULAR;
     if (!singular)
         TRY(solved);
-    TRY(quadratic_forms_alloc(c->model, &s->K, &about->of, f));
+    TRY(quadratic_forms_alloc(c->run, &s->K, &about->of, f));
     if (follows != SCENE_NONE && !singular) {
         const status stressed = add_prestress(c, follows, s, about, f);
         singular = stressed == STATUS_SINGULAR;
@@ -211,7 +211,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     about->work = calloc((size_t)s->K.n + 1, sizeof *about->work);
     if (about->work == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    TRY(rotating_frame_inertia(c->model, NULL, 0, &about->M, NULL, f));
+    TRY(rotating_frame_inertia(c->run, NULL, 0, &about->M, NULL, f));
     if (singular)
         TRY(shifted_system(c, s, &about->M, &about->shift, f));
     if (follows == SCENE_NONE && linear_initial(c->model) > 0)

@@ -103,10 +103,10 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
 {
     const double path = kinematics_state_path(state);
     model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
-    TRY(linearise_state(c->model, state, &lin, f));
-    TRY(rotating_frame_inertia(c->model, state, path, &a->M, &a->G, f));
-    TRY(stiffness_parts_geometric(c->model, state, &a->geometric, f));
-    model_counters(c->model)->factorisations++;
+    TRY(linearise_state(c->run, state, &lin, f));
+    TRY(rotating_frame_inertia(c->run, state, path, &a->M, &a->G, f));
+    TRY(stiffness_parts_geometric(c->run, state, &a->geometric, f));
+    c->run->counters.factorisations++;
     TRY(context_factor(c, a->factor, &a->K, f));
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);
 }
@@ -207,9 +207,9 @@ static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
                          gyroscopic_result *result, rotation_modes *out, fault *f)
 {
     const status found = gyroscopic_solve(problem, result, f);
-    model_counters(c->model)->solutions += result->solutions;
-    model_counters(c->model)->factorisations += result->factorisations;
-    model_counters(c->model)->dense_operations += result->dense_operations;
+    c->run->counters.solutions += result->solutions;
+    c->run->counters.factorisations += result->factorisations;
+    c->run->counters.dense_operations += result->dense_operations;
     TRY(found);
     return take_modes(c, result, out, f);
 }

@@ -77,10 +77,10 @@ static status judge_rest(analysis_context *c, const analysis_outcome *o, int fir
         return o->status;
     fault why = {""};
     linear_system s = {0};
-    const counters work = *model_counters(c->model);
+    const counters work = c->run->counters;
     const status at_rest = linear_system_alloc(c, &s, &why);
     linear_system_free(&s);
-    *model_counters(c->model) = work;
+    c->run->counters = work;
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
@@ -153,9 +153,13 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
                    fault *f)
 {
     static const solve_options defaults = {0};
-    analysis_context c = {
-        .scene = s, .model = m, .options = options != NULL ? options : &defaults, .result = result};
-    phases_want(model_phases(m), c.options->phases);
+    run_state run = run_state_of(m);
+    analysis_context c = {.scene = s,
+                          .model = m,
+                          .run = &run,
+                          .options = options != NULL ? options : &defaults,
+                          .result = result};
+    phases_want(&run.phases, c.options->phases);
     const double start = clock_processor_seconds();
     memset(result, 0, sizeof *result);
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
@@ -169,7 +173,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     result->seconds_setup = c.setup;
     result->seconds_solve = clock_processor_seconds() - start - c.setup;
     if (c.options->phases)
-        phases_of_whole(model_phases(m), result->seconds_solve, result->phase);
+        phases_of_whole(&run.phases, result->seconds_solve, result->phase);
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &result->quantity[i];
         context_set_frame(&c, s->quantity[i].analysis);
@@ -182,10 +186,8 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     }
     for (int i = 0; i < s->quantities; i++)
         put_over(s, result, i);
-    const counters work =
-        *model_counters(m); /* shapes are drawn, not solved for: they do not count */
+    result->counters = run.counters; /* shapes are drawn, not solved for: they do not count */
     keep_states(&c);
-    *model_counters(m) = work;
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);

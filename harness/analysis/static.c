@@ -41,12 +41,12 @@ static void take_back(newton *n, const step_record *record)
     kinematics_state_copy(n->c->model, n->backup, n->state);
     if (n->predictor != NULL)
         predictor_forget(n->predictor);
-    model_counters(n->c->model)->rejected_steps++;
+    n->c->run->counters.rejected_steps++;
 }
 
 static status walk_to(newton *n, double target, flutter_judge *judge, double *increment, fault *f)
 {
-    counters *count = model_counters(n->c->model);
+    counters *count = &n->c->run->counters;
     const double least = *increment / (1 << MAX_HALVINGS);
     int rejected = 0;
     while (kinematics_state_path(n->state) < target) {

@@ -278,11 +278,6 @@ unsigned model_limits(const model *m)
     return m->type->limits;
 }
 
-counters *model_counters(model *m)
-{
-    return &m->counters;
-}
-
 /* Fewer elements than this are done before another thread is awake (measured on the joint and the
  * hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
@@ -296,11 +291,6 @@ status model_set_threads(model *m, int threads, fault *f)
     free(m->part); /* as many as that team needs */
     m->part = NULL;
     return team_alloc(threads, &m->team, f);
-}
-
-phases *model_phases(model *m)
-{
-    return &m->phases;
 }
 
 const section *model_section(const model *m, int index)

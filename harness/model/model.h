@@ -18,7 +18,6 @@
 
 #include "cases/scene/scene.h"
 #include "elements/element.h"
-#include "harness/numerics/phases.h"
 #include "harness/numerics/sparse.h"
 
 typedef struct model model;
@@ -60,21 +59,6 @@ int model_left_out(const model *, const char *const **lines);
 /* Why nothing that was evaluated counts: what the formulation says of itself
  * (element_type.trouble), once; NULL: nothing is wrong. */
 const char *model_trouble(const model *);
-
-/* Work done so far; the solver adds its own. */
-typedef struct counters {
-    long strain_evaluations, stress_evaluations, inertia_evaluations;
-    long geometric_evaluations; /* of the stiffness of a prestress */
-    long iterations, steps, rejected_steps, factorisations, solutions;
-    long factor_entries;
-    double factor_flops;
-    double dense_operations; /* n^3 of every eigenvalue problem solved densely */
-    long negative_pivots;    /* most of a symmetric tangent at a state that was reached */
-    double condition; /* largest estimate of the solved systems (factor_condition), where it was
-                         asked for; else 0 */
-} counters;
-counters *model_counters(model *);
-phases *model_phases(model *);
 
 /* Everything that changes along a path. A copy undoes a rejected step. */
 typedef struct model_state model_state;

@@ -186,8 +186,6 @@ struct model {
     int lumps;        /* LUMPS_* */
     int takes;        /* elements take loads along them (element_type.along) */
     int rotates, rotation_follows_path;
-    counters counters;
-    phases phases;
     team *team;         /* of the loop over elements; NULL: one thread */
     element_part *part; /* of a few elements, before they are added up in order; NULL: none yet */
     mesh_ahead *ahead;  /* one block; NULL: nothing has been evaluated ahead */

@@ -24,7 +24,7 @@ static void follow_turn(const model *m, const double along[], const double local
 }
 
 /* Strains, stresses and inner unknowns of one element. */
-static double advance_element(model *m, model_state *s, int i, const double dx[],
+static double advance_element(const model *m, model_state *s, int i, const double dx[],
                               advance_stress *stress)
 {
     const mesh_element *el = &m->element[i];
@@ -70,16 +70,17 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     return largest;
 }
 
-double advance_state(model *m, model_state *s, const double dx[], double path,
+double advance_state(run_state *run, model_state *s, const double dx[], double path,
                      advance_stress *stress)
 {
+    const model *m = run->m;
     double largest = 0;
     advance_stress of_elements = {0, 0};
     for (int i = 0; i < m->elements; i++)
         largest = larger(largest, advance_element(m, s, i, dx, &of_elements));
     if (stress != NULL)
         *stress = of_elements;
-    phases_lap(&m->phases, PHASE_ELEMENTS);
+    phases_lap(&run->phases, PHASE_ELEMENTS);
     for (int i = 0; i < m->vertices; i++)
         if (m->vertex[i].body == i)
             largest = larger(largest, advance_vertex(m, s, i, dx));

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_ADVANCE_H
 #define BEAMWORK_ADVANCE_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 /* Of all elements [N]. */
 typedef struct advance_stress {
@@ -13,7 +13,7 @@ typedef struct advance_stress {
  * then the frames take their increments. dx[free + driven]. Returns the largest correction,
  * dimensionless: translations by the size of the scene, rotations in rad, warping by the element
  * length, inner unknowns as the element says. stress: NULL where nobody asks. */
-double advance_state(model *, model_state *, const double dx[], double path, advance_stress *);
+double advance_state(run_state *, model_state *, const double dx[], double path, advance_stress *);
 /* The state is in equilibrium: the next increments start from it with the tangent of the last
  * linearisation, and nothing that this had left open is closed again. */
 void advance_settle(model *, const model_state *);

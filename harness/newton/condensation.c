@@ -123,13 +123,15 @@ static status build(condensation *s, const condensation *of, int count, const in
     return factor_alloc(&s->inside, &s->factor, f);
 }
 
-static status allocate(model *m, const condensation *of, int count, const int released[],
+static status allocate(run_state *run, const condensation *of, int count, const int released[],
                        condensation **out, fault *f)
 {
+    const model *m = run->m;
     int few = 0;
     condensation *s = calloc(1, sizeof *s);
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
+    s->run = run;
     s->m = m;
     s->all = m->free + m->driven;
     const status outcome = build(s, of, count, released, &few, f);
@@ -140,18 +142,19 @@ static status allocate(model *m, const condensation *of, int count, const int re
     return outcome;
 }
 
-status condensation_alloc(model *m, int from, int count, const int released[], condensation **out,
-                          fault *f)
+status condensation_alloc(run_state *run, int from, int count, const int released[],
+                          condensation **out, fault *f)
 {
+    const model *m = run->m;
     *out = NULL;
-    return applies(m, from) ? allocate(m, NULL, count, released, out, f) : STATUS_OK;
+    return applies(m, from) ? allocate(run, NULL, count, released, out, f) : STATUS_OK;
 }
 
 status condensation_alloc_like(const condensation *of, int count, const int released[],
                                condensation **out, fault *f)
 {
     *out = NULL;
-    return allocate(of->m, of, count, released, out, f);
+    return allocate(of->run, of, count, released, out, f);
 }
 
 static void free_sparse(sparse *a)
@@ -179,8 +182,8 @@ void condensation_free(condensation *s)
 }
 
 /* One element as a link; force[7 nodes]: internal, in the state. */
-static status link_element_of(model *m, const model_state *s, const member *of, int i, double path,
-                              chain_link *link, double force[], fault *f)
+static status link_element_of(const model *m, const model_state *s, const member *of, int i,
+                              double path, chain_link *link, double force[], fault *f)
 {
     const model_slot w = linearise_slot(m, i);
     const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
@@ -201,8 +204,8 @@ static status link_element_of(model *m, const model_state *s, const member *of, 
 }
 
 /* The chain of a member; force[14]: internal forces of its ends. */
-static status fill_chain(model *m, const model_state *s, member *of, double path, double force[],
-                         fault *f)
+static status fill_chain(const model *m, const model_state *s, member *of, double path,
+                         double force[], fault *f)
 {
     double own[ELEMENT_MAX_COORDINATES];
     chain_begin(of->chain);
@@ -250,9 +253,9 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     s->at = at;
     s->negative = 0;
     sparse_zero(&s->K);
-    ahead_strains(s->m, at, AHEAD_H, at->sigma);
+    ahead_strains(s->run->m, at, AHEAD_H, at->sigma);
     const status outcome = members(s, path, f);
-    ahead_end(s->m);
+    ahead_end(s->run->m);
     TRY(outcome);
     for (int i = 0; i < s->m->discretes; i++) {
         element_part part = {.incompatibility = 0};
@@ -260,7 +263,7 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
         assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
     }
     loads_subtract_at_vertices(s->m, at, path, &s->K);
-    linearise_add_held_moments(s->m, at, path, &s->K);
+    linearise_add_held_moments(s->run, at, path, &s->K);
     return STATUS_OK;
 }
 

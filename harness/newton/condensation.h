@@ -6,7 +6,7 @@
 #ifndef BEAMWORK_CONDENSATION_H
 #define BEAMWORK_CONDENSATION_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 #include "harness/numerics/sparse.h"
 
 typedef struct condensation condensation;
@@ -17,8 +17,8 @@ enum { CONDENSATION_ELEMENTS = 1000 };
 
 /* *out NULL: members have fewer elements than `from`, or something acts between their ends that has
  * a stiffness, or frames turn. released[count]: driven coordinates that are unknown too. */
-status condensation_alloc(model *, int from, int count, const int released[], condensation **out,
-                          fault *);
+status condensation_alloc(run_state *, int from, int count, const int released[],
+                          condensation **out, fault *);
 /* The members of `of`, which must outlive it, with other released coordinates: condensation_take.
  */
 status condensation_alloc_like(const condensation *of, int count, const int released[],

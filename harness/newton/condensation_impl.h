@@ -17,7 +17,8 @@ typedef struct member {
 } member;
 
 struct condensation {
-    model *m;
+    run_state *run;
+    const model *m;
     const model_state *at;
     int members, all, unknowns;
     int lent; /* 1: chains and r are another one's */

@@ -47,7 +47,7 @@ status context_condensation(const analysis_context *c, int count, const int rele
     const int from = c->options->condensed > 0 ? c->options->condensed : CONDENSATION_ELEMENTS;
     *out = NULL;
     return c->options->condition ? STATUS_OK
-                                 : condensation_alloc(c->model, from, count, released, out, f);
+                                 : condensation_alloc(c->run, from, count, released, out, f);
 }
 
 status context_factor_condensed(analysis_context *c, condensation *s, fault *f)
@@ -90,7 +90,7 @@ factor *context_take_factor(analysis_context *c)
 
 void context_count_condition(const analysis_context *c, factor *fa, const sparse *K)
 {
-    counters *n = model_counters(c->model);
+    counters *n = &c->run->counters;
     if (c->options->condition) {
         const double estimate = factor_condition(fa, K);
         n->condition = !(estimate <= n->condition) ? estimate : n->condition;
@@ -99,7 +99,7 @@ void context_count_condition(const analysis_context *c, factor *fa, const sparse
 
 void context_count_solution(const analysis_context *c, const factor *fa, int fresh, long *counted)
 {
-    counters *n = model_counters(c->model);
+    counters *n = &c->run->counters;
     const factor_counts counts = factor_count(fa);
     n->factorisations += counts.factorisations - *counted;
     *counted = counts.factorisations;
@@ -110,7 +110,7 @@ void context_count_solution(const analysis_context *c, const factor *fa, int fre
 
 void context_count_eigen(const analysis_context *c, const eigen_result *e)
 {
-    counters *n = model_counters(c->model);
+    counters *n = &c->run->counters;
     n->solutions += e->solutions;
     n->factorisations += e->factorisations;
     n->dense_operations += e->dense_operations;

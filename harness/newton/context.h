@@ -5,10 +5,12 @@
 #include "harness/newton/condensation.h"
 #include "harness/newton/outcome.h"
 #include "harness/newton/result.h"
+#include "harness/newton/run_state.h"
 
 typedef struct analysis_context {
     const scene *scene;
     model *model;
+    run_state *run; /* of that model */
     const solve_options *options;
     solve_result *result;       /* step records go here */
     analysis_outcome *outcomes; /* [analyses], those before the present one are complete */

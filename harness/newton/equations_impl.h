@@ -4,11 +4,12 @@
 
 #include "harness/model/model_impl.h"
 #include "harness/newton/applied.h"
+#include "harness/newton/run_state.h"
 
 /* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
  * coordinates; nothing where no frame turns. */
-status rotating_frame_add(model *m, const node_state x[], int element, double path, double force[],
-                          double K[], fault *f);
+status rotating_frame_add(run_state *run, const node_state x[], int element, double path,
+                          double force[], double K[], fault *f);
 
 /* Of linearise.c and chunk.c: one element's part of model.work between linearise_state and
  * advance_state. */
@@ -43,14 +44,14 @@ status loads_have_potential(const model *m, const model_state *s, double path, f
 
 /* linearise_node.c: the moment [N m] about its axis that a node held about one axis alone takes
  * from its support in a state (sigma: as internal.h has it); 0: rounding. */
-double linearise_held_moment(model *m, const model_state *s, const double sigma[], double path,
-                             int node, int axis);
+double linearise_held_moment(run_state *run, const model_state *s, const double sigma[],
+                             double path, int node, int axis);
 /* Elements and loads give the derivatives of work in the exponential chart of a node's turn. Where
  * a node is held about one axis, equilibrium is that of the moments about the two others, which
  * that moment R about the axis h makes differ: K_ij += R/2, K_ji -= R/2 with h, i, j in cyclic
  * order. */
-void linearise_add_held_moments(model *m, const model_state *s, double path, sparse *K);
+void linearise_add_held_moments(run_state *run, const model_state *s, double path, sparse *K);
 /* REFUSED: such a moment, which has no potential either. */
-status linearise_held_have_potential(model *m, const double sigma[], double path, fault *f);
+status linearise_held_have_potential(run_state *run, const double sigma[], double path, fault *f);
 
 #endif

@@ -42,8 +42,10 @@ static int lies_along(const model *m, int element, const scene_load *load)
 
 /* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
  * along it, in fixed axes: ends[2][7]; and its nodes. */
-static void ends_of(model *m, const internal_state *s, int i, node_state x[], double ends[2][7])
+static void ends_of(run_state *run, const internal_state *s, int i, node_state x[],
+                    double ends[2][7])
 {
+    const model *m = run->m;
     const mesh_element *el = &m->element[i];
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
                                                              along[ELEMENT_MAX_COORDINATES] = {0};
@@ -52,7 +54,7 @@ static void ends_of(model *m, const internal_state *s, int i, node_state x[], do
     m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
     dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                             s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
-    rotating_frame_add(m, x, i, s->path, force, NULL,
+    rotating_frame_add(run, x, i, s->path, force, NULL,
                        NULL); /* never fails in a state that is reached */
     for (int l = 0; l < m->scene->loads; l++) {
         const scene_load *load = &m->scene->load[l];
@@ -103,13 +105,14 @@ static void turn_components(double angle, double v[3])
     }
 }
 
-void internal_at_end(model *m, const internal_state *s, int member, int end, double out[7])
+void internal_at_end(run_state *run, const internal_state *s, int member, int end, double out[7])
 {
+    const model *m = run->m;
     const int i = end ? m->first_element[member + 1] - 1 : m->first_element[member],
               k = end ? m->nodes - 1 : 0;
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7];
-    ends_of(m, s, i, x, force);
+    ends_of(run, s, i, x, force);
     const double angle = axes_turned(m, member, end, &m->element[i]);
     mat3_transpose_mul_vec(x[k].R, force[end], out);
     mat3_transpose_mul_vec(x[k].R, force[end] + 3, out + 3);
@@ -121,12 +124,13 @@ void internal_at_end(model *m, const internal_state *s, int member, int end, dou
 }
 
 /* The ends of an element as span.h wants them. */
-static void take_ends(model *m, const internal_state *s, int i, span_end end[2])
+static void take_ends(run_state *run, const internal_state *s, int i, span_end end[2])
 {
+    const model *m = run->m;
     const mesh_element *el = &m->element[i];
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7], moved[ELEMENT_MAX_COORDINATES] = {0};
-    ends_of(m, s, i, x, force);
+    ends_of(run, s, i, x, force);
     if (s->x != NULL)
         kinematics_local(m, s->s, el, s->x, moved);
     for (int e = 0; e < 2; e++) {
@@ -175,9 +179,10 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-static status recover(model *m, const internal_state *s, int i, const span_grid *g,
+static status recover(run_state *run, const internal_state *s, int i, const span_grid *g,
                       span_fields *out, fault *f)
 {
+    const model *m = run->m;
     const mesh_kind *kind = &m->kind[m->element[i].kind];
     between loads = {.loads = {m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
     element_request request = {
@@ -200,13 +205,14 @@ static status recover(model *m, const internal_state *s, int i, const span_grid 
         s->moving->along(s->moving->context, i, loads.density);
     if (loads.acts || loads.nodes > 0)
         problem.load = between_at;
-    take_ends(m, s, i, problem.end);
+    take_ends(run, s, i, problem.end);
     return span_recover(g, &problem, out, f);
 }
 
-status internal_at(model *m, const internal_state *s, const internal_place *at, double out[],
+status internal_at(run_state *run, const internal_state *s, const internal_place *at, double out[],
                    fault *f)
 {
+    const model *m = run->m;
     const int member = at->member;
     double x;
     const int i =
@@ -214,7 +220,7 @@ status internal_at(model *m, const internal_state *s, const internal_place *at, 
     span_grid g;
     span_fields fields;
     span_grid_make(&g);
-    TRY(recover(m, s, i, &g, &fields, f));
+    TRY(recover(run, s, i, &g, &fields, f));
     span_at(&g, &fields, x, out);
     const double angle = axes_turned(m, member, at->place, &m->element[i]);
     turn_components(angle, &out[SPAN_N]);
@@ -276,9 +282,10 @@ static void take_largest(const measured *what, double *largest)
     }
 }
 
-status internal_largest(model *m, const internal_state *s, int member, internal_measure of,
+status internal_largest(run_state *run, const internal_state *s, int member, internal_measure of,
                         void *context, double *out, fault *f)
 {
+    const model *m = run->m;
     span_grid g;
     if (axes_turned(m, member, 0, &m->element[m->first_element[member]]) != 0 ||
         axes_turned(m, member, 1, &m->element[m->first_element[member + 1] - 1]) != 0)
@@ -289,7 +296,7 @@ status internal_largest(model *m, const internal_state *s, int member, internal_
     *out = -INFINITY;
     for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {
         span_fields fields;
-        TRY(recover(m, s, i, &g, &fields, f));
+        TRY(recover(run, s, i, &g, &fields, f));
         take_largest(&(measured){&g, &fields, i - m->first_element[member], of, context}, out);
     }
     return STATUS_OK;

@@ -13,19 +13,20 @@
 #include "harness/newton/linear_springs.h"
 #include "harness/newton/undeformed.h"
 
-static const mesh_pattern *pattern_of(model *m, const sparse *a)
+static const mesh_pattern *pattern_of(const model *m, const sparse *a)
 {
     return assemble_of(m, a);
 }
 
-static status stiffness_elements(model *m, sparse *K, fault *f)
+static status stiffness_elements(run_state *run, sparse *K, fault *f)
 {
+    const model *m = run->m;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     sparse_zero(K);
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double k[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
-        TRY(undeformed_of(m, i, &l, f));
+        TRY(undeformed_of(run, i, &l, f));
         memset(k, 0, (size_t)(m->coordinates * m->coordinates) * sizeof *k);
         dense_add_congruence(m->strains, m->coordinates, l.J, l.C, k, work);
         eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
@@ -34,18 +35,19 @@ static status stiffness_elements(model *m, sparse *K, fault *f)
     return STATUS_OK;
 }
 
-status linear_stiffness(model *m, sparse *K, fault *f)
+status linear_stiffness(run_state *run, sparse *K, fault *f)
 {
-    undeformed_begin(m);
-    const status outcome = stiffness_elements(m, K, f);
-    ahead_end(m);
+    const model *m = run->m;
+    undeformed_begin(run->m);
+    const status outcome = stiffness_elements(run, K, f);
+    ahead_end(run->m);
     if (outcome == STATUS_OK)
         linear_springs_stiffness(m, K);
     return outcome;
 }
 
 /* J x of one element. */
-static void linear_strains(model *m, int i, const undeformed_element *l, const double x[],
+static void linear_strains(const model *m, int i, const undeformed_element *l, const double x[],
                            double e[])
 {
     double local[ELEMENT_MAX_COORDINATES];
@@ -53,12 +55,13 @@ static void linear_strains(model *m, int i, const undeformed_element *l, const d
     dense_mul_vec(m->strains, m->coordinates, l->J, local, e);
 }
 
-status linear_stresses(model *m, const double x[], double sigma[], fault *f)
+status linear_stresses(run_state *run, const double x[], double sigma[], fault *f)
 {
+    const model *m = run->m;
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double e[ELEMENT_MAX_STRAINS];
-        TRY(undeformed_of(m, i, &l, f));
+        TRY(undeformed_of(run, i, &l, f));
         linear_strains(m, i, &l, x, e);
         dense_mul_vec(m->strains, m->strains, l.C, e, &sigma[(size_t)i * (size_t)m->strains]);
     }
@@ -74,40 +77,44 @@ double linear_initial(const model *m)
     return largest;
 }
 
-status linear_whole_stresses(model *m, const double x[], double sigma[], fault *f)
+status linear_whole_stresses(run_state *run, const double x[], double sigma[], fault *f)
 {
-    TRY(linear_stresses(m, x, sigma, f));
+    const model *m = run->m;
+    TRY(linear_stresses(run, x, sigma, f));
     for (int i = 0; i < m->elements && linear_initial(m) > 0; i++) {
         undeformed_element l;
-        TRY(undeformed_of(m, i, &l, f));
+        TRY(undeformed_of(run, i, &l, f));
         for (int k = 0; l.initial != NULL && k < m->strains; k++)
             sigma[(size_t)i * (size_t)m->strains + (size_t)k] += l.initial[k];
     }
     return STATUS_OK;
 }
 
-void linear_forces(model *m, const double sigma[], double f[])
+void linear_forces(run_state *run, const double sigma[], double f[])
 {
-    ahead_strains(m, m->rest, AHEAD_J, NULL);
+    const model *m = run->m;
+    ahead_strains(run->m, m->rest, AHEAD_J, NULL);
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, m->rest, &m->element[i], x);
         ahead_strain(m, i, x, &(strain_output){.J = J});
-        m->counters.strain_evaluations++;
+        run->counters.strain_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                 &sigma[(size_t)i * (size_t)m->strains], force);
         eliminate_forces(m, m->rest, &m->element[i], force);
         assemble_vector(&m->element[i], force, f);
     }
-    ahead_end(m);
+    ahead_end(run->m);
     linear_springs_forces(m, sigma + m->elements * m->strains, f);
 }
 
 /* sum sigma_i H_i and G(sigma) of one element, in element coordinates; force = J^T sigma. */
-static void geometric_of(model *m, int i, const double sigma[], double H[], double G[], double J[])
+static void geometric_of(run_state *run, int i, const double sigma[], double H[], double G[],
+                         double J[])
 {
+    const model *m = run->m;
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
     node_state x[ELEMENT_MAX_NODES];
@@ -117,44 +124,46 @@ static void geometric_of(model *m, int i, const double sigma[], double H[], doub
         m->type->geometric(data, sigma, G);
     else
         memset(G, 0, (size_t)(m->strains * m->strains) * sizeof *G);
-    m->counters.strain_evaluations++;
-    m->counters.geometric_evaluations++;
+    run->counters.strain_evaluations++;
+    run->counters.geometric_evaluations++;
 }
 
-status linear_geometric_stiffness(model *m, const double sigma[], double path, sparse *out,
+status linear_geometric_stiffness(run_state *run, const double sigma[], double path, sparse *out,
                                   fault *f)
 {
+    const model *m = run->m;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     if (out->symmetric) {
         TRY(loads_have_potential(m, m->rest, path, f));
-        TRY(linearise_held_have_potential(m, sigma, path, f));
+        TRY(linearise_held_have_potential(run, sigma, path, f));
     }
     sparse_zero(out);
-    ahead_strains(m, m->rest, AHEAD_J | AHEAD_H, sigma);
+    ahead_strains(run->m, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++) {
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
             force[ELEMENT_MAX_COORDINATES] = {0};
         const double *s = &sigma[(size_t)i * (size_t)m->strains];
-        geometric_of(m, i, s, H, G, J);
+        geometric_of(run, i, s, H, G, J);
         dense_add_congruence(m->strains, m->coordinates, J, G, H, work);
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J, s, force);
         eliminate_matrix(m, m->rest, &m->element[i], force, H);
         assemble_matrix(pattern_of(m, out), i, H, out);
     }
-    ahead_end(m);
+    ahead_end(run->m);
     loads_subtract_stiffness(m, m->rest, path, out);
     linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
     return STATUS_OK;
 }
 
 /* Sums of the absolute terms of J x and, of S times them, of the stresses of one element. */
-static void linear_terms(model *m, int i, const double x[], double strain[], double stress[])
+static void linear_terms(run_state *run, int i, const double x[], double strain[], double stress[])
 {
+    const model *m = run->m;
     undeformed_element l;
     double local[ELEMENT_MAX_COORDINATES];
-    undeformed_of(m, i, &l, NULL);
+    undeformed_of(run, i, &l, NULL);
     kinematics_local(m, m->rest, &m->element[i], x, local);
     for (int k = 0; k < m->strains; k++) {
         strain[k] = 0;
@@ -170,15 +179,16 @@ static void linear_terms(model *m, int i, const double x[], double strain[], dou
 
 /* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements
  * alike, so they add up. */
-double linear_strain_rounding(model *m, const double x[])
+double linear_strain_rounding(run_state *run, const double x[])
 {
+    const model *m = run->m;
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double e[ELEMENT_MAX_STRAINS], terms[ELEMENT_MAX_STRAINS], ignored[ELEMENT_MAX_STRAINS];
-        undeformed_of(m, i, &l, NULL);
+        undeformed_of(run, i, &l, NULL);
         linear_strains(m, i, &l, x, e);
-        linear_terms(m, i, x, terms, ignored);
+        linear_terms(run, i, x, terms, ignored);
         for (int k = 0; k < m->strains; k++) {
             double sigma = 0, sigma_terms = 0;
             for (int j = 0; j < m->strains; j++) {
@@ -191,13 +201,14 @@ double linear_strain_rounding(model *m, const double x[])
     return sum + linear_springs_rounding(m, x);
 }
 
-double linear_strain_energy2(model *m, const double x[])
+double linear_strain_energy2(run_state *run, const double x[])
 {
+    const model *m = run->m;
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double e[ELEMENT_MAX_STRAINS];
-        undeformed_of(m, i, &l, NULL);
+        undeformed_of(run, i, &l, NULL);
         linear_strains(m, i, &l, x, e);
         sum += dense_quadratic(m->strains, l.C, e);
     }
@@ -205,14 +216,15 @@ double linear_strain_energy2(model *m, const double x[])
 }
 
 /* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
-static double geometric_energy2(model *m, int i, const double sigma[], const double x[])
+static double geometric_energy2(run_state *run, int i, const double sigma[], const double x[])
 {
+    const model *m = run->m;
     double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
         G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
                                                              local[ELEMENT_MAX_COORDINATES],
                                                              e[ELEMENT_MAX_STRAINS];
-    geometric_of(m, i, sigma, H, G, J);
+    geometric_of(run, i, sigma, H, G, J);
     kinematics_local(m, m->rest, &m->element[i], x, local);
     dense_mul_vec(m->strains, m->coordinates, J, local, e);
     const double inside = dense_quadratic(m->strains, G, e);
@@ -228,38 +240,40 @@ static double geometric_energy2(model *m, int i, const double sigma[], const dou
     return inside + dense_quadratic(el->columns, H, own);
 }
 
-double linear_geometric_energy2(model *m, const double sigma[], const double x[])
+double linear_geometric_energy2(run_state *run, const double sigma[], const double x[])
 {
+    const model *m = run->m;
     double sum = 0;
-    ahead_strains(m, m->rest, AHEAD_J | AHEAD_H, sigma);
+    ahead_strains(run->m, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++)
-        sum += geometric_energy2(m, i, &sigma[(size_t)i * (size_t)m->strains], x);
-    ahead_end(m);
+        sum += geometric_energy2(run, i, &sigma[(size_t)i * (size_t)m->strains], x);
+    ahead_end(run->m);
     return sum + linear_springs_geometric_energy2(m, sigma + m->elements * m->strains, x);
 }
 
 /* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is
  * that of the terms they are made of, in whatever direction it falls: it has the size of a stress
  * `other` of all kinds at once. */
-double linear_geometric_rounding(model *m, const double load_x[], const double sigma[],
+double linear_geometric_rounding(run_state *run, const double load_x[], const double sigma[],
                                  const double x[])
 {
+    const model *m = run->m;
     double square = 0;
     for (int i = 0; i < m->elements; i++) {
         const double *s = &sigma[(size_t)i * (size_t)m->strains];
         double terms[ELEMENT_MAX_STRAINS], other[ELEMENT_MAX_STRAINS], both[ELEMENT_MAX_STRAINS],
             largest = 0;
-        linear_terms(m, i, load_x, both, terms);
+        linear_terms(run, i, load_x, both, terms);
         for (int k = 0; k < m->strains; k++)
             largest = fmax(largest, terms[k]);
         for (int k = 0; k < m->strains; k++) {
             other[k] = largest * sin(1 + 2.3 * k);
             both[k] = s[k] + other[k];
         }
-        const double of_other = geometric_energy2(m, i, other, x),
-                     of_both = geometric_energy2(m, i, both, x);
-        const double missing =
-            fabs(of_both - of_other - geometric_energy2(m, i, s, x)) + DBL_EPSILON * fabs(of_other);
+        const double of_other = geometric_energy2(run, i, other, x),
+                     of_both = geometric_energy2(run, i, both, x);
+        const double missing = fabs(of_both - of_other - geometric_energy2(run, i, s, x)) +
+                               DBL_EPSILON * fabs(of_other);
         square += missing * missing;
     }
     return sqrt(square);

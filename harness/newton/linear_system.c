@@ -28,9 +28,9 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     const status allocated = allocate(c, out, f);
     c->setup += clock_processor_seconds() - start;
     TRY(allocated);
-    TRY(linear_stiffness(c->model, &out->K, f));
+    TRY(linear_stiffness(c->run, &out->K, f));
     TRY(context_factor(c, out->factor, &out->K, f));
-    counters *n = model_counters(c->model);
+    counters *n = &c->run->counters;
     const factor_counts counts = factor_count(out->factor);
     n->factorisations++;
     n->factor_entries = counts.entries;
@@ -59,8 +59,8 @@ static status residual_of(analysis_context *c, const double load[], const double
                           double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    TRY(linear_whole_stresses(c->model, x, sigma, f));
-    linear_forces(c->model, sigma, r);
+    TRY(linear_whole_stresses(c->run, x, sigma, f));
+    linear_forces(c->run, sigma, r);
     for (int i = 0; i < size.free + size.driven; i++)
         r[i] = load[i] - r[i];
     return STATUS_OK;
@@ -132,7 +132,7 @@ static status refine(analysis_context *c, linear_system *s, workspace *w, double
     double correction;
     while (state == REFINEMENT_GOES_ON) {
         TRY(correct(c, s, w, x, &correction, f));
-        model_counters(c->model)->solutions++;
+        c->run->counters.solutions++;
         state = refinement_next(&r, correction);
     }
     if (state == REFINEMENT_ENDS) {

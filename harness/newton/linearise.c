@@ -17,16 +17,17 @@
 #include "harness/newton/loads.h"
 
 /* e, sigma of an element from D(x): displacement-only Newton. */
-static status compatible_element(model *m, model_state *s, int i)
+static status compatible_element(run_state *run, model_state *s, int i)
 {
+    const model *m = run->m;
     const mesh_element *el = &m->element[i];
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
     double *e = &s->e[(size_t)i * (size_t)m->strains],
            *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     ahead_strain(m, i, x, &(strain_output){.e = e});
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
+    run->counters.strain_evaluations++;
+    run->counters.stress_evaluations++;
     status outcome;
     if (m->takes &&
         distributed_stress(m, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
@@ -35,19 +36,20 @@ static status compatible_element(model *m, model_state *s, int i)
                         &(stress_output){.sigma = sigma});
 }
 
-status linearise_make_compatible(model *m, model_state *s, fault *f)
+status linearise_make_compatible(run_state *run, model_state *s, fault *f)
 {
+    const model *m = run->m;
     status outcome = STATUS_OK;
-    ahead_strains(m, s, AHEAD_E, NULL);
-    ahead_stresses(m, NULL, s->inner);
+    ahead_strains(run->m, s, AHEAD_E, NULL);
+    ahead_stresses(run->m, NULL, s->inner);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
-        outcome = compatible_element(m, s, i);
+        outcome = compatible_element(run, s, i);
         if (outcome != STATUS_OK)
             fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
                       scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
                       m->type->name);
     }
-    ahead_end(m);
+    ahead_end(run->m);
     return outcome;
 }
 
@@ -61,16 +63,17 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
 
 /* force and K (which has H) of an element that was evaluated, less centrifugal forces; present:
  * conjugate to the stresses of the state, which H belongs to. */
-static status add_material(model *m, const model_state *s, const chunk_element *of, int tangent,
-                           double path, double present[], element_part *part)
+static status add_material(run_state *run, const model_state *s, const chunk_element *of,
+                           int tangent, double path, double present[], element_part *part)
 {
+    const model *m = run->m;
     const int i = of->index;
     const model_slot w = linearise_slot(m, i);
     const size_t size = (size_t)m->coordinates * sizeof *present;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(part->force, 0, size);
     if (m->rotates)
-        TRY(rotating_frame_add(m, of->x, i, path, part->force, tangent ? part->K : NULL,
+        TRY(rotating_frame_add(run, of->x, i, path, part->force, tangent ? part->K : NULL,
                                &part->why));
     memcpy(present, part->force, size);
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, part->force);
@@ -101,9 +104,10 @@ static void subtract_loads(const model *m, chunk_element *of, int tangent, doubl
 
 /* Internal forces of an element that was evaluated, less centrifugal ones and loads along it, and,
  * where wanted, their tangent; both in model coordinates. */
-static status element_equations(model *m, const model_state *s, chunk_element *of, int tangent,
-                                double path, element_part *part)
+static status element_equations(run_state *run, const model_state *s, chunk_element *of,
+                                int tangent, double path, element_part *part)
 {
+    const model *m = run->m;
     const mesh_element *el = &m->element[of->index];
     const model_slot w = linearise_slot(m, of->index);
     if (of->outcome != STATUS_OK)
@@ -111,7 +115,7 @@ static status element_equations(model *m, const model_state *s, chunk_element *o
                          of->index, scene_called(m->scene, SCENE_MEMBERS, el->member).text,
                          m->type->name);
     if (!of->complete)
-        TRY(add_material(m, s, of, tangent, path, of->present, part));
+        TRY(add_material(run, s, of, tangent, path, of->present, part));
     subtract_loads(m, of, tangent, path, part);
     if (tangent)
         eliminate_matrix(m, s, el, of->present, part->K);
@@ -154,7 +158,8 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
 /* What the threads of a team share: elements in pieces of `window`, whose parts are added up in
  * order. */
 typedef struct shared_loop {
-    model *m;
+    run_state *run;
+    const model *m;
     const model_state *s;
     model_linearisation *lin;
     const mesh_pattern *pattern; /* NULL: no K is wanted */
@@ -179,8 +184,8 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
         chunk_evaluate(loop->m, loop->s, loop->lin->path, count, element);
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
-            p->outcome =
-                element_equations(loop->m, loop->s, &element[k], loop->tangent, loop->lin->path, p);
+            p->outcome = element_equations(loop->run, loop->s, &element[k], loop->tangent,
+                                           loop->lin->path, p);
         }
     }
 }
@@ -211,24 +216,27 @@ static int window_of(model *m)
 }
 
 /* The element's equations into those of the model, but for K. */
-static void add_part(model *m, const mesh_element *el, element_part *part, model_linearisation *lin)
+static void add_part(run_state *run, const mesh_element *el, element_part *part,
+                     model_linearisation *lin)
 {
+    const model *m = run->m;
     if (lin->drive != NULL)
         add_driven(m, el, lin->drive, part->K, part->force);
     add_columns(m, el, part->K, lin);
-    phases_lap(&m->phases, PHASE_ELEMENTS);
+    phases_lap(&run->phases, PHASE_ELEMENTS);
     for (int k = 0; k < el->columns; k++)
         part->force[k] = -part->force[k];
     assemble_vector(el, part->force, lin->residual);
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
 }
 
-static void add_discrete(model *m, const model_state *s, model_linearisation *lin)
+static void add_discrete(run_state *run, const model_state *s, model_linearisation *lin)
 {
+    const model *m = run->m;
     for (int i = 0; i < m->discretes; i++) {
         element_part part = {.incompatibility = 0};
         discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K);
-        add_part(m, &m->discrete[i].el, &part, lin);
+        add_part(run, &m->discrete[i].el, &part, lin);
         if (lin->K != NULL)
             assemble_discrete(&m->discrete[i].el, part.K, lin->K);
     }
@@ -238,29 +246,32 @@ static void add_discrete(model *m, const model_state *s, model_linearisation *li
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
-    model *m = loop->m;
+    run_state *run = loop->run;
     element_part *part = loop->part + (size_t)slot * (size_t)loop->window;
     for (int i = piece * loop->window; i < end_of(loop, piece); i++, part++) {
-        m->counters.strain_evaluations++;
-        m->counters.stress_evaluations++;
+        run->counters.strain_evaluations++;
+        run->counters.stress_evaluations++;
         loop->outcome = part->outcome;
         if (part->outcome != STATUS_OK) {
             fault_set(loop->f, part->outcome, "%s", part->why.text);
             return 0;
         }
-        add_part(m, &m->element[i], part, loop->lin);
+        add_part(run, &loop->m->element[i], part, loop->lin);
         if (loop->pattern != NULL)
             assemble_matrix(loop->pattern, i, part->K, loop->lin->K);
-        phases_lap(&m->phases, PHASE_ASSEMBLY);
+        phases_lap(&run->phases, PHASE_ASSEMBLY);
     }
     return 1;
 }
 
-static status linearise_elements(model *m, const model_state *s, model_linearisation *lin, fault *f)
+static status linearise_elements(run_state *run, const model_state *s, model_linearisation *lin,
+                                 fault *f)
 {
+    const model *m = run->m;
     element_part own;
-    const int window = window_of(m);
-    shared_loop loop = {.m = m,
+    const int window = window_of(run->m);
+    shared_loop loop = {.run = run,
+                        .m = m,
                         .s = s,
                         .lin = lin,
                         .pattern = lin->K == NULL ? NULL : assemble_of(m, lin->K),
@@ -280,22 +291,22 @@ static status linearise_elements(model *m, const model_state *s, model_linearisa
     team_relay(together, (m->elements + loop.window - 1) / loop.window, fill_piece, take_piece,
                &loop);
     TRY(loop.outcome);
-    add_discrete(m, s, lin);
+    add_discrete(run, s, lin);
     loads_add_at_vertices(m, s, lin->path, lin->residual);
     if (lin->K != NULL) {
         loads_subtract_at_vertices(m, s, lin->path, lin->K);
-        linearise_add_held_moments(m, s, lin->path, lin->K);
+        linearise_add_held_moments(run, s, lin->path, lin->K);
     }
-    phases_lap(&m->phases, PHASE_ASSEMBLY);
+    phases_lap(&run->phases, PHASE_ASSEMBLY);
     return STATUS_OK;
 }
 
-status linearise_state(model *m, const model_state *s, model_linearisation *lin, fault *f)
+status linearise_state(run_state *run, const model_state *s, model_linearisation *lin, fault *f)
 {
     const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
-    ahead_strains(m, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
-    ahead_stresses(m, s->e, s->inner);
-    const status outcome = linearise_elements(m, s, lin, f);
-    ahead_end(m);
+    ahead_strains(run->m, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
+    ahead_stresses(run->m, s->e, s->inner);
+    const status outcome = linearise_elements(run, s, lin, f);
+    ahead_end(run->m);
     return outcome;
 }

@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_MODEL_LINEARISE_H
 #define BEAMWORK_MODEL_LINEARISE_H
 
-#include "harness/model/model.h"
 #include "harness/newton/loads.h"
+#include "harness/newton/run_state.h"
 
 /* Internal less external force of every coordinate is what equilibrium makes zero on the free ones.
  * Mixed linearisation (simultaneous in coordinates, strains and stresses; N section 4), condensed
@@ -22,12 +22,12 @@ typedef struct model_linearisation {
         *residual; /* [free + driven] right-hand side; of driven coordinates: less their reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
-status linearise_state(model *, const model_state *, model_linearisation *, fault *);
+status linearise_state(run_state *, const model_state *, model_linearisation *, fault *);
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
-status linearise_make_compatible(model *, model_state *, fault *);
+status linearise_make_compatible(run_state *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the
  * state: F[6] [N, N m]. sigma: as internal.h has it. */
-void linearise_node_force(model *, const model_state *, const double sigma[], int node,
+void linearise_node_force(run_state *, const model_state *, const double sigma[], int node,
                           double F[6]);
 /* out[free + driven] += forces that the stresses of these elements take, and all springs. */
 void linearise_add_internal(model *, const model_state *, int elements, const int element[],

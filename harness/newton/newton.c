@@ -135,7 +135,7 @@ static status meet_conditions(newton *n, int count, const model_condition condit
             n->dx[k] -= n->column[c * n->all + k] * b[c];
         n->dx[condition[c].unknown] = b[c];
     }
-    model_counters(n->c->model)->solutions += count;
+    n->c->run->counters.solutions += count;
     return STATUS_OK;
 }
 
@@ -146,7 +146,7 @@ static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
         lin->K = &n->whole;
     if (n->condensed != NULL)
         lin->K = NULL;
-    TRY(linearise_state(n->c->model, n->state, lin, f));
+    TRY(linearise_state(n->c->run, n->state, lin, f));
     if (n->whole.value != NULL)
         sparse_copy_leading(&n->whole, &n->K);
     if (n->condensed == NULL)
@@ -158,7 +158,7 @@ static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
 /* dx of the condensed system. */
 static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 {
-    phases *p = model_phases(n->c->model);
+    phases *p = &n->c->run->phases;
     const status factored = factor_tangent(n, lin, f);
     phases_lap(p, PHASE_FACTORISATION);
     TRY(factored);
@@ -190,14 +190,14 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.K = NULL;
     parts.drive = NULL;
     parts.conditions = 0;
-    TRY(linearise_state(m, n->state, &parts, f)); /* what advance_state needs */
+    TRY(linearise_state(n->c->run, n->state, &parts, f)); /* what advance_state needs */
     lin->incompatibility = parts.incompatibility;
-    TRY(uncondensed_system(m, n->state, lin->path, n->dx, lin->conditions, lin->condition, n->dense,
-                           n->unknown, n->residual, f));
-    phases_lap(model_phases(m), PHASE_ASSEMBLY);
+    TRY(uncondensed_system(n->c->run, n->state, lin->path, n->dx, lin->conditions, lin->condition,
+                           n->dense, n->unknown, n->residual, f));
+    phases_lap(&n->c->run->phases, PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
                                        n->pivot, n->unknown, (int)size) != 0;
-    phases_lap(model_phases(m), PHASE_FACTORISATION);
+    phases_lap(&n->c->run->phases, PHASE_FACTORISATION);
     n->c->singular = singular;
     if (singular)
         return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
@@ -210,12 +210,12 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 static status direction(newton *n, double path, step_record *record, fault *f)
 {
     model *m = n->c->model;
-    counters *count = model_counters(m);
+    counters *count = &n->c->run->counters;
     n->energy = NAN;
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
     loads_drive(m, n->state, path, n->dx);
     if (n->c->options->newton == NEWTON_DISPLACEMENT) {
-        TRY(linearise_make_compatible(m, n->state, f));
+        TRY(linearise_make_compatible(n->c->run, n->state, f));
     }
     model_condition condition[MODEL_MAX_CONDITIONS];
     const int conditions = loads_conditions(m, n->state, path, condition);
@@ -242,7 +242,7 @@ static status direction(newton *n, double path, step_record *record, fault *f)
 
 status newton_direction(newton *n, double path, step_record *record, fault *f)
 {
-    phases *p = model_phases(n->c->model);
+    phases *p = &n->c->run->phases;
     phases_start(p);
     const status outcome = direction(n, path, record, f);
     phases_stop(p);
@@ -251,9 +251,9 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 
 void newton_advance(newton *n, double path, newton_correction *out)
 {
-    phases_start(model_phases(n->c->model));
-    out->size = advance_state(n->c->model, n->state, n->dx, path, &out->stress);
-    phases_stop(model_phases(n->c->model));
+    phases_start(&n->c->run->phases);
+    out->size = advance_state(n->c->run, n->state, n->dx, path, &out->stress);
+    phases_stop(&n->c->run->phases);
     out->at = path;
     out->energy = n->energy;
 }

@@ -256,7 +256,7 @@ status newton_iterate(analysis_context *c, const newton_use *use, arrival *a, st
     for (int iteration = 1;; iteration++) {
         newton_correction one = {.energy = NAN};
         TRY(use->correct(use->of, iteration, &one, record, f));
-        model_counters(c->model)->iterations++;
+        c->run->counters.iterations++;
         arrival_take(one.size, &one.stress, iteration == 1, a);
         record->remaining = a->remaining;
         const iteration_record kept = {.correction = one.size,

@@ -3,10 +3,10 @@
 #ifndef BEAMWORK_QUADRATIC_FORMS_H
 #define BEAMWORK_QUADRATIC_FORMS_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 typedef struct quadratic_forms {
-    model *m;
+    run_state *run;
     int free;
     double *load_x;    /* [free + driven] displacements by the loads, zero: no prestress ... */
     double *sigma;     /* ... and their stresses [elements x strains] */
@@ -15,7 +15,7 @@ typedef struct quadratic_forms {
     double *stress, *product; /* [elements x strains], [free] */
 } quadratic_forms;
 
-status quadratic_forms_alloc(model *m, const sparse *pattern, quadratic_forms *p, fault *f);
+status quadratic_forms_alloc(run_state *run, const sparse *pattern, quadratic_forms *p, fault *f);
 void quadratic_forms_free(quadratic_forms *p);
 /* The loads at `path` and their stresses, once load_x is known; whole: with those of initial
  * strains. */

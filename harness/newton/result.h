@@ -4,8 +4,8 @@
 #define BEAMWORK_RESULT_H
 
 #include "harness/formulations/formulation.h"
-#include "harness/model/model.h"
 #include "harness/newton/outcome.h"
+#include "harness/newton/run_state.h"
 #include "harness/newton/shapes.h"
 #include "harness/newton/system_matrices.h"
 
@@ -144,6 +144,7 @@ typedef struct solve_result {
     outcome_end *end; /* [ends] of motions that no other one of the scene goes on from */
     double seconds_setup,
         seconds_solve; /* scene, sections, quadrature, mesh, analysis of the pattern | the rest */
+    counters counters; /* its work; of shapes and matrices none */
     double phase[PHASES]; /* [s] of seconds_solve, when asked for */
     shapes shapes;
     system_matrices systems;

@@ -18,9 +18,10 @@ void rotating_frame_set(model *m, const double omega[3], const double centre[3],
     m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
 }
 
-static status inertia_at(model *m, const node_state x[], int i, double path, inertia_output *out,
-                         fault *f)
+static status inertia_at(run_state *run, const node_state x[], int i, double path,
+                         inertia_output *out, fault *f)
 {
+    const model *m = run->m;
     const element_rotating_frame frame = model_rotating_frame(m, path);
     const mesh_kind *kind = &m->kind[m->element[i].kind];
     const element_rotating_frame *turning = m->rotates ? &frame : NULL;
@@ -31,21 +32,22 @@ static status inertia_at(model *m, const node_state x[], int i, double path, ine
     } else {
         outcome = m->type->inertia(kind->data, x, turning, out);
     }
-    m->counters.inertia_evaluations++;
+    run->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
                          scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text);
     return STATUS_OK;
 }
 
-status rotating_frame_add(model *m, const node_state x[], int i, double path, double force[],
+status rotating_frame_add(run_state *run, const node_state x[], int i, double path, double force[],
                           double K[], fault *f)
 {
+    const model *m = run->m;
     double centrifugal[ELEMENT_MAX_COORDINATES],
         N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     if (!m->rotates)
         return STATUS_OK;
-    TRY(inertia_at(m, x, i, path,
+    TRY(inertia_at(run, x, i, path,
                    &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= centrifugal[k];
@@ -55,9 +57,10 @@ status rotating_frame_add(model *m, const node_state x[], int i, double path, do
     return STATUS_OK;
 }
 
-status rotating_frame_inertia(model *m, const model_state *state, double path, sparse *M, sparse *G,
-                              fault *f)
+status rotating_frame_inertia(run_state *run, const model_state *state, double path, sparse *M,
+                              sparse *G, fault *f)
 {
+    const model *m = run->m;
     const model_state *s = state != NULL ? state : m->rest;
     const mesh_pattern *p = assemble_of(m, M);
     double mass[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
@@ -68,7 +71,7 @@ status rotating_frame_inertia(model *m, const model_state *state, double path, s
     for (int i = 0; i < m->elements; i++) {
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, &m->element[i], x);
-        TRY(inertia_at(m, x, i, path,
+        TRY(inertia_at(run, x, i, path,
                        &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f));
         eliminate_matrix(m, s, &m->element[i], NULL, mass);
         assemble_matrix(p, i, mass, M);

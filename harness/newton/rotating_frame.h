@@ -2,11 +2,11 @@
 #ifndef BEAMWORK_MODEL_ROTATING_FRAME_H
 #define BEAMWORK_MODEL_ROTATING_FRAME_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 /* Mass matrix on the pattern of M about a state (NULL: undeformed); G: gyroscopic matrix of a
  * rotating frame, of which a symmetric pattern stores the upper triangle, or NULL: not wanted. */
-status rotating_frame_inertia(model *, const model_state *, double path, sparse *M, sparse *G,
+status rotating_frame_inertia(run_state *, const model_state *, double path, sparse *M, sparse *G,
                               fault *);
 
 /* x^T B x of the undeformed structure, x[free + driven]: what the mass inside of elements adds to a

@@ -81,10 +81,10 @@ static int has_no_number(const sparse *K)
 
 /* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: LOST
  * where it has no digits to spare, NO_NUMBER where entries are none. */
-static double condition_at_rest(const analysis_context *c, model *m, int *lost)
+static double condition_at_rest(const analysis_context *c, run_state *run, int *lost)
 {
-    const counters work = *model_counters(m);
-    analysis_context one = {.scene = c->scene, .model = m, .options = c->options};
+    const counters work = run->counters;
+    analysis_context one = {.scene = c->scene, .model = run->m, .run = run, .options = c->options};
     linear_system s;
     double condition = 1;
     const status outcome = linear_system_alloc(&one, &s, NULL);
@@ -93,11 +93,11 @@ static double condition_at_rest(const analysis_context *c, model *m, int *lost)
     else if (outcome == STATUS_SINGULAR)
         condition = INFINITY;
     *lost = outcome == STATUS_SINGULAR ||
-            (outcome == STATUS_OK && !(condition * spread(m, &s.K) <= no_digits));
+            (outcome == STATUS_OK && !(condition * spread(run->m, &s.K) <= no_digits));
     if (outcome != STATUS_OK && has_no_number(&s.K))
         *lost = NO_NUMBER;
     linear_system_free(&s);
-    *model_counters(m) = work;
+    run->counters = work;
     return condition;
 }
 
@@ -109,7 +109,8 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     *elements = model_sizes(c->model).elements;
     *lost = 0;
     if (model_coarse(c->model, &coarse, NULL) == STATUS_OK) {
-        condition = condition_at_rest(c, coarse, lost);
+        run_state run = run_state_of(coarse);
+        condition = condition_at_rest(c, &run, lost);
         *elements = model_sizes(coarse).elements;
     }
     model_free(coarse);
@@ -145,7 +146,7 @@ void singular_explain(analysis_context *c, fault *f)
     }
     if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)
         return;
-    condition_at_rest(c, c->model, &lost);
+    condition_at_rest(c, c->run, &lost);
     if (lost == NO_NUMBER)
         fault_set(f, STATUS_SINGULAR,
                   "the formulation returned what is no number: look at its energy, stresses or "

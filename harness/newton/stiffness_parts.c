@@ -53,12 +53,13 @@ double stiffness_parts_material_rounding(const model *m, const model_state *s, c
     return sum + discrete_material_rounding(m, s, x);
 }
 
-status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, fault *f)
+status stiffness_parts_geometric(run_state *run, const model_state *s, sparse *G, fault *f)
 {
+    const model *m = run->m;
     const mesh_pattern *p = assemble_of(m, G);
     status outcome = STATUS_OK;
     sparse_zero(G);
-    ahead_strains(m, s, AHEAD_H, s->sigma);
+    ahead_strains(run->m, s, AHEAD_H, s->sigma);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         const mesh_element *el = &m->element[i];
         const model_slot w = linearise_slot(m, i);
@@ -68,18 +69,18 @@ status stiffness_parts_geometric(model *m, const model_state *s, sparse *G, faul
             present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
         ahead_strain(m, i, x, &(strain_output){.s = sigma, .H = H});
-        m->counters.strain_evaluations++;
+        run->counters.strain_evaluations++;
         if (m->rotates) {
-            outcome = rotating_frame_add(m, x, i, s->path, present, H, f);
+            outcome = rotating_frame_add(run, x, i, s->path, present, H, f);
         }
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
         eliminate_matrix(m, s, el, present, H);
         assemble_matrix(p, i, H, G);
     }
-    ahead_end(m);
+    ahead_end(run->m);
     TRY(outcome);
     discrete_geometric(m, s, s->path, G);
     loads_subtract_stiffness(m, s, s->path, G);
-    linearise_add_held_moments(m, s, s->path, G);
+    linearise_add_held_moments(run, s, s->path, G);
     return STATUS_OK;
 }

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MODEL_STIFFNESS_PARTS_H
 #define BEAMWORK_MODEL_STIFFNESS_PARTS_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 /* K x of the last linearisation in two parts. The stiff one goes through the element strains, y +=
  * sum J^T P'' (J x): as a sum of matrices it would lose all digits of the soft motions. x, y: [free
@@ -12,6 +12,6 @@ void stiffness_parts_material_product(const model *, const model_state *, const 
                                       double y[]);
 /* What rounding may change in x^T of the stiff part. */
 double stiffness_parts_material_rounding(const model *, const model_state *, const double x[]);
-status stiffness_parts_geometric(model *, const model_state *, sparse *G, fault *);
+status stiffness_parts_geometric(run_state *, const model_state *, sparse *G, fault *);
 
 #endif

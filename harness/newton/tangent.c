@@ -86,7 +86,7 @@ void tangent_free(tangent *t)
 /* Factors of the free block. */
 static status factor_inside(analysis_context *c, tangent *t, fault *f)
 {
-    counters *n = model_counters(c->model);
+    counters *n = &c->run->counters;
     if (t->own == NULL && t->inside.symmetric)
         t->own = context_take_factor(c);
     if (t->own == NULL) {
@@ -127,7 +127,7 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
     t->state = s;
     t->refined = t->condensed != NULL || asks_refinement(t);
     if (t->refined) {
-        TRY(stiffness_parts_geometric(c->model, s, &t->geometric, f));
+        TRY(stiffness_parts_geometric(c->run, s, &t->geometric, f));
         loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
     }
     if (t->condensed == NULL)
@@ -143,7 +143,7 @@ status tangent_at(analysis_context *c, const scene_compliance *a, const model_st
     const int condensed = t->condensed != NULL;
     model_linearisation lin = {
         .path = kinematics_state_path(s), .K = condensed ? NULL : &t->K, .residual = t->residual};
-    TRY(linearise_state(c->model, s, &lin, f));
+    TRY(linearise_state(c->run, s, &lin, f));
     if (condensed)
         TRY(condensation_at(t->condensed, s, lin.path, f));
     loads_release_moment(c->model, s, a->node, reaction + 3,
@@ -240,7 +240,7 @@ static status respond_all(const model *m, tangent *t, counters *n, bordered *s, 
 status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
                           double C[36], fault *f)
 {
-    counters *n = model_counters(c->model);
+    counters *n = &c->run->counters;
     bordered s = {0};
     memset(C, 0, 36 * sizeof *C);
     const status outcome = respond_all(c->model, t, n, &s, wanted, components, C, f);

@@ -43,9 +43,10 @@ static void put(const model *m, uncondensed *s, int row, int column, double valu
         s->b[row] -= value * s->drive[column];
 }
 
-static status add_element(model *m, const model_state *state, int i, double path, uncondensed *s,
-                          fault *f)
+static status add_element(run_state *run, const model_state *state, int i, double path,
+                          uncondensed *s, fault *f)
 {
+    const model *m = run->m;
     enum { E = ELEMENT_MAX_STRAINS, X = MODEL_MAX_COORDINATES };
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
@@ -62,13 +63,13 @@ static status add_element(model *m, const model_state *state, int i, double path
     if (!m->takes || !distributed_stress(m, state, x, i, path, &stresses, &outcome))
         outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
                                   &(stress_output){.sigma = P, .C = C});
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
+    run->counters.strain_evaluations++;
+    run->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
                          scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
     dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
-    TRY(rotating_frame_add(m, x, i, path, force, H, f));
+    TRY(rotating_frame_add(run, x, i, path, force, H, f));
     distributed_add(m, state, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
@@ -113,8 +114,8 @@ static void put_load(void *context, int row, int column, double value)
     put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
 }
 
-static void add_discrete(model *m, const model_state *state, const mesh_discrete *d, double path,
-                         uncondensed *s)
+static void add_discrete(const model *m, const model_state *state, const mesh_discrete *d,
+                         double path, uncondensed *s)
 {
     const int n = d->el.columns;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
@@ -128,10 +129,11 @@ static void add_discrete(model *m, const model_state *state, const mesh_discrete
     }
 }
 
-status uncondensed_system(model *m, const model_state *state, double path, const double drive[],
-                          int conditions, const model_condition condition[], double A[], double b[],
-                          double load[], fault *f)
+status uncondensed_system(run_state *run, const model_state *state, double path,
+                          const double drive[], int conditions, const model_condition condition[],
+                          double A[], double b[], double load[], fault *f)
 {
+    const model *m = run->m;
     uncondensed s = {uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
@@ -141,7 +143,7 @@ status uncondensed_system(model *m, const model_state *state, double path, const
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
     loads_add(m, state, path, load);
     for (int i = 0; i < m->elements; i++) {
-        TRY(add_element(m, state, i, path, &s, f));
+        TRY(add_element(run, state, i, path, &s, f));
     }
     loads_stiffness_at_vertices(m, state, path, put_load, &(load_part){m, &s});
     for (int i = 0; i < m->discretes; i++) {

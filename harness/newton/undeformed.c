@@ -61,8 +61,8 @@ static int is_strained(const model *m, int i)
 }
 
 /* C is that at no strain: what initial stresses add to it is left to geometric stiffnesses. */
-static status evaluate_strained(model *m, int i, const double e[], const double inner[], double C[],
-                                double initial[])
+static status evaluate_strained(const model *m, int i, const double e[], const double inner[],
+                                double C[], double initial[])
 {
     static const double none[ELEMENT_MAX_STRAINS];
     double own[ELEMENT_MAX_STRAINS];
@@ -74,14 +74,15 @@ static status evaluate_strained(model *m, int i, const double e[], const double 
     return STATUS_OK;
 }
 
-static status evaluate(model *m, int i, double J[], double C[], double initial[])
+static status evaluate(run_state *run, int i, double J[], double C[], double initial[])
 {
+    const model *m = run->m;
     double e[ELEMENT_MAX_STRAINS] = {0}, none[1] = {0};
     const double *inner = m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : none;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, &m->element[i], x);
-    m->counters.strain_evaluations++;
-    m->counters.stress_evaluations++;
+    run->counters.strain_evaluations++;
+    run->counters.stress_evaluations++;
     ahead_strain(m, i, x, &(strain_output){.e = e, .J = J});
     if (is_strained(m, i))
         return evaluate_strained(m, i, e, inner, C, initial);
@@ -102,13 +103,14 @@ static status grow(model *m, fault *f)
     return STATUS_OK;
 }
 
-static status make(model *m, int i, fault *f)
+static status make(run_state *run, int i, fault *f)
 {
-    mesh_undeformed *u = &m->undeformed;
+    const model *m = run->m;
+    mesh_undeformed *u = &run->m->undeformed;
     if (!alike(m, i)) {
-        TRY(grow(m, f));
+        TRY(grow(run->m, f));
         double *J = u->value + (size_t)u->count * size_of(m), *C = J + m->strains * m->coordinates;
-        const status outcome = evaluate(m, i, J, C, C + m->strains * m->strains);
+        const status outcome = evaluate(run, i, J, C, C + m->strains * m->strains);
         if (outcome != STATUS_OK)
             return fault_set(
                 f, outcome,
@@ -121,12 +123,13 @@ static status make(model *m, int i, fault *f)
     return STATUS_OK;
 }
 
-status undeformed_of(model *m, int i, undeformed_element *out, fault *f)
+status undeformed_of(run_state *run, int i, undeformed_element *out, fault *f)
 {
-    mesh_undeformed *u = &m->undeformed;
-    TRY(begin(m, f));
+    const model *m = run->m;
+    mesh_undeformed *u = &run->m->undeformed;
+    TRY(begin(run->m, f));
     if (u->of[i] == NONE)
-        TRY(make(m, i, f));
+        TRY(make(run, i, f));
     out->J = u->value + (size_t)u->of[i] * size_of(m);
     out->C = out->J + m->strains * m->coordinates;
     out->initial = is_strained(m, i) ? out->C + m->strains * m->strains : NULL;

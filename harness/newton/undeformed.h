@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_UNDEFORMED_H
 #define BEAMWORK_UNDEFORMED_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 /* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, of a member with initial strains,
  * the stresses [strains] of an element whose nodes do not move, to first order (NULL: none); until
@@ -14,7 +14,7 @@ typedef struct undeformed_element {
 
 /* In large models elements of one kind that follow each other with the same orientation, as far as
  * rounding of their places lets it be told, are one. FAULT: out of memory. */
-status undeformed_of(model *, int element, undeformed_element *, fault *);
+status undeformed_of(run_state *, int element, undeformed_element *, fault *);
 /* What no element has yet is evaluated for all together, where the formulation can, until
  * ahead_end. */
 void undeformed_begin(model *);

@@ -67,7 +67,7 @@ static status run(const cell_request *request, model **m, cell_result *out, faul
         return STATUS_OK;
     const status outcome = solve_scene(s, *m, &request->solve, &out->solve, f);
     out->solve.seconds_setup += prepared;
-    out->counters = *model_counters(*m);
+    out->counters = out->solve.counters;
     return outcome;
 }
 

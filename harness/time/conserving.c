@@ -24,7 +24,7 @@ static status direction(conserving *s, const instant *from, model_state *now, do
                         step_record *record, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    counters *count = model_counters(s->of.c->model);
+    counters *count = &s->of.c->run->counters;
     memset(s->residual, 0, bytes);
     memset(s->column, 0, bytes);
     memset(s->row, 0, bytes);
@@ -194,7 +194,7 @@ static status allocate(conserving *s, fault *f)
                       (size_t)(9 * s->of.masses->masses) + elastic,
                   sizeof *s->W);
     if (s->of.c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(m, &s->complement, f));
+        TRY(complement_alloc(s->of.c->run, &s->complement, f));
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
     if (s->step == NULL || s->W == NULL || s->evaluation == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");

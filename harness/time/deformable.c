@@ -149,7 +149,7 @@ static void behind_turns(const deformable *of, const cayley_step *step)
 void deformable_evaluate(const conserving *s, const instant *from, const model_state *now,
                          int count, evaluation v[])
 {
-    model *m = s->of.c->model;
+    const model *m = s->of.c->model;
     for (int k = 0; k < count; k++)
         place_nodes(s, from, now, &v[k]);
     for (int point = 0; point <= DEFORMABLE_POINTS; point++) {
@@ -157,7 +157,7 @@ void deformable_evaluate(const conserving *s, const instant *from, const model_s
             strains_together(m, point, count, v);
         else
             strains_alone(m, point, v);
-        m->counters.strain_evaluations += v->of.spring == NULL ? count : 0;
+        s->of.c->run->counters.strain_evaluations += v->of.spring == NULL ? count : 0;
     }
     for (int k = 0; k < count; k++)
         behind_turns(&v[k].of, &v[k].step);

@@ -66,8 +66,8 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
                         &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)m->strains});
         TRY(settle(s, i, f));
     }
-    TRY(linearise_make_compatible(m, s->at->state, f));
-    TRY(linearise_state(m, s->at->state, &lin, f));
+    TRY(linearise_make_compatible(s->of.c->run, s->at->state, f));
+    TRY(linearise_state(s->of.c->run, s->at->state, &lin, f));
     memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
     inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
     return explicit_accelerate(m, s->of.masses, s->at->state, s->at->v, s->residual, s->at->a, f);

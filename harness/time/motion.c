@@ -88,7 +88,7 @@ static status record_step(motion *w, const step_record *record, double error, fa
 static status keep_step(motion *w, const step_record *record, double error, int last, fault *f)
 {
     TRY(history_add_step(w->c->result, record, f));
-    model_counters(w->c->model)->steps++;
+    w->c->run->counters.steps++;
     TRY(stations_inside(&w->stations, &w->now, &w->next, f));
     TRY(watches_step(&w->watches, &w->now, &w->next, f));
     TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
@@ -195,7 +195,7 @@ static status take_step(motion *w, double target, fault *f)
                        : fault_set(f, STATUS_NOT_CONVERGED,
                                    "at %g s no step is short enough for %s", w->now.time,
                                    grows ? "the energy to stay" : "the tolerance");
-        model_counters(w->c->model)->rejected_steps++;
+        w->c->run->counters.rejected_steps++;
     }
 }
 
@@ -279,7 +279,7 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
     if (w->from != NULL)
         return go_on(w, f);
     if (follows == SCENE_NONE) /* members may have strains by themselves */
-        return linearise_make_compatible(w->c->model, w->now.state, f);
+        return linearise_make_compatible(w->c->run, w->now.state, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
     if (before->status != STATUS_OK || path->reached < path->stations)
@@ -365,7 +365,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
                   fault *f)
 {
     const history_mark begin = history_here(c->result);
-    const counters before = *model_counters(c->model);
+    const counters before = c->run->counters;
     motion w;
     memset(&w, 0, sizeof w);
     w.c = c;
@@ -385,8 +385,8 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
     release(&w);
     if (*again) { /* what it cost stays counted; its steps are none of the motion's */
         history_go_back(c->result, &begin);
-        model_counters(c->model)->steps = before.steps;
-        model_counters(c->model)->rejected_steps = before.rejected_steps;
+        c->run->counters.steps = before.steps;
+        c->run->counters.rejected_steps = before.rejected_steps;
     }
     return result;
 }

@@ -37,7 +37,8 @@ static void advance(const solution *of, const step_record *record, newton_correc
         m->work = one->work;
         increment_add(m, one->state, r->dx, one->inc);
         complement_keep(one->complement, one->state);
-        out->size = larger(out->size, advance_state(m, one->state, r->dx, time, &stress));
+        out->size =
+            larger(out->size, advance_state(r->of.c->run, one->state, r->dx, time, &stress));
         out->stress.largest = fmax(out->stress.largest, stress.largest);
         out->stress.change = fmax(out->stress.change, stress.change);
     }
@@ -157,7 +158,7 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     one->v = one->rate + all;
     one->a = one->v + all;
     if (r->of.c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(m, &one->complement, f));
+        TRY(complement_alloc(r->of.c->run, &one->complement, f));
     return kinematics_state_alloc(m, &one->state, f);
 }
 

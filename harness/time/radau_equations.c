@@ -104,10 +104,11 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
                                    .residual = r->dx};
         m->work = one->work;
         if (r->of.c->options->newton == NEWTON_DISPLACEMENT)
-            TRY(linearise_make_compatible(m, one->state, f));
-        TRY(linearise_state(m, one->state, &lin, f));
+            TRY(linearise_make_compatible(r->of.c->run, one->state, f));
+        TRY(linearise_state(r->of.c->run, one->state, &lin, f));
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);
-        m->counters.inertia_evaluations += r->of.masses->spread ? m->elements * (1 + fresh) : 0;
+        r->of.c->run->counters.inertia_evaluations +=
+            r->of.masses->spread ? m->elements * (1 + fresh) : 0;
         memcpy(r->residual + (size_t)i * (size_t)r->free, r->dx,
                (size_t)r->free * sizeof *r->residual);
         if (fresh)

@@ -26,7 +26,7 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
     memset(still, 0, (size_t)r->all * sizeof *still);
     const inertia_relation with = {g * g, 0, still};
     radau_damp_error(r, from, h, e, g, room->strain);
-    TRY(linearise_state(m, from->state, &lin, f));
+    TRY(linearise_state(r->of.c->run, from->state, &lin, f));
     inertia_subtract(m, r->of.masses, from->state, from->v, room->a, r->dx);
     inertia_add_tangent(m, r->of.masses, from->state, from->v, from->a, &with, &r->K);
     TRY(context_factor(r->of.c, r->single, &r->K, f));
@@ -36,8 +36,8 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
         square += r->weight[c] * r->dx[c] * r->dx[c];
     *error = sqrt(square);
     const factor_counts counts = factor_count(r->single);
-    model_counters(m)->factorisations += counts.factorisations - r->counted_single;
+    r->of.c->run->counters.factorisations += counts.factorisations - r->counted_single;
     r->counted_single = counts.factorisations;
-    model_counters(m)->solutions++;
+    r->of.c->run->counters.solutions++;
     return STATUS_OK;
 }

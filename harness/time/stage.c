@@ -29,7 +29,7 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     if (s->residual == NULL || s->dx == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     if (c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(c->model, &s->complement, f));
+        TRY(complement_alloc(c->run, &s->complement, f));
     TRY(assemble_pattern_in_time(c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
@@ -80,10 +80,10 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
                                .residual = s->residual};
     const inertia_relation with = {r->b, r->g, r->inc};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
-        TRY(linearise_make_compatible(m, (model_state *)now, f));
-    TRY(linearise_state(m, now, &lin, f));
+        TRY(linearise_make_compatible(s->c->run, (model_state *)now, f));
+    TRY(linearise_state(s->c->run, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
-    model_counters(m)->inertia_evaluations +=
+    s->c->run->counters.inertia_evaluations +=
         s->masses->spread ? model_sizes(m).elements * (1 + fresh) : 0;
     if (fresh)
         inertia_add_tangent(m, s->masses, now, r->v, r->a, &with, &s->S);
@@ -111,7 +111,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     increment_add(m, one->now, s->dx, one->r->inc);
     complement_keep(s->complement, one->now);
     out->at = one->time;
-    out->size = advance_state(m, one->now, s->dx, one->time, &out->stress);
+    out->size = advance_state(s->c->run, one->now, s->dx, one->time, &out->stress);
     rates_of(s, one->r);
     return STATUS_OK;
 }

@@ -42,11 +42,12 @@ static double size_of(model *m, int coordinate, double step)
     double *dx = calloc(n, sizeof *dx), *residual = calloc(n, sizeof *residual), out = NAN;
     model_state *s;
     fault f = {""};
+    run_state run = run_state_of(m);
     model_linearisation lin = {.residual = residual};
     if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
-        linearise_state(m, s, &lin, &f) == STATUS_OK) {
+        linearise_state(&run, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
-        out = advance_state(m, s, dx, 0, NULL);
+        out = advance_state(&run, s, dx, 0, NULL);
     }
     kinematics_state_free(s);
     free(dx);

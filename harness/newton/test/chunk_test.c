@@ -104,10 +104,11 @@ static void named(const element_type *type)
         kinematics_state_alloc(m, &state, &f) == STATUS_OK) {
         const model_size size = model_sizes(m);
         double *residual = calloc((size_t)(size.free + size.driven) + 1, sizeof *residual);
+        run_state run = run_state_of(m);
         model_linearisation lin = {.residual = residual};
         asked = 0;
         const status outcome =
-            residual != NULL ? linearise_state(m, state, &lin, &f) : STATUS_FAULT;
+            residual != NULL ? linearise_state(&run, state, &lin, &f) : STATUS_FAULT;
         gsl_test(outcome != (asked > 0 ? STATUS_SINGULAR : STATUS_OK),
                  "%s: an element that cannot be evaluated", type->name);
         gsl_test(asked > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",

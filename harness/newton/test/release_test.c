@@ -82,6 +82,7 @@ static void bent(int place, const char *const set[2], scene *s)
 typedef struct subject {
     scene scene;
     model *m;
+    run_state run;
     model_state *s, *moved;
     sparse K;
     int n;
@@ -102,6 +103,7 @@ static int prepare(subject *t, const char *formulation_name)
                      assemble_pattern_of_states(t->m, 0, &pattern, &f) == STATUS_OK &&
                      sparse_alloc_like(pattern, &t->K, &f) == STATUS_OK;
     gsl_test(!good, "%s: %s", formulation_name, f.text);
+    t->run = run_state_of(t->m);
     t->n = good ? model_sizes(t->m).free : 0;
     gsl_test(t->n > MOST || t->n < 12, "%d coordinates", t->n);
     return good;
@@ -120,7 +122,7 @@ static void linearised(subject *t, const model_state *s, double path)
 {
     fault f = {""};
     model_linearisation lin = {.path = path, .K = &t->K, .residual = t->residual};
-    gsl_test(linearise_state(t->m, s, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
+    gsl_test(linearise_state(&t->run, s, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
     memset(t->A, 0, sizeof t->A);
     for (int j = 0; j < t->n; j++)
         for (int k = t->K.column[j]; k < t->K.column[j + 1]; k++)
@@ -140,7 +142,7 @@ static int solve(subject *t, double path, const char *what)
         size = 0;
         for (int k = 0; k < t->n; k++)
             size = fmax(size, fabs(t->residual[k]));
-        advance_state(t->m, t->s, t->residual, path, NULL);
+        advance_state(&t->run, t->s, t->residual, path, NULL);
     }
     gsl_test(!(size <= 1e-11), "%s: no equilibrium at %g", what, path);
     gsl_test(!(size <= 100 * before * before + 1e-13), "%s: corrections %.1e after %.1e", what,
@@ -155,17 +157,17 @@ static void residual_at(subject *t, int k, double h, double out[])
     model_linearisation lin = {.path = 1, .residual = out};
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
-    linearise_state(t->m, t->moved, &lin, &f); /* what advance_state works on */
-    advance_state(t->m, t->moved, dx, 1, NULL);
-    linearise_make_compatible(t->m, t->moved, &f);
-    linearise_state(t->m, t->moved, &lin, &f);
+    linearise_state(&t->run, t->moved, &lin, &f); /* what advance_state works on */
+    advance_state(&t->run, t->moved, dx, 1, NULL);
+    linearise_make_compatible(&t->run, t->moved, &f);
+    linearise_state(&t->run, t->moved, &lin, &f);
 }
 
 static void derivative(subject *t, const char *what)
 {
     static const double h = 1e-4;
     double worst = 0, largest = 0;
-    linearise_make_compatible(t->m, t->s, NULL);
+    linearise_make_compatible(&t->run, t->s, NULL);
     linearised(t, t->s, 1);
     for (int j = 0; j < t->n; j++) {
         double far[2][MOST], near[2][MOST];

@@ -55,10 +55,11 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
 {
     double residual[MOST];
     fault f = {""};
+    run_state run = run_state_of(s->m);
     model_linearisation lin = {.path = 1, .residual = residual};
     kinematics_state_copy(s->m, from, to);
-    gsl_test(linearise_state(s->m, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
-    advance_state(s->m, to, dx, 1, NULL);
+    gsl_test(linearise_state(&run, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
+    advance_state(&run, to, dx, 1, NULL);
 }
 
 /* A state far from rest, turned about no special axis. */
@@ -94,10 +95,11 @@ static inline void turned_body_loads(const turned_body *s, double out[])
 {
     double without[MOST];
     fault f = {""};
+    run_state run = run_state_of(s->m);
     model_linearisation with = {.path = 1, .residual = out},
                         none = {.path = 0, .residual = without};
-    linearise_state(s->m, s->turned, &with, &f);
-    linearise_state(s->m, s->turned, &none, &f);
+    linearise_state(&run, s->turned, &with, &f);
+    linearise_state(&run, s->turned, &none, &f);
     for (int k = 0; k < s->n; k++)
         out[k] -= without[k];
 }

@@ -58,20 +58,21 @@ static void load(const model *m, int i, double angle, double sigma[], double e[]
     dense_mul_vec(m->strains, m->strains, C, e, sigma);
 }
 
-static long looks(model *m, complement *c, model_state *s, int iteration, double correction)
+static long looks(const run_state *run, complement *c, model_state *s, int iteration,
+                  double correction)
 {
-    const long before = model_counters(m)->stress_evaluations;
+    const long before = run->counters.stress_evaluations;
     complement_strains(c, s, iteration, correction);
-    return model_counters(m)->stress_evaluations - before;
+    return run->counters.stress_evaluations - before;
 }
 
 /* All elements agree: looked at again after larger corrections and in a new step alone. */
-static void again(model *m, complement *c, model_state *s)
+static void again(const run_state *run, complement *c, model_state *s)
 {
-    gsl_test(looks(m, c, s, 2, 0.5) != ELEMENTS, "some did not agree before: all are looked at");
-    gsl_test(looks(m, c, s, 3, 0.1) != 0, "a smaller correction is not looked at");
-    gsl_test(looks(m, c, s, 4, 0.6) != ELEMENTS, "a larger one is");
-    gsl_test(looks(m, c, s, 1, 0.1) != ELEMENTS, "and the first of a step");
+    gsl_test(looks(run, c, s, 2, 0.5) != ELEMENTS, "some did not agree before: all are looked at");
+    gsl_test(looks(run, c, s, 3, 0.1) != 0, "a smaller correction is not looked at");
+    gsl_test(looks(run, c, s, 4, 0.6) != ELEMENTS, "a larger one is");
+    gsl_test(looks(run, c, s, 1, 0.1) != ELEMENTS, "and the first of a step");
 }
 
 static void take(const element_type *type, double angle)
@@ -79,11 +80,12 @@ static void take(const element_type *type, double angle)
     scene s;
     fault f = {""};
     model *m = leaf(type, &s);
+    run_state run = run_state_of(m);
     model_state *state;
     complement *c;
     const size_t n = (size_t)m->strains;
     gsl_test(kinematics_state_alloc(m, &state, &f) != STATUS_OK ||
-                 complement_alloc(m, &c, &f) != STATUS_OK || c == NULL,
+                 complement_alloc(&run, &c, &f) != STATUS_OK || c == NULL,
              "%s has stresses that are not linear", type->name);
     complement_keep(c, state);
     for (int i = 0; i < ELEMENTS; i++)
@@ -111,7 +113,7 @@ static void take(const element_type *type, double angle)
                  "%s, %g rad: bent as much (%g, %g)", type->name, angle, e[4] / first[4],
                  e[5] / first[5]);
     }
-    again(m, c, state);
+    again(&run, c, state);
     complement_free(c);
     kinematics_state_free(state);
     model_free(m);
@@ -124,10 +126,11 @@ static void keep(void)
     scene s;
     fault f = {""};
     model *m = leaf(&element_beamw_consistent, &s);
+    run_state run = run_state_of(m);
     model_state *state;
     complement *c;
     if (kinematics_state_alloc(m, &state, &f) == STATUS_OK &&
-        complement_alloc(m, &c, &f) == STATUS_OK) {
+        complement_alloc(&run, &c, &f) == STATUS_OK) {
         const size_t n = (size_t)(ELEMENTS * m->strains);
         double before[ELEMENTS * MOST];
         complement_keep(c, state);
@@ -149,8 +152,9 @@ static void leave(const element_type *type, const char *why)
     scene s;
     fault f = {""};
     model *m = leaf(type, &s);
+    run_state run = run_state_of(m);
     complement *c;
-    gsl_test(complement_alloc(m, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
+    gsl_test(complement_alloc(&run, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
     complement_keep(c, NULL);
     complement_strains(c, NULL, 1, 1);
     complement_free(c);

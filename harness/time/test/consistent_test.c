@@ -210,7 +210,7 @@ static double iterations_of(double stiffening, scene_mass mass, scene_scheme sch
         .scene = &s, .type = chosen.type, .options = chosen.option, .elements = 4};
     if (model_alloc(&wanted, &m, &f) == STATUS_OK &&
         solve_scene(&s, m, &options, &result, &f) == STATUS_OK)
-        mean = (double)model_counters(m)->iterations / (double)model_counters(m)->steps;
+        mean = (double)result.counters.iterations / (double)result.counters.steps;
     model_free(m);
     result_free(&result);
     scene_free(&s);

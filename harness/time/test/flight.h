@@ -23,6 +23,7 @@ typedef struct flight {
     scene scene;
     formulation chosen;
     model *m;
+    run_state run;
     solve_options options;
     solve_result result;
     analysis_context c;
@@ -41,8 +42,12 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     TRY(formulation_parse(with, &f->chosen, &f->why));
     request.type = f->chosen.type;
     TRY(model_alloc(&request, &f->m, &f->why));
-    f->c = (analysis_context){
-        .scene = &f->scene, .model = f->m, .options = &f->options, .result = &f->result};
+    f->run = run_state_of(f->m);
+    f->c = (analysis_context){.scene = &f->scene,
+                              .model = f->m,
+                              .run = &f->run,
+                              .options = &f->options,
+                              .result = &f->result};
     f->how = *scene_motion_of(&f->scene.analysis[f->scene.analyses - 1]);
     f->m->in_time = 1;
     TRY(carried_alloc(f->m, &f->masses, &f->why));

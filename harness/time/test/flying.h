@@ -19,6 +19,7 @@ typedef struct flying {
     solve_result result;
     analysis_context c;
     model *m;
+    run_state run;
     carried masses;
     work work;
     mesh_damping damping;
@@ -36,8 +37,9 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
     const model_request wanted = {
         .scene = s, .type = type, .options = f->chosen.option, .elements = elements};
     TRY(model_alloc(&wanted, &f->m, &f->why));
-    f->c =
-        (analysis_context){.scene = s, .model = f->m, .options = &f->options, .result = &f->result};
+    f->run = run_state_of(f->m);
+    f->c = (analysis_context){
+        .scene = s, .model = f->m, .run = &f->run, .options = &f->options, .result = &f->result};
     context_set_frame(&f->c, 0);
     const scene_motion *how = scene_motion_of(&s->analysis[0]);
     TRY(carried_alloc(f->m, &f->masses, &f->why));

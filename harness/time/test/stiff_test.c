@@ -39,8 +39,8 @@ static swing take(const formulation *with, scene_scheme by, double stiffening, d
     if (model_alloc(&wanted, &m, &f) == STATUS_OK) {
         const status outcome = solve_scene(&s, m, &options, &result, &f);
         gsl_test(outcome != STATUS_OK, "%s, EA x %g: %s", with->type->name, stiffening, f.text);
-        out.steps = model_counters(m)->steps;
-        out.iterations = (double)model_counters(m)->iterations / (double)out.steps;
+        out.steps = result.counters.steps;
+        out.iterations = (double)result.counters.iterations / (double)out.steps;
     }
     model_free(m);
     result_free(&result);
