@@ -197,10 +197,12 @@ static int only_turns(const analysis_context *c, const eigen_side *side, int i)
 static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
 {
     model *halved = NULL;
+    run_state run = {0}; /* its work does not count */
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);
+    if (result == STATUS_OK)
+        result = run_state_begin(&run, halved, 1, f);
     if (result == STATUS_OK) {
-        run_state run = run_state_of(halved); /* its work does not count */
         analysis_context finer = {.scene = c->scene,
                                   .model = halved,
                                   .run = &run,
@@ -211,6 +213,7 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
     }
     *found = b.found;
     buckling_free(&b);
+    run_state_end(&run);
     model_free(halved);
     return result;
 }

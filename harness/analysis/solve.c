@@ -153,19 +153,21 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
                    fault *f)
 {
     static const solve_options defaults = {0};
-    run_state run = run_state_of(m);
+    run_state run;
     analysis_context c = {.scene = s,
                           .model = m,
                           .run = &run,
                           .options = options != NULL ? options : &defaults,
                           .result = result};
+    memset(result, 0, sizeof *result);
+    TRY(run_state_begin(&run, m, c.options->threads, f));
     phases_want(&run.phases, c.options->phases);
     const double start = clock_processor_seconds();
-    memset(result, 0, sizeof *result);
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
     c.outcomes = calloc((size_t)s->analyses + 1, sizeof *c.outcomes);
     if (result->quantity == NULL || c.outcomes == NULL) {
         free(c.outcomes);
+        run_state_end(&run);
         return fault_set(f, STATUS_FAULT, "out of memory for a solution");
     }
     result->quantities = s->quantities;
@@ -192,6 +194,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
     factor_free(c.left);
+    run_state_end(&run);
     if (result->status != STATUS_OK && f != NULL)
         snprintf(f->text, sizeof f->text, "%s", result->reason);
     return result->status;

@@ -217,11 +217,6 @@ void model_free(model *m)
     division_free(&m->division);
     free(m->driver_coordinate);
     free(m->work);
-    free(m->undeformed.of);
-    free(m->undeformed.value);
-    free(m->ahead);
-    free(m->part);
-    team_free(m->team);
     kinematics_state_free(m->rest);
     free(m);
 }
@@ -276,21 +271,6 @@ const char *model_formulation(const model *m)
 unsigned model_limits(const model *m)
 {
     return m->type->limits;
-}
-
-/* Fewer elements than this are done before another thread is awake (measured on the joint and the
- * hexapod). */
-enum { ELEMENTS_OF_A_THREAD = 32 };
-
-status model_set_threads(model *m, int threads, fault *f)
-{
-    if (threads > m->elements / ELEMENTS_OF_A_THREAD)
-        threads = m->elements / ELEMENTS_OF_A_THREAD;
-    team_free(m->team);
-    m->team = NULL;
-    free(m->part); /* as many as that team needs */
-    m->part = NULL;
-    return team_alloc(threads, &m->team, f);
 }
 
 const section *model_section(const model *m, int index)

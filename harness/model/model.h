@@ -63,10 +63,6 @@ const char *model_trouble(const model *);
 /* Everything that changes along a path. A copy undoes a rejected step. */
 typedef struct model_state model_state;
 
-/* Threads that share the loop over elements; one until this is called. Sums keep their order:
- * results do not depend on it. */
-status model_set_threads(model *, int threads, fault *);
-
 const char *model_formulation(const model *);
 unsigned model_limits(const model *); /* LIMIT_* of its formulation */
 unsigned model_leaves(const model *); /* LEAVES_* of it */

@@ -5,7 +5,6 @@
 #include "elements/field/field.h"
 #include "harness/model/division.h"
 #include "harness/model/model.h"
-#include "harness/numerics/team.h"
 
 /* An element depends on the coordinates of its nodes and on those of released ends. */
 enum {
@@ -103,34 +102,6 @@ typedef struct mesh_pattern {
     const mesh_element *element; /* of the model */
 } mesh_pattern;
 
-/* Strains and stresses evaluated for all elements at once: harness/newton/ahead.h. */
-typedef struct mesh_ahead {
-    int what, stresses; /* what of the strains, and whether the stresses, are valid */
-    const element_data **data;
-    const double **at, **inner;
-    node_state *x;
-    strain_output *strain;
-    stress_output *stress;
-    status *outcome;
-    double *e, *sigma, *J, *H, *C, *memory;
-} mesh_ahead;
-
-/* Derivatives of elements at rest: harness/newton/undeformed.h. */
-typedef struct mesh_undeformed {
-    int *of;         /* [elements] index of its values, or NONE; NULL: nothing is known */
-    int count, room; /* of values */
-    int last;        /* element that the last of them are of */
-    double *value;   /* [room x (J, C, initial stresses)] */
-} mesh_undeformed;
-
-/* One element's equations in model coordinates. */
-typedef struct element_part {
-    status outcome;
-    fault why;
-    double incompatibility; /* |D(x) - e|/l */
-    double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
-} element_part;
-
 /* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/damping.h. */
 typedef struct mesh_damping {
     double *stiffness;          /* [kinds x strains^2] S0 */
@@ -176,8 +147,7 @@ struct model {
     double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
                      linearisation */
     int work_size;
-    model_state *rest; /* undeformed */
-    mesh_undeformed undeformed;
+    model_state *rest;            /* undeformed */
     element_rotating_frame frame; /* its velocity times the path if that is followed */
     mesh_damping *damping;        /* of a motion; NULL: none */
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
@@ -186,9 +156,6 @@ struct model {
     int lumps;        /* LUMPS_* */
     int takes;        /* elements take loads along them (element_type.along) */
     int rotates, rotation_follows_path;
-    team *team;         /* of the loop over elements; NULL: one thread */
-    element_part *part; /* of a few elements, before they are added up in order; NULL: none yet */
-    mesh_ahead *ahead;  /* one block; NULL: nothing has been evaluated ahead */
     int lines;
     char **line; /* what was left out */
 };

@@ -18,20 +18,21 @@ static void *part(char **from, size_t count, size_t size)
 }
 
 /* All arrays in one block. 0: no memory. */
-static int allocate(model *m)
+static int allocate(run_state *run)
 {
+    const model *m = run->m;
     const size_t n = (size_t)m->elements, s = (size_t)m->strains, c = (size_t)m->coordinates,
                  nodes = (size_t)m->nodes, memory = (size_t)m->memory;
-    const size_t size = bytes(1, sizeof(mesh_ahead)) + 3 * bytes(n, sizeof(void *)) +
+    const size_t size = bytes(1, sizeof(run_ahead)) + 3 * bytes(n, sizeof(void *)) +
                         bytes(n * nodes, sizeof(node_state)) + bytes(n, sizeof(strain_output)) +
                         bytes(n, sizeof(stress_output)) + bytes(n, sizeof(status)) +
                         2 * bytes(n * s, sizeof(double)) + bytes(n * s * c, sizeof(double)) +
                         bytes(n * c * c, sizeof(double)) + bytes(n * s * s, sizeof(double)) +
                         bytes(n * memory, sizeof(double));
-    char *block = m->ahead == NULL ? malloc(size) : NULL;
+    char *block = run->ahead == NULL ? malloc(size) : NULL;
     if (block == NULL)
-        return m->ahead != NULL;
-    mesh_ahead *a = m->ahead = part(&block, 1, sizeof *a);
+        return run->ahead != NULL;
+    run_ahead *a = run->ahead = part(&block, 1, sizeof *a);
     memset(a, 0, sizeof *a);
     a->data = part(&block, n, sizeof(void *));
     a->at = part(&block, n, sizeof(void *));
@@ -51,11 +52,12 @@ static int allocate(model *m)
     return 1;
 }
 
-void ahead_strains(model *m, const model_state *s, int what, const double sigma[])
+void ahead_strains(run_state *run, const model_state *s, int what, const double sigma[])
 {
-    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(m))
+    const model *m = run->m;
+    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(run))
         return;
-    mesh_ahead *a = m->ahead;
+    run_ahead *a = run->ahead;
     const int n = m->strains, c = m->coordinates;
     for (int i = 0; i < m->elements; i++) {
         kinematics_gather(m, s, &m->element[i], a->x + i * m->nodes);
@@ -68,11 +70,12 @@ void ahead_strains(model *m, const model_state *s, int what, const double sigma[
     a->what = what;
 }
 
-void ahead_stresses(model *m, const double e[], const double inner[])
+void ahead_stresses(run_state *run, const double e[], const double inner[])
 {
-    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(m))
+    const model *m = run->m;
+    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(run))
         return;
-    mesh_ahead *a = m->ahead;
+    run_ahead *a = run->ahead;
     const int n = m->strains;
     if (e == NULL && !(a->what & AHEAD_E))
         return;
@@ -87,10 +90,10 @@ void ahead_stresses(model *m, const double e[], const double inner[])
     a->stresses = 1;
 }
 
-void ahead_end(model *m)
+void ahead_end(run_state *run)
 {
-    if (m->ahead != NULL)
-        m->ahead->what = m->ahead->stresses = 0;
+    if (run->ahead != NULL)
+        run->ahead->what = run->ahead->stresses = 0;
 }
 
 static void copy(double *to, const double *from, int count)
@@ -99,9 +102,10 @@ static void copy(double *to, const double *from, int count)
         memcpy(to, from, (size_t)count * sizeof *to);
 }
 
-void ahead_copy_strain(const model *m, int i, const strain_output *out)
+void ahead_copy_strain(const run_state *run, int i, const strain_output *out)
 {
-    const mesh_ahead *a = m->ahead;
+    const model *m = run->m;
+    const run_ahead *a = run->ahead;
     const int n = m->strains, c = m->coordinates;
     copy(out->e, a->e + i * n, n);
     copy(out->J, a->J + i * n * c, n * c);
@@ -109,9 +113,10 @@ void ahead_copy_strain(const model *m, int i, const strain_output *out)
         copy(out->H, a->H + i * c * c, c * c);
 }
 
-status ahead_copy_stress(const model *m, int i, const stress_output *out)
+status ahead_copy_stress(const run_state *run, int i, const stress_output *out)
 {
-    const mesh_ahead *a = m->ahead;
+    const model *m = run->m;
+    const run_ahead *a = run->ahead;
     const int n = m->strains;
     copy(out->sigma, a->sigma + i * n, n);
     copy(out->C, a->C + i * n * n, n * n);

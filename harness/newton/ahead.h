@@ -6,34 +6,48 @@
 #define BEAMWORK_MODEL_AHEAD_H
 
 #include "harness/model/model_impl.h"
+#include "harness/newton/run_state.h"
+
+/* Strains and stresses evaluated for all elements at once. */
+typedef struct run_ahead {
+    int what, stresses; /* what of the strains, and whether the stresses, are valid */
+    const element_data **data;
+    const double **at, **inner;
+    node_state *x;
+    strain_output *strain;
+    stress_output *stress;
+    status *outcome;
+    double *e, *sigma, *J, *H, *C, *memory;
+} run_ahead;
 
 enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* what of the strains */
 
 /* Of the nodes of s; sigma[elements x strains] for H. Until ahead_end. */
-void ahead_strains(model *m, const model_state *s, int what, const double sigma[]);
+void ahead_strains(run_state *run, const model_state *s, int what, const double sigma[]);
 /* At e[elements x strains], or NULL: at the strains evaluated ahead; sigma and C. */
-void ahead_stresses(model *m, const double e[], const double inner[]);
-void ahead_end(model *m);
+void ahead_stresses(run_state *run, const double e[], const double inner[]);
+void ahead_end(run_state *run);
 
-void ahead_copy_strain(const model *m, int i, const strain_output *out);
-status ahead_copy_stress(const model *m, int i, const stress_output *out);
+void ahead_copy_strain(const run_state *run, int i, const strain_output *out);
+status ahead_copy_stress(const run_state *run, int i, const stress_output *out);
 
 /* Those of element i at x or e, for loops between ahead_strains or ahead_stresses and ahead_end:
- * what was evaluated ahead, or m->type's own functions. */
-static inline void ahead_strain(const model *m, int i, const node_state x[], strain_output *out)
+ * what was evaluated ahead, or the type's own functions. */
+static inline void ahead_strain(const run_state *run, int i, const node_state x[],
+                                strain_output *out)
 {
-    if (m->ahead != NULL && m->ahead->what != 0)
-        ahead_copy_strain(m, i, out);
+    if (run->ahead != NULL && run->ahead->what != 0)
+        ahead_copy_strain(run, i, out);
     else
-        m->type->strain(m->kind[m->element[i].kind].data, x, out);
+        run->m->type->strain(run->m->kind[run->m->element[i].kind].data, x, out);
 }
 
-static inline status ahead_stress(const model *m, int i, const double e[], const double inner[],
-                                  stress_output *out)
+static inline status ahead_stress(const run_state *run, int i, const double e[],
+                                  const double inner[], stress_output *out)
 {
-    if (m->ahead != NULL && m->ahead->stresses)
-        return ahead_copy_stress(m, i, out);
-    return m->type->stress(m->kind[m->element[i].kind].data, e, inner, out);
+    if (run->ahead != NULL && run->ahead->stresses)
+        return ahead_copy_stress(run, i, out);
+    return run->m->type->stress(run->m->kind[run->m->element[i].kind].data, e, inner, out);
 }
 
 #endif

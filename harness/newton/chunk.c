@@ -43,13 +43,14 @@ static const double *inner_of(const model *m, const model_state *s, int element)
 }
 
 /* Their functions of one element, or what was evaluated ahead. */
-static void strains_one_by_one(const model *m, const model_state *s, int count,
+static void strains_one_by_one(const run_state *run, const model_state *s, int count,
                                chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
 {
+    const model *m = run->m;
     for (int k = 0; k < count; k++) {
         chunk_element *c = &element[k];
         const model_slot w = linearise_slot(m, c->index);
-        ahead_strain(m, c->index, c->x,
+        ahead_strain(run, c->index, c->x,
                      &(strain_output){.e = deformed[k],
                                       .J = w.J,
                                       .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
@@ -57,16 +58,17 @@ static void strains_one_by_one(const model *m, const model_state *s, int count,
     }
 }
 
-static void stresses_one_by_one(const model *m, const model_state *s, int count,
+static void stresses_one_by_one(const run_state *run, const model_state *s, int count,
                                 chunk_element element[])
 {
+    const model *m = run->m;
     for (int k = 0; k < count; k++) {
         const int i = element[k].index;
         const model_slot w = linearise_slot(m, i);
         if (element[k].along.acts)
             continue;
         element[k].outcome = ahead_stress(
-            m, i, of_strains(m, s->e, i), inner_of(m, s, i),
+            run, i, of_strains(m, s->e, i), inner_of(m, s, i),
             &(stress_output){
                 .sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL});
     }
@@ -221,9 +223,10 @@ static void damp(const model *m, const model_state *s, int index)
         w.C[k] += eta * d->g * S[k];
 }
 
-void chunk_evaluate(const model *m, const model_state *s, double path, int count,
+void chunk_evaluate(const run_state *run, const model_state *s, double path, int count,
                     chunk_element element[])
 {
+    const model *m = run->m;
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
     const int together = count >= REAL_CHOSEN(together_from) && chunk_size(m) > 1;
     for (int k = 0; k < count; k++) {
@@ -243,11 +246,11 @@ void chunk_evaluate(const model *m, const model_state *s, double path, int count
     if (together)
         strains_together(m, s, count, element, deformed);
     else
-        strains_one_by_one(m, s, count, element, deformed);
+        strains_one_by_one(run, s, count, element, deformed);
     if (together && m->type->stress_many != NULL)
         stresses_together(m, s, count, element);
     else
-        stresses_one_by_one(m, s, count, element);
+        stresses_one_by_one(run, s, count, element);
     if (m->takes)
         stresses_under_loads(m, s, count, element);
     for (int k = 0; k < count; k++)

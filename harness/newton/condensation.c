@@ -182,16 +182,17 @@ void condensation_free(condensation *s)
 }
 
 /* One element as a link; force[7 nodes]: internal, in the state. */
-static status link_element_of(const model *m, const model_state *s, const member *of, int i,
+static status link_element_of(const run_state *run, const model_state *s, const member *of, int i,
                               double path, chain_link *link, double force[], fault *f)
 {
+    const model *m = run->m;
     const model_slot w = linearise_slot(m, i);
     const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     node_state x[ELEMENT_MAX_NODES];
     double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
         along[ELEMENT_MAX_COORDINATES] = {0};
     kinematics_gather(m, s, &m->element[i], x);
-    ahead_strain(m, i, x, &(strain_output){.s = sigma, .H = H});
+    ahead_strain(run, i, x, &(strain_output){.s = sigma, .H = H});
     for (int k = 0; k < m->nodes; k++)
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
@@ -204,14 +205,15 @@ static status link_element_of(const model *m, const model_state *s, const member
 }
 
 /* The chain of a member; force[14]: internal forces of its ends. */
-static status fill_chain(const model *m, const model_state *s, member *of, double path,
+static status fill_chain(const run_state *run, const model_state *s, member *of, double path,
                          double force[], fault *f)
 {
+    const model *m = run->m;
     double own[ELEMENT_MAX_COORDINATES];
     chain_begin(of->chain);
     for (int i = of->first; i < of->first + of->links; i++) {
         chain_link link;
-        TRY(link_element_of(m, s, of, i, path, &link, own, f));
+        TRY(link_element_of(run, s, of, i, path, &link, own, f));
         TRY(chain_add(of->chain, &link, f));
         if (i == of->first)
             memcpy(force, own, NODE_COORDINATES * sizeof *force);
@@ -226,7 +228,7 @@ static status member_matrix(condensation *s, member *of, double path, double K[]
 {
     const int c = of->joint, n = 2 * NODE_COORDINATES;
     double small[CHAIN_LINK * CHAIN_LINK], force[2 * NODE_COORDINATES];
-    TRY(fill_chain(s->m, s->at, of, path, force, f));
+    TRY(fill_chain(s->run, s->at, of, path, force, f));
     TRY(chain_stiffness(of->chain, small, f));
     s->negative += chain_negative(of->chain);
     memset(K, 0, (size_t)(n * n) * sizeof *K);
@@ -253,9 +255,9 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     s->at = at;
     s->negative = 0;
     sparse_zero(&s->K);
-    ahead_strains(s->run->m, at, AHEAD_H, at->sigma);
+    ahead_strains(s->run, at, AHEAD_H, at->sigma);
     const status outcome = members(s, path, f);
-    ahead_end(s->run->m);
+    ahead_end(s->run);
     TRY(outcome);
     for (int i = 0; i < s->m->discretes; i++) {
         element_part part = {.incompatibility = 0};

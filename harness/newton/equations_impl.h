@@ -6,6 +6,14 @@
 #include "harness/newton/applied.h"
 #include "harness/newton/run_state.h"
 
+/* One element's equations in model coordinates. */
+typedef struct element_part {
+    status outcome;
+    fault why;
+    double incompatibility; /* |D(x) - e|/l */
+    double force[MODEL_MAX_COORDINATES], K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+} element_part;
+
 /* rotating_frame.c: force -= centrifugal force, K += its stiffness (NULL: not wanted), in element
  * coordinates; nothing where no frame turns. */
 status rotating_frame_add(run_state *run, const node_state x[], int element, double path,

@@ -38,9 +38,9 @@ static status stiffness_elements(run_state *run, sparse *K, fault *f)
 status linear_stiffness(run_state *run, sparse *K, fault *f)
 {
     const model *m = run->m;
-    undeformed_begin(run->m);
+    undeformed_begin(run);
     const status outcome = stiffness_elements(run, K, f);
-    ahead_end(run->m);
+    ahead_end(run);
     if (outcome == STATUS_OK)
         linear_springs_stiffness(m, K);
     return outcome;
@@ -93,20 +93,20 @@ status linear_whole_stresses(run_state *run, const double x[], double sigma[], f
 void linear_forces(run_state *run, const double sigma[], double f[])
 {
     const model *m = run->m;
-    ahead_strains(run->m, m->rest, AHEAD_J, NULL);
+    ahead_strains(run, m->rest, AHEAD_J, NULL);
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, m->rest, &m->element[i], x);
-        ahead_strain(m, i, x, &(strain_output){.J = J});
+        ahead_strain(run, i, x, &(strain_output){.J = J});
         run->counters.strain_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                 &sigma[(size_t)i * (size_t)m->strains], force);
         eliminate_forces(m, m->rest, &m->element[i], force);
         assemble_vector(&m->element[i], force, f);
     }
-    ahead_end(run->m);
+    ahead_end(run);
     linear_springs_forces(m, sigma + m->elements * m->strains, f);
 }
 
@@ -119,7 +119,7 @@ static void geometric_of(run_state *run, int i, const double sigma[], double H[]
     const element_data *data = m->kind[el->kind].data;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, el, x);
-    ahead_strain(m, i, x, &(strain_output){.J = J, .s = sigma, .H = H});
+    ahead_strain(run, i, x, &(strain_output){.J = J, .s = sigma, .H = H});
     if (m->type->geometric != NULL)
         m->type->geometric(data, sigma, G);
     else
@@ -138,7 +138,7 @@ status linear_geometric_stiffness(run_state *run, const double sigma[], double p
         TRY(linearise_held_have_potential(run, sigma, path, f));
     }
     sparse_zero(out);
-    ahead_strains(run->m, m->rest, AHEAD_J | AHEAD_H, sigma);
+    ahead_strains(run, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++) {
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
@@ -151,7 +151,7 @@ status linear_geometric_stiffness(run_state *run, const double sigma[], double p
         eliminate_matrix(m, m->rest, &m->element[i], force, H);
         assemble_matrix(pattern_of(m, out), i, H, out);
     }
-    ahead_end(run->m);
+    ahead_end(run);
     loads_subtract_stiffness(m, m->rest, path, out);
     linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
     return STATUS_OK;
@@ -244,10 +244,10 @@ double linear_geometric_energy2(run_state *run, const double sigma[], const doub
 {
     const model *m = run->m;
     double sum = 0;
-    ahead_strains(run->m, m->rest, AHEAD_J | AHEAD_H, sigma);
+    ahead_strains(run, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++)
         sum += geometric_energy2(run, i, &sigma[(size_t)i * (size_t)m->strains], x);
-    ahead_end(run->m);
+    ahead_end(run);
     return sum + linear_springs_geometric_energy2(m, sigma + m->elements * m->strains, x);
 }
 

@@ -25,14 +25,14 @@ static status compatible_element(run_state *run, model_state *s, int i)
     kinematics_gather(m, s, el, x);
     double *e = &s->e[(size_t)i * (size_t)m->strains],
            *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
-    ahead_strain(m, i, x, &(strain_output){.e = e});
+    ahead_strain(run, i, x, &(strain_output){.e = e});
     run->counters.strain_evaluations++;
     run->counters.stress_evaluations++;
     status outcome;
     if (m->takes &&
         distributed_stress(m, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
         return outcome;
-    return ahead_stress(m, i, e, &s->inner[(size_t)i * (size_t)m->inner],
+    return ahead_stress(run, i, e, &s->inner[(size_t)i * (size_t)m->inner],
                         &(stress_output){.sigma = sigma});
 }
 
@@ -40,8 +40,8 @@ status linearise_make_compatible(run_state *run, model_state *s, fault *f)
 {
     const model *m = run->m;
     status outcome = STATUS_OK;
-    ahead_strains(run->m, s, AHEAD_E, NULL);
-    ahead_stresses(run->m, NULL, s->inner);
+    ahead_strains(run, s, AHEAD_E, NULL);
+    ahead_stresses(run, NULL, s->inner);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         outcome = compatible_element(run, s, i);
         if (outcome != STATUS_OK)
@@ -49,7 +49,7 @@ status linearise_make_compatible(run_state *run, model_state *s, fault *f)
                       scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
                       m->type->name);
     }
-    ahead_end(run->m);
+    ahead_end(run);
     return outcome;
 }
 
@@ -181,7 +181,7 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
             element[k].force = part[index[k] - first].force;
             element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
         }
-        chunk_evaluate(loop->m, loop->s, loop->lin->path, count, element);
+        chunk_evaluate(loop->run, loop->s, loop->lin->path, count, element);
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
             p->outcome = element_equations(loop->run, loop->s, &element[k], loop->tangent,
@@ -203,16 +203,18 @@ static void fill_piece(void *context, int piece, int slot)
                 loop->part + (size_t)slot * (size_t)loop->window);
 }
 
-/* Parts that are kept at a time, in m->part; 0: one at a time, as there is no memory or no need. */
-static int window_of(model *m)
+/* Parts that are kept at a time, in run->part; 0: one at a time, as there is no memory or no need.
+ */
+static int window_of(run_state *run)
 {
+    const model *m = run->m;
     const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW,
-              slots = m->team != NULL ? TEAM_SLOTS : 1;
-    if (m->team == NULL && chunk_size(m) == 1)
+              slots = run->team != NULL ? TEAM_SLOTS : 1;
+    if (run->team == NULL && chunk_size(m) == 1)
         return 0;
-    if (m->part == NULL)
-        m->part = malloc((size_t)(wanted * slots) * sizeof *m->part);
-    return m->part != NULL ? wanted : 0;
+    if (run->part == NULL)
+        run->part = malloc((size_t)(wanted * slots) * sizeof *run->part);
+    return run->part != NULL ? wanted : 0;
 }
 
 /* The element's equations into those of the model, but for K. */
@@ -269,7 +271,7 @@ static status linearise_elements(run_state *run, const model_state *s, model_lin
 {
     const model *m = run->m;
     element_part own;
-    const int window = window_of(run->m);
+    const int window = window_of(run);
     shared_loop loop = {.run = run,
                         .m = m,
                         .s = s,
@@ -277,10 +279,10 @@ static status linearise_elements(run_state *run, const model_state *s, model_lin
                         .pattern = lin->K == NULL ? NULL : assemble_of(m, lin->K),
                         .tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
                         .window = window > 0 ? window : 1,
-                        .part = window > 0 ? m->part : &own,
+                        .part = window > 0 ? run->part : &own,
                         .f = f};
     /* inertia counts its evaluations */
-    team *together = window > 0 && !m->rotates ? m->team : NULL;
+    team *together = window > 0 && !m->rotates ? run->team : NULL;
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -304,9 +306,9 @@ static status linearise_elements(run_state *run, const model_state *s, model_lin
 status linearise_state(run_state *run, const model_state *s, model_linearisation *lin, fault *f)
 {
     const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
-    ahead_strains(run->m, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
-    ahead_stresses(run->m, s->e, s->inner);
+    ahead_strains(run, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
+    ahead_stresses(run, s->e, s->inner);
     const status outcome = linearise_elements(run, s, lin, f);
-    ahead_end(run->m);
+    ahead_end(run);
     return outcome;
 }

@@ -10,6 +10,7 @@
 #include "harness/newton/system_matrices.h"
 
 typedef struct solve_options {
+    int threads; /* of the loop over elements; 0, 1: one */
     newton_form newton;
     double criterion;   /* relative size of the corrections; 0: default */
     int max_iterations; /* per step; 0: default */

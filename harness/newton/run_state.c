@@ -1,11 +1,26 @@
 #include "harness/newton/run_state.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-run_state run_state_of(model *m)
+/* Fewer elements than this are done before another thread is awake (measured on the joint and the
+ * hexapod). */
+enum { ELEMENTS_OF_A_THREAD = 32 };
+
+status run_state_begin(run_state *run, model *m, int threads, fault *f)
 {
-    run_state run;
-    memset(&run, 0, sizeof run);
-    run.m = m;
-    return run;
+    const int most = model_sizes(m).elements / ELEMENTS_OF_A_THREAD;
+    memset(run, 0, sizeof *run);
+    run->m = m;
+    return team_alloc(threads < most ? threads : most, &run->team, f);
+}
+
+void run_state_end(run_state *run)
+{
+    free(run->undeformed.of);
+    free(run->undeformed.value);
+    free(run->ahead);
+    free(run->part);
+    team_free(run->team);
+    memset(run, 0, sizeof *run);
 }

@@ -4,6 +4,7 @@
 
 #include "harness/model/model.h"
 #include "harness/numerics/phases.h"
+#include "harness/numerics/team.h"
 
 /* Work done so far. */
 typedef struct counters {
@@ -18,13 +19,31 @@ typedef struct counters {
                          asked for; else 0 */
 } counters;
 
+/* Derivatives of elements at rest: harness/newton/undeformed.h. */
+typedef struct run_undeformed {
+    int *of;         /* [elements] index of its values, or NONE; NULL: nothing is known */
+    int count, room; /* of values */
+    int last;        /* element that the last of them are of */
+    double *value;   /* [room x (J, C, initial stresses)] */
+} run_undeformed;
+
+struct run_ahead;
+struct element_part;
+
 typedef struct run_state {
     model *m;
     counters counters;
     phases phases;
+    team *team;                /* of the loop over elements; NULL: one thread */
+    struct element_part *part; /* of a few elements, before they are added up in order; NULL: none
+                                  yet: equations_impl.h */
+    struct run_ahead *ahead;   /* one block; NULL: nothing has been evaluated ahead: ahead.h */
+    run_undeformed undeformed;
 } run_state;
 
-/* Of a model, nothing done yet. */
-run_state run_state_of(model *);
+/* Of a model, nothing done yet. threads share the loop over elements; 0, 1: one. Sums keep their
+ * order: results do not depend on it. */
+status run_state_begin(run_state *, model *, int threads, fault *);
+void run_state_end(run_state *);
 
 #endif

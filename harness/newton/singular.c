@@ -105,14 +105,16 @@ static double condition_at_rest(const analysis_context *c, run_state *run, int *
 static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
 {
     model *coarse = NULL;
+    run_state run = {0};
     double condition = 1;
     *elements = model_sizes(c->model).elements;
     *lost = 0;
-    if (model_coarse(c->model, &coarse, NULL) == STATUS_OK) {
-        run_state run = run_state_of(coarse);
+    if (model_coarse(c->model, &coarse, NULL) == STATUS_OK &&
+        run_state_begin(&run, coarse, 1, NULL) == STATUS_OK) {
         condition = condition_at_rest(c, &run, lost);
         *elements = model_sizes(coarse).elements;
     }
+    run_state_end(&run);
     model_free(coarse);
     return condition;
 }

@@ -59,7 +59,7 @@ status stiffness_parts_geometric(run_state *run, const model_state *s, sparse *G
     const mesh_pattern *p = assemble_of(m, G);
     status outcome = STATUS_OK;
     sparse_zero(G);
-    ahead_strains(run->m, s, AHEAD_H, s->sigma);
+    ahead_strains(run, s, AHEAD_H, s->sigma);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         const mesh_element *el = &m->element[i];
         const model_slot w = linearise_slot(m, i);
@@ -68,7 +68,7 @@ status stiffness_parts_geometric(run_state *run, const model_state *s, sparse *G
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
-        ahead_strain(m, i, x, &(strain_output){.s = sigma, .H = H});
+        ahead_strain(run, i, x, &(strain_output){.s = sigma, .H = H});
         run->counters.strain_evaluations++;
         if (m->rotates) {
             outcome = rotating_frame_add(run, x, i, s->path, present, H, f);
@@ -77,7 +77,7 @@ status stiffness_parts_geometric(run_state *run, const model_state *s, sparse *G
         eliminate_matrix(m, s, el, present, H);
         assemble_matrix(p, i, H, G);
     }
-    ahead_end(run->m);
+    ahead_end(run);
     TRY(outcome);
     discrete_geometric(m, s, s->path, G);
     loads_subtract_stiffness(m, s, s->path, G);

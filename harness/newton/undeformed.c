@@ -19,9 +19,10 @@ static size_t size_of(const model *m)
     return (size_t)m->strains * (size_t)(m->coordinates + m->strains + 1);
 }
 
-static status begin(model *m, fault *f)
+static status begin(run_state *run, fault *f)
 {
-    mesh_undeformed *u = &m->undeformed;
+    const model *m = run->m;
+    run_undeformed *u = &run->undeformed;
     if (u->of != NULL)
         return STATUS_OK;
     u->room = m->elements < LARGE ? m->elements : FIRST_ROOM;
@@ -41,10 +42,11 @@ static status begin(model *m, fault *f)
 
 /* Is element i as the one whose forms were kept last? Its triads are those of chords between places
  * that are rounded. */
-static int alike(const model *m, int i)
+static int alike(const run_state *run, int i)
 {
-    const mesh_element *el = &m->element[i], *last = &m->element[m->undeformed.last];
-    if (m->undeformed.count == 0 || m->elements < LARGE || el->kind != last->kind)
+    const model *m = run->m;
+    const mesh_element *el = &m->element[i], *last = &m->element[run->undeformed.last];
+    if (run->undeformed.count == 0 || m->elements < LARGE || el->kind != last->kind)
         return 0;
     const double same = 1e-12 + 8 * DBL_EPSILON * vec3_norm(m->vertex[el->vertex[0]].position) /
                                     m->kind[el->kind].length;
@@ -83,19 +85,19 @@ static status evaluate(run_state *run, int i, double J[], double C[], double ini
     kinematics_gather(m, m->rest, &m->element[i], x);
     run->counters.strain_evaluations++;
     run->counters.stress_evaluations++;
-    ahead_strain(m, i, x, &(strain_output){.e = e, .J = J});
+    ahead_strain(run, i, x, &(strain_output){.e = e, .J = J});
     if (is_strained(m, i))
         return evaluate_strained(m, i, e, inner, C, initial);
-    return ahead_stress(m, i, e, inner, &(stress_output){.C = C});
+    return ahead_stress(run, i, e, inner, &(stress_output){.C = C});
 }
 
 /* Room for one more. */
-static status grow(model *m, fault *f)
+static status grow(run_state *run, fault *f)
 {
-    mesh_undeformed *u = &m->undeformed;
+    run_undeformed *u = &run->undeformed;
     if (u->count < u->room)
         return STATUS_OK;
-    double *more = realloc(u->value, 2 * (size_t)u->room * size_of(m) * sizeof *more);
+    double *more = realloc(u->value, 2 * (size_t)u->room * size_of(run->m) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
     u->value = more;
@@ -106,9 +108,9 @@ static status grow(model *m, fault *f)
 static status make(run_state *run, int i, fault *f)
 {
     const model *m = run->m;
-    mesh_undeformed *u = &run->m->undeformed;
-    if (!alike(m, i)) {
-        TRY(grow(run->m, f));
+    run_undeformed *u = &run->undeformed;
+    if (!alike(run, i)) {
+        TRY(grow(run, f));
         double *J = u->value + (size_t)u->count * size_of(m), *C = J + m->strains * m->coordinates;
         const status outcome = evaluate(run, i, J, C, C + m->strains * m->strains);
         if (outcome != STATUS_OK)
@@ -126,8 +128,8 @@ static status make(run_state *run, int i, fault *f)
 status undeformed_of(run_state *run, int i, undeformed_element *out, fault *f)
 {
     const model *m = run->m;
-    mesh_undeformed *u = &run->m->undeformed;
-    TRY(begin(run->m, f));
+    run_undeformed *u = &run->undeformed;
+    TRY(begin(run, f));
     if (u->of[i] == NONE)
         TRY(make(run, i, f));
     out->J = u->value + (size_t)u->of[i] * size_of(m);
@@ -136,10 +138,11 @@ status undeformed_of(run_state *run, int i, undeformed_element *out, fault *f)
     return STATUS_OK;
 }
 
-void undeformed_begin(model *m)
+void undeformed_begin(run_state *run)
 {
-    if (m->undeformed.of != NULL)
+    const model *m = run->m;
+    if (run->undeformed.of != NULL)
         return;
-    ahead_strains(m, m->rest, AHEAD_E | AHEAD_J, NULL);
-    ahead_stresses(m, NULL, m->rest->inner);
+    ahead_strains(run, m->rest, AHEAD_E | AHEAD_J, NULL);
+    ahead_stresses(run, NULL, m->rest->inner);
 }

@@ -17,6 +17,6 @@ typedef struct undeformed_element {
 status undeformed_of(run_state *, int element, undeformed_element *, fault *);
 /* What no element has yet is evaluated for all together, where the formulation can, until
  * ahead_end. */
-void undeformed_begin(model *);
+void undeformed_begin(run_state *);
 
 #endif

@@ -39,7 +39,6 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
                                 request->keep_all,
                                 request->omit};
     TRY(model_alloc(&what, m, f));
-    TRY(model_set_threads(*m, request->threads, f));
     out->size = model_sizes(*m);
     return copy_left_out(*m, out, f);
 }
@@ -65,7 +64,9 @@ static status run(const cell_request *request, model **m, cell_result *out, faul
     TRY(ready);
     if (request->is_known != NULL && request->is_known(request->context, *m))
         return STATUS_OK;
-    const status outcome = solve_scene(s, *m, &request->solve, &out->solve, f);
+    solve_options options = request->solve;
+    options.threads = request->threads;
+    const status outcome = solve_scene(s, *m, &options, &out->solve, f);
     out->solve.seconds_setup += prepared;
     out->counters = out->solve.counters;
     return outcome;

@@ -42,13 +42,15 @@ static double size_of(model *m, int coordinate, double step)
     double *dx = calloc(n, sizeof *dx), *residual = calloc(n, sizeof *residual), out = NAN;
     model_state *s;
     fault f = {""};
-    run_state run = run_state_of(m);
+    run_state run;
     model_linearisation lin = {.residual = residual};
+    run_state_begin(&run, m, 1, NULL);
     if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
         linearise_state(&run, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
         out = advance_state(&run, s, dx, 0, NULL);
     }
+    run_state_end(&run);
     kinematics_state_free(s);
     free(dx);
     free(residual);

@@ -54,10 +54,12 @@ static void sums_of(const scene_load *load, const char *name, double force[3], d
              "%s", f.text);
     const model_request request = {&s, chosen.type, chosen.option, 3, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
-    run_state run = run_state_of(m);
+    run_state run;
     model_linearisation lin = {.path = 1, .residual = residual};
+    run_state_begin(&run, m, 1, NULL);
     gsl_test(linearise_state(&run, kinematics_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name,
              f.text);
+    run_state_end(&run);
     for (int i = 0; i < 3; i++)
         force[i] = moment[i] = 0;
     for (int k = 0; k < model_sizes(m).vertices; k++) {

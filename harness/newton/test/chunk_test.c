@@ -104,8 +104,9 @@ static void named(const element_type *type)
         kinematics_state_alloc(m, &state, &f) == STATUS_OK) {
         const model_size size = model_sizes(m);
         double *residual = calloc((size_t)(size.free + size.driven) + 1, sizeof *residual);
-        run_state run = run_state_of(m);
+        run_state run;
         model_linearisation lin = {.residual = residual};
+        run_state_begin(&run, m, 1, NULL);
         asked = 0;
         const status outcome =
             residual != NULL ? linearise_state(&run, state, &lin, &f) : STATUS_FAULT;
@@ -113,6 +114,7 @@ static void named(const element_type *type)
                  "%s: an element that cannot be evaluated", type->name);
         gsl_test(asked > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",
                  type->name, f.text);
+        run_state_end(&run);
         free(residual);
     } else {
         gsl_test(1, "%s: %s", type->name, f.text);

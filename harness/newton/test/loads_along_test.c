@@ -35,10 +35,12 @@ static void forces_along(int what, const char *name, double path, int follows, i
     if (what == SPIN)
         rotating_frame_set(m, z, origin, follows);
     double residual[MOST];
-    run_state run = run_state_of(m);
+    run_state run;
     model_linearisation lin = {.path = path, .residual = residual};
+    run_state_begin(&run, m, 1, NULL);
     gsl_test(linearise_state(&run, kinematics_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name,
              f.text);
+    run_state_end(&run);
     for (int k = 0; k < nodes; k++)
         out[k] = residual[kinematics_coordinate(m, k, what == LINE ? SCENE_UY : SCENE_UX)];
     model_free(m);

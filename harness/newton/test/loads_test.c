@@ -95,10 +95,12 @@ static void factors(void)
         double F[6];
         fault f = {""};
         double residual[MOST], dx[MOST] = {0};
-        run_state run = run_state_of(s.m);
+        run_state run;
         model_linearisation lin = {.path = row[i][0], .residual = residual};
+        run_state_begin(&run, s.m, 1, NULL);
         linearise_state(&run, s.turned, &lin, &f);
         advance_state(&run, s.turned, dx, row[i][0], NULL);
+        run_state_end(&run);
         loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
         gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
                      row[i][0]);

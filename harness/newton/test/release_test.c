@@ -98,12 +98,12 @@ static int prepare(subject *t, const char *formulation_name)
     const model_request what = {&t->scene, chosen.type, chosen.option, 1, 0};
     const int good = parsed && scene_validate(&t->scene, &f) == STATUS_OK &&
                      model_alloc(&what, &t->m, &f) == STATUS_OK &&
+                     run_state_begin(&t->run, t->m, 1, &f) == STATUS_OK &&
                      kinematics_state_alloc(t->m, &t->s, &f) == STATUS_OK &&
                      kinematics_state_alloc(t->m, &t->moved, &f) == STATUS_OK &&
                      assemble_pattern_of_states(t->m, 0, &pattern, &f) == STATUS_OK &&
                      sparse_alloc_like(pattern, &t->K, &f) == STATUS_OK;
     gsl_test(!good, "%s: %s", formulation_name, f.text);
-    t->run = run_state_of(t->m);
     t->n = good ? model_sizes(t->m).free : 0;
     gsl_test(t->n > MOST || t->n < 12, "%d coordinates", t->n);
     return good;
@@ -114,6 +114,7 @@ static void clean(subject *t)
     sparse_free_values(&t->K);
     kinematics_state_free(t->s);
     kinematics_state_free(t->moved);
+    run_state_end(&t->run);
     model_free(t->m);
     scene_free(&t->scene);
 }

@@ -55,11 +55,13 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
 {
     double residual[MOST];
     fault f = {""};
-    run_state run = run_state_of(s->m);
+    run_state run;
     model_linearisation lin = {.path = 1, .residual = residual};
+    run_state_begin(&run, s->m, 1, NULL);
     kinematics_state_copy(s->m, from, to);
     gsl_test(linearise_state(&run, to, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
     advance_state(&run, to, dx, 1, NULL);
+    run_state_end(&run);
 }
 
 /* A state far from rest, turned about no special axis. */
@@ -95,11 +97,13 @@ static inline void turned_body_loads(const turned_body *s, double out[])
 {
     double without[MOST];
     fault f = {""};
-    run_state run = run_state_of(s->m);
+    run_state run;
     model_linearisation with = {.path = 1, .residual = out},
                         none = {.path = 0, .residual = without};
+    run_state_begin(&run, s->m, 1, NULL);
     linearise_state(&run, s->turned, &with, &f);
     linearise_state(&run, s->turned, &none, &f);
+    run_state_end(&run);
     for (int k = 0; k < s->n; k++)
         out[k] -= without[k];
 }

@@ -80,7 +80,8 @@ static void take(const element_type *type, double angle)
     scene s;
     fault f = {""};
     model *m = leaf(type, &s);
-    run_state run = run_state_of(m);
+    run_state run;
+    run_state_begin(&run, m, 1, &f);
     model_state *state;
     complement *c;
     const size_t n = (size_t)m->strains;
@@ -116,6 +117,7 @@ static void take(const element_type *type, double angle)
     again(&run, c, state);
     complement_free(c);
     kinematics_state_free(state);
+    run_state_end(&run);
     model_free(m);
     scene_free(&s);
 }
@@ -126,7 +128,8 @@ static void keep(void)
     scene s;
     fault f = {""};
     model *m = leaf(&element_beamw_consistent, &s);
-    run_state run = run_state_of(m);
+    run_state run;
+    run_state_begin(&run, m, 1, &f);
     model_state *state;
     complement *c;
     if (kinematics_state_alloc(m, &state, &f) == STATUS_OK &&
@@ -143,6 +146,7 @@ static void keep(void)
         complement_free(c);
         kinematics_state_free(state);
     }
+    run_state_end(&run);
     model_free(m);
     scene_free(&s);
 }
@@ -152,12 +156,14 @@ static void leave(const element_type *type, const char *why)
     scene s;
     fault f = {""};
     model *m = leaf(type, &s);
-    run_state run = run_state_of(m);
+    run_state run;
+    run_state_begin(&run, m, 1, &f);
     complement *c;
     gsl_test(complement_alloc(&run, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
     complement_keep(c, NULL);
     complement_strains(c, NULL, 1, 1);
     complement_free(c);
+    run_state_end(&run);
     model_free(m);
     scene_free(&s);
 }

@@ -42,7 +42,7 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     TRY(formulation_parse(with, &f->chosen, &f->why));
     request.type = f->chosen.type;
     TRY(model_alloc(&request, &f->m, &f->why));
-    f->run = run_state_of(f->m);
+    TRY(run_state_begin(&f->run, f->m, 1, &f->why));
     f->c = (analysis_context){.scene = &f->scene,
                               .model = f->m,
                               .run = &f->run,
@@ -85,6 +85,7 @@ static inline void flight_end(flight *f)
     instant_free(&f->next);
     carried_free(&f->masses);
     free(f->result.iteration);
+    run_state_end(&f->run);
     model_free(f->m);
     scene_free(&f->scene);
 }

@@ -37,7 +37,7 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
     const model_request wanted = {
         .scene = s, .type = type, .options = f->chosen.option, .elements = elements};
     TRY(model_alloc(&wanted, &f->m, &f->why));
-    f->run = run_state_of(f->m);
+    TRY(run_state_begin(&f->run, f->m, 1, &f->why));
     f->c = (analysis_context){
         .scene = s, .model = f->m, .run = &f->run, .options = &f->options, .result = &f->result};
     context_set_frame(&f->c, 0);
@@ -62,6 +62,7 @@ static inline void flying_end(flying *f)
     carried_free(&f->masses);
     work_free(&f->work);
     result_free(&f->result);
+    run_state_end(&f->run);
     model_free(f->m);
 }
 
