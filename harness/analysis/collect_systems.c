@@ -131,7 +131,7 @@ static status keep_state(const analysis_context *c, int analysis, int station,
     kinematics_state_copy(c->model, state, w->state);
     if (c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(c->run, w->state, f));
-    TRY(linearise_state(c->run, w->state, &lin, f));
+    TRY(linearise_state(c->run, &c->run->memory, w->state, &lin, f));
     return keep(c, w->state, path, w, out, f);
 }
 

@@ -192,7 +192,7 @@ status continuation_step_end(continuation *p, path_point *out, const step_record
 {
     memset(p->n.dx, 0, (size_t)p->n.all * sizeof *p->n.dx);
     memset(p->n.residual, 0, (size_t)p->n.all * sizeof *p->n.residual);
-    advance_settle(p->c->model, p->n.state);
+    advance_settle(p->c->model, &p->c->run->memory, p->n.state);
     return point_of(p, p->moved, out, record, f);
 }
 

@@ -28,7 +28,8 @@ enum { OTHERS = 2 }; /* modes of other families that may lie between those wante
 
 /* The tangent of the last linearisation through the strains. */
 typedef struct tangent_parts {
-    model *m;
+    const model *m;
+    const linear_memory *memory;
     const model_state *state;
     const sparse *geometric;
     double *x, *y; /* [free + driven], driven coordinates zero */
@@ -42,7 +43,7 @@ static void tangent_product(void *context, const double mode[], double product[]
     memcpy(t->x, mode, size);
     memset(t->y, 0, (size_t)t->all * sizeof *t->y);
     sparse_mul(t->geometric, t->x, t->y);
-    stiffness_parts_material_product(t->m, t->state, t->x, t->y);
+    stiffness_parts_material_product(t->m, t->memory, t->state, t->x, t->y);
     memcpy(product, t->y, size);
 }
 
@@ -50,7 +51,7 @@ static double tangent_rounding(void *context, const double mode[])
 {
     const tangent_parts *t = context;
     memcpy(t->x, mode, (size_t)t->free_count * sizeof *mode);
-    return stiffness_parts_material_rounding(t->m, t->state, t->x) +
+    return stiffness_parts_material_rounding(t->m, t->memory, t->state, t->x) +
            sparse_rounding(t->geometric, mode, mode);
 }
 
@@ -103,9 +104,9 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
 {
     const double path = kinematics_state_path(state);
     model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
-    TRY(linearise_state(c->run, state, &lin, f));
+    TRY(linearise_state(c->run, &c->run->memory, state, &lin, f));
     TRY(rotating_frame_inertia(c->run, state, path, &a->M, &a->G, f));
-    TRY(stiffness_parts_geometric(c->run, state, &a->geometric, f));
+    TRY(stiffness_parts_geometric(c->run, &c->run->memory, state, &a->geometric, f));
     c->run->counters.factorisations++;
     TRY(context_factor(c, a->factor, &a->K, f));
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);
@@ -230,8 +231,8 @@ static status modes_at(analysis_context *c, int analysis, const model_state *sta
                        rotation_modes *out, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    tangent_parts about = {c->model, state,     &a->geometric,          a->x,
-                           a->y,     size.free, size.free + size.driven};
+    tangent_parts about = {c->model,  &c->run->memory,        state, &a->geometric, a->x, a->y,
+                           size.free, size.free + size.driven};
     gyroscopic_problem problem = {.K = &a->K,
                                   .M = &a->M,
                                   .G = &a->G,

@@ -75,10 +75,6 @@ static status check_memory(const model *m, fault *f)
 
 static status allocate(model *m, fault *f)
 {
-    m->work = malloc(((size_t)m->elements * (size_t)m->work_size + 1) * sizeof *m->work);
-    if (m->work == NULL)
-        return fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer",
-                         m->elements);
     return kinematics_state_alloc(m, &m->rest, f);
 }
 
@@ -216,7 +212,6 @@ void model_free(model *m)
     free(m->first_element);
     division_free(&m->division);
     free(m->driver_coordinate);
-    free(m->work);
     kinematics_state_free(m->rest);
     free(m);
 }

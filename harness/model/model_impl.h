@@ -140,13 +140,11 @@ struct model {
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
-    double size;             /* length of the longest member [m] */
-    int asked;               /* elements of a piece of a member */
-    division division;       /* of the members into elements */
-    mesh_pattern pattern[5]; /* those of assemble.h */
-    double *work; /* [elements x work_size]: J, C, P' + C (D - e), D - e, memory of the last
-                     linearisation */
-    int work_size;
+    double size;                  /* length of the longest member [m] */
+    int asked;                    /* elements of a piece of a member */
+    division division;            /* of the members into elements */
+    mesh_pattern pattern[5];      /* those of assemble.h */
+    int work_size;                /* of an element in a linear_memory: harness/newton/run_state.h */
     model_state *rest;            /* undeformed */
     element_rotating_frame frame; /* its velocity times the path if that is followed */
     mesh_damping *damping;        /* of a motion; NULL: none */
@@ -160,8 +158,9 @@ struct model {
     char **line; /* what was left out */
 };
 
-/* What a slot of `work` has at its end where elements take loads along them: does this one, how its
- * frame turns [3 x 14], and what stresses [strains x 3] and inner unknowns [inner x 3] do then. */
+/* What a slot of a linear_memory has at its end where elements take loads along them: does this
+ * one, how its frame turns [3 x 14], and what stresses [strains x 3] and inner unknowns [inner x 3]
+ * do then. */
 enum { SLOT_TAKES, SLOT_TURN, SLOT_MIXED = SLOT_TURN + 3 * ELEMENT_ALONG_COORDINATES };
 static inline int slot_followed(const model *m)
 {

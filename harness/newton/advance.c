@@ -24,11 +24,11 @@ static void follow_turn(const model *m, const double along[], const double local
 }
 
 /* Strains, stresses and inner unknowns of one element. */
-static double advance_element(const model *m, model_state *s, int i, const double dx[],
-                              advance_stress *stress)
+static double advance_element(const model *m, const linear_memory *memory, model_state *s, int i,
+                              const double dx[], advance_stress *stress)
 {
     const mesh_element *el = &m->element[i];
-    model_slot w = linearise_slot(m, i);
+    model_slot w = linearise_slot(m, memory, i);
     double local[ELEMENT_MAX_COORDINATES], de[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
     double *e = &s->e[(size_t)i * (size_t)m->strains],
            *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
@@ -70,14 +70,14 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     return largest;
 }
 
-double advance_state(run_state *run, model_state *s, const double dx[], double path,
-                     advance_stress *stress)
+double advance_state(run_state *run, const linear_memory *memory, model_state *s, const double dx[],
+                     double path, advance_stress *stress)
 {
     const model *m = run->m;
     double largest = 0;
     advance_stress of_elements = {0, 0};
     for (int i = 0; i < m->elements; i++)
-        largest = larger(largest, advance_element(m, s, i, dx, &of_elements));
+        largest = larger(largest, advance_element(m, memory, s, i, dx, &of_elements));
     if (stress != NULL)
         *stress = of_elements;
     phases_lap(&run->phases, PHASE_ELEMENTS);
@@ -100,11 +100,11 @@ double advance_state(run_state *run, model_state *s, const double dx[], double p
     return largest;
 }
 
-void advance_settle(model *m, const model_state *s)
+void advance_settle(const model *m, const linear_memory *memory, const model_state *s)
 {
     const size_t n = (size_t)m->strains;
     for (int i = 0; i < m->elements; i++) {
-        const model_slot w = linearise_slot(m, i);
+        const model_slot w = linearise_slot(m, memory, i);
         memcpy(w.sigma, &s->sigma[(size_t)i * n], n * sizeof *w.sigma);
         memset(w.incompatibility, 0, n * sizeof *w.incompatibility);
     }

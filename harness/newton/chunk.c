@@ -43,13 +43,14 @@ static const double *inner_of(const model *m, const model_state *s, int element)
 }
 
 /* Their functions of one element, or what was evaluated ahead. */
-static void strains_one_by_one(const run_state *run, const model_state *s, int count,
-                               chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
+static void strains_one_by_one(const run_state *run, const linear_memory *memory,
+                               const model_state *s, int count, chunk_element element[],
+                               double deformed[][ELEMENT_MAX_STRAINS])
 {
     const model *m = run->m;
     for (int k = 0; k < count; k++) {
         chunk_element *c = &element[k];
-        const model_slot w = linearise_slot(m, c->index);
+        const model_slot w = linearise_slot(m, memory, c->index);
         ahead_strain(run, c->index, c->x,
                      &(strain_output){.e = deformed[k],
                                       .J = w.J,
@@ -58,13 +59,13 @@ static void strains_one_by_one(const run_state *run, const model_state *s, int c
     }
 }
 
-static void stresses_one_by_one(const run_state *run, const model_state *s, int count,
-                                chunk_element element[])
+static void stresses_one_by_one(const run_state *run, const linear_memory *memory,
+                                const model_state *s, int count, chunk_element element[])
 {
     const model *m = run->m;
     for (int k = 0; k < count; k++) {
         const int i = element[k].index;
-        const model_slot w = linearise_slot(m, i);
+        const model_slot w = linearise_slot(m, memory, i);
         if (element[k].along.acts)
             continue;
         element[k].outcome = ahead_stress(
@@ -75,8 +76,9 @@ static void stresses_one_by_one(const run_state *run, const model_state *s, int 
 }
 
 /* Their functions of many elements. */
-static void strains_together(const model *m, const model_state *s, int count,
-                             chunk_element element[], double deformed[][ELEMENT_MAX_STRAINS])
+static void strains_together(const model *m, const linear_memory *memory, const model_state *s,
+                             int count, chunk_element element[],
+                             double deformed[][ELEMENT_MAX_STRAINS])
 {
     const element_data *data[CHUNK_MOST];
     node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
@@ -86,15 +88,15 @@ static void strains_together(const model *m, const model_state *s, int count,
         data[k] = m->kind[m->element[c->index].kind].data;
         memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
         out[k] = (strain_output){.e = deformed[k],
-                                 .J = linearise_slot(m, c->index).J,
+                                 .J = linearise_slot(m, memory, c->index).J,
                                  .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
                                  .H = c->K};
     }
     m->type->strain_many(count, data, x, out);
 }
 
-static void stresses_together(const model *m, const model_state *s, int count,
-                              chunk_element element[])
+static void stresses_together(const model *m, const linear_memory *memory, const model_state *s,
+                              int count, chunk_element element[])
 {
     const element_data *data[CHUNK_MOST];
     const double *e[CHUNK_MOST], *inner[CHUNK_MOST];
@@ -103,7 +105,7 @@ static void stresses_together(const model *m, const model_state *s, int count,
     int own[CHUNK_MOST], owned = 0;
     for (int k = 0; k < count; k++) {
         const int i = element[k].index;
-        const model_slot w = linearise_slot(m, i);
+        const model_slot w = linearise_slot(m, memory, i);
         if (element[k].along.acts)
             continue;
         data[owned] = m->kind[m->element[i].kind].data;
@@ -120,8 +122,8 @@ static void stresses_together(const model *m, const model_state *s, int count,
 }
 
 /* Of elements that take loads along them. */
-static void stresses_under_loads(const model *m, const model_state *s, int count,
-                                 chunk_element element[])
+static void stresses_under_loads(const model *m, const linear_memory *memory, const model_state *s,
+                                 int count, chunk_element element[])
 {
     const element_data *data[CHUNK_MOST];
     node_state x[2 * CHUNK_MOST];
@@ -130,7 +132,7 @@ static void stresses_under_loads(const model *m, const model_state *s, int count
     int own[CHUNK_MOST], owned = 0;
     for (int k = 0; k < count; k++) {
         chunk_element *c = &element[k];
-        const model_slot w = linearise_slot(m, c->index);
+        const model_slot w = linearise_slot(m, memory, c->index);
         if (!c->along.acts)
             continue;
         data[owned] = m->kind[m->element[c->index].kind].data;
@@ -151,15 +153,15 @@ static void stresses_under_loads(const model *m, const model_state *s, int count
     m->type->along(owned, data, x, out, outcome);
     for (int k = 0; k < owned; k++) {
         element[own[k]].along.out = out[k];
-        memcpy(linearise_slot(m, element[own[k]].index).along + SLOT_TURN, out[k].turn,
+        memcpy(linearise_slot(m, memory, element[own[k]].index).along + SLOT_TURN, out[k].turn,
                sizeof out[k].turn);
         element[own[k]].outcome = outcome[k];
     }
 }
 
 /* Their equations, in one go. */
-static void equations_together(const model *m, const model_state *s, int count,
-                               chunk_element element[])
+static void equations_together(const model *m, const linear_memory *memory, const model_state *s,
+                               int count, chunk_element element[])
 {
     const element_data *data[CHUNK_MOST];
     const double *e[CHUNK_MOST], *inner[CHUNK_MOST], *sigma[CHUNK_MOST];
@@ -168,7 +170,7 @@ static void equations_together(const model *m, const model_state *s, int count,
     status outcome[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
         chunk_element *c = &element[k];
-        const model_slot w = linearise_slot(m, c->index);
+        const model_slot w = linearise_slot(m, memory, c->index);
         data[k] = m->kind[m->element[c->index].kind].data;
         memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
         e[k] = of_strains(m, s->e, c->index);
@@ -190,9 +192,10 @@ static void equations_together(const model *m, const model_state *s, int count,
 }
 
 /* sigma = stress(e) + C (D(x) - e), from the strains D(x). */
-static void mix(const model *m, const model_state *s, int index, const double deformed[])
+static void mix(const model *m, const linear_memory *memory, const model_state *s, int index,
+                const double deformed[])
 {
-    const model_slot w = linearise_slot(m, index);
+    const model_slot w = linearise_slot(m, memory, index);
     const double *e = of_strains(m, s->e, index);
     double more[ELEMENT_MAX_STRAINS];
     for (int i = 0; i < m->strains; i++)
@@ -203,13 +206,13 @@ static void mix(const model *m, const model_state *s, int index, const double de
 }
 
 /* The strains' rates, of those that the linearised equations have without a motion. */
-static void damp(const model *m, const model_state *s, int index)
+static void damp(const model *m, const linear_memory *memory, const model_state *s, int index)
 {
     const mesh_damping *d = m->damping;
     const double eta = m->scene->member[m->element[index].member].damping;
     const size_t n = (size_t)m->strains, first = (size_t)index * n;
     const double *S = d->stiffness + (size_t)m->element[index].kind * n * n;
-    const model_slot w = linearise_slot(m, index);
+    const model_slot w = linearise_slot(m, memory, index);
     double rate[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
     if (eta == 0)
         return;
@@ -223,8 +226,8 @@ static void damp(const model *m, const model_state *s, int index)
         w.C[k] += eta * d->g * S[k];
 }
 
-void chunk_evaluate(const run_state *run, const model_state *s, double path, int count,
-                    chunk_element element[])
+void chunk_evaluate(const run_state *run, const linear_memory *memory, const model_state *s,
+                    double path, int count, chunk_element element[])
 {
     const model *m = run->m;
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
@@ -236,25 +239,25 @@ void chunk_evaluate(const run_state *run, const model_state *s, double path, int
         if (m->takes)
             distributed_take(m, element[k].index, path, &element[k].along);
         if (m->takes)
-            linearise_slot(m, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
+            linearise_slot(m, memory, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
     if (together && m->type->equations_many != NULL && !m->rotates && m->damping == NULL &&
         !m->takes) {
-        equations_together(m, s, count, element);
+        equations_together(m, memory, s, count, element);
         return;
     }
     if (together)
-        strains_together(m, s, count, element, deformed);
+        strains_together(m, memory, s, count, element, deformed);
     else
-        strains_one_by_one(run, s, count, element, deformed);
+        strains_one_by_one(run, memory, s, count, element, deformed);
     if (together && m->type->stress_many != NULL)
-        stresses_together(m, s, count, element);
+        stresses_together(m, memory, s, count, element);
     else
-        stresses_one_by_one(run, s, count, element);
+        stresses_one_by_one(run, memory, s, count, element);
     if (m->takes)
-        stresses_under_loads(m, s, count, element);
+        stresses_under_loads(m, memory, s, count, element);
     for (int k = 0; k < count; k++)
-        mix(m, s, element[k].index, deformed[k]);
+        mix(m, memory, s, element[k].index, deformed[k]);
     for (int k = 0; k < count && m->damping != NULL; k++)
-        damp(m, s, element[k].index);
+        damp(m, memory, s, element[k].index);
 }

@@ -186,7 +186,7 @@ static status link_element_of(const run_state *run, const model_state *s, const 
                               double path, chain_link *link, double force[], fault *f)
 {
     const model *m = run->m;
-    const model_slot w = linearise_slot(m, i);
+    const model_slot w = linearise_slot(m, &run->memory, i);
     const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     node_state x[ELEMENT_MAX_NODES];
     double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],

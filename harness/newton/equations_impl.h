@@ -19,17 +19,17 @@ typedef struct element_part {
 status rotating_frame_add(run_state *run, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
 
-/* Of linearise.c and chunk.c: one element's part of model.work between linearise_state and
+/* Of linearise.c and chunk.c: one element's part of a linear_memory between linearise_state and
  * advance_state. */
 typedef struct model_slot {
     double *J, *C, *sigma, *incompatibility, *along, /* SLOT_* */
         *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
 } model_slot;
-static inline model_slot linearise_slot(const model *m, int element)
+static inline model_slot linearise_slot(const model *m, const linear_memory *memory, int element)
 {
     model_slot w;
     const int n = m->strains;
-    w.J = m->work + (size_t)element * (size_t)m->work_size;
+    w.J = memory->slot + (size_t)element * (size_t)m->work_size;
     w.C = w.J + n * m->coordinates;
     w.sigma = w.C + n * n;
     w.incompatibility = w.sigma + n;

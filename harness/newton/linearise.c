@@ -63,12 +63,13 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
 
 /* force and K (which has H) of an element that was evaluated, less centrifugal forces; present:
  * conjugate to the stresses of the state, which H belongs to. */
-static status add_material(run_state *run, const model_state *s, const chunk_element *of,
-                           int tangent, double path, double present[], element_part *part)
+static status add_material(run_state *run, const linear_memory *memory, const model_state *s,
+                           const chunk_element *of, int tangent, double path, double present[],
+                           element_part *part)
 {
     const model *m = run->m;
     const int i = of->index;
-    const model_slot w = linearise_slot(m, i);
+    const model_slot w = linearise_slot(m, memory, i);
     const size_t size = (size_t)m->coordinates * sizeof *present;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(part->force, 0, size);
@@ -86,10 +87,10 @@ static status add_material(run_state *run, const model_state *s, const chunk_ele
 }
 
 /* What acts along the element. */
-static void subtract_loads(const model *m, chunk_element *of, int tangent, double path,
-                           element_part *part)
+static void subtract_loads(const model *m, const linear_memory *memory, chunk_element *of,
+                           int tangent, double path, element_part *part)
 {
-    const model_slot w = linearise_slot(m, of->index);
+    const model_slot w = linearise_slot(m, memory, of->index);
     double forces[ELEMENT_MAX_COORDINATES] = {0}, *K = tangent ? part->K : NULL;
     const int acts = distributed_add_field(m, of->x, of->index, path, forces, K);
     if (of->along.acts)
@@ -104,19 +105,19 @@ static void subtract_loads(const model *m, chunk_element *of, int tangent, doubl
 
 /* Internal forces of an element that was evaluated, less centrifugal ones and loads along it, and,
  * where wanted, their tangent; both in model coordinates. */
-static status element_equations(run_state *run, const model_state *s, chunk_element *of,
-                                int tangent, double path, element_part *part)
+static status element_equations(run_state *run, const linear_memory *memory, const model_state *s,
+                                chunk_element *of, int tangent, double path, element_part *part)
 {
     const model *m = run->m;
     const mesh_element *el = &m->element[of->index];
-    const model_slot w = linearise_slot(m, of->index);
+    const model_slot w = linearise_slot(m, memory, of->index);
     if (of->outcome != STATUS_OK)
         return fault_set(&part->why, of->outcome, "element %d of %s: outside what %s can evaluate",
                          of->index, scene_called(m->scene, SCENE_MEMBERS, el->member).text,
                          m->type->name);
     if (!of->complete)
-        TRY(add_material(run, s, of, tangent, path, of->present, part));
-    subtract_loads(m, of, tangent, path, part);
+        TRY(add_material(run, memory, s, of, tangent, path, of->present, part));
+    subtract_loads(m, memory, of, tangent, path, part);
     if (tangent)
         eliminate_matrix(m, s, el, of->present, part->K);
     eliminate_forces(m, s, el, part->force);
@@ -159,6 +160,7 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
  * order. */
 typedef struct shared_loop {
     run_state *run;
+    const linear_memory *memory;
     const model *m;
     const model_state *s;
     model_linearisation *lin;
@@ -181,11 +183,11 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
             element[k].force = part[index[k] - first].force;
             element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
         }
-        chunk_evaluate(loop->run, loop->s, loop->lin->path, count, element);
+        chunk_evaluate(loop->run, loop->memory, loop->s, loop->lin->path, count, element);
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
-            p->outcome = element_equations(loop->run, loop->s, &element[k], loop->tangent,
-                                           loop->lin->path, p);
+            p->outcome = element_equations(loop->run, loop->memory, loop->s, &element[k],
+                                           loop->tangent, loop->lin->path, p);
         }
     }
 }
@@ -266,13 +268,14 @@ static int take_piece(void *context, int piece, int slot)
     return 1;
 }
 
-static status linearise_elements(run_state *run, const model_state *s, model_linearisation *lin,
-                                 fault *f)
+static status linearise_elements(run_state *run, const linear_memory *memory, const model_state *s,
+                                 model_linearisation *lin, fault *f)
 {
     const model *m = run->m;
     element_part own;
     const int window = window_of(run);
     shared_loop loop = {.run = run,
+                        .memory = memory,
                         .m = m,
                         .s = s,
                         .lin = lin,
@@ -303,12 +306,13 @@ static status linearise_elements(run_state *run, const model_state *s, model_lin
     return STATUS_OK;
 }
 
-status linearise_state(run_state *run, const model_state *s, model_linearisation *lin, fault *f)
+status linearise_state(run_state *run, const linear_memory *memory, const model_state *s,
+                       model_linearisation *lin, fault *f)
 {
     const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
     ahead_strains(run, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
     ahead_stresses(run, s->e, s->inner);
-    const status outcome = linearise_elements(run, s, lin, f);
+    const status outcome = linearise_elements(run, memory, s, lin, f);
     ahead_end(run);
     return outcome;
 }

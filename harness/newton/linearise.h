@@ -22,7 +22,9 @@ typedef struct model_linearisation {
         *residual; /* [free + driven] right-hand side; of driven coordinates: less their reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
-status linearise_state(run_state *, const model_state *, model_linearisation *, fault *);
+/* Into the memory goes what advance_state takes up. */
+status linearise_state(run_state *, const linear_memory *, const model_state *,
+                       model_linearisation *, fault *);
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
 status linearise_make_compatible(run_state *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the

@@ -146,7 +146,7 @@ static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
         lin->K = &n->whole;
     if (n->condensed != NULL)
         lin->K = NULL;
-    TRY(linearise_state(n->c->run, n->state, lin, f));
+    TRY(linearise_state(n->c->run, &n->c->run->memory, n->state, lin, f));
     if (n->whole.value != NULL)
         sparse_copy_leading(&n->whole, &n->K);
     if (n->condensed == NULL)
@@ -190,7 +190,8 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.K = NULL;
     parts.drive = NULL;
     parts.conditions = 0;
-    TRY(linearise_state(n->c->run, n->state, &parts, f)); /* what advance_state needs */
+    TRY(linearise_state(n->c->run, &n->c->run->memory, n->state, &parts,
+                        f)); /* what advance_state needs */
     lin->incompatibility = parts.incompatibility;
     TRY(uncondensed_system(n->c->run, n->state, lin->path, n->dx, lin->conditions, lin->condition,
                            n->dense, n->unknown, n->residual, f));
@@ -252,7 +253,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 void newton_advance(newton *n, double path, newton_correction *out)
 {
     phases_start(&n->c->run->phases);
-    out->size = advance_state(n->c->run, n->state, n->dx, path, &out->stress);
+    out->size = advance_state(n->c->run, &n->c->run->memory, n->state, n->dx, path, &out->stress);
     phases_stop(&n->c->run->phases);
     out->at = path;
     out->energy = n->energy;

@@ -3,15 +3,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/model_impl.h"
+
 /* Fewer elements than this are done before another thread is awake (measured on the joint and the
  * hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
+
+status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
+{
+    out->slot = malloc(((size_t)m->elements * (size_t)m->work_size + 1) * sizeof *out->slot);
+    return out->slot != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer",
+                           m->elements);
+}
+
+void linear_memory_free(linear_memory *memory)
+{
+    free(memory->slot);
+    memory->slot = NULL;
+}
 
 status run_state_begin(run_state *run, model *m, int threads, fault *f)
 {
     const int most = model_sizes(m).elements / ELEMENTS_OF_A_THREAD;
     memset(run, 0, sizeof *run);
     run->m = m;
+    TRY(linear_memory_alloc(m, &run->memory, f));
     return team_alloc(threads < most ? threads : most, &run->team, f);
 }
 
@@ -22,5 +40,6 @@ void run_state_end(run_state *run)
     free(run->ahead);
     free(run->part);
     team_free(run->team);
+    linear_memory_free(&run->memory);
     memset(run, 0, sizeof *run);
 }

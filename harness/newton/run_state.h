@@ -27,6 +27,12 @@ typedef struct run_undeformed {
     double *value;   /* [room x (J, C, initial stresses)] */
 } run_undeformed;
 
+/* Of all elements, from linearise_state for advance_state. */
+typedef struct linear_memory {
+    double *slot; /* [elements x model.work_size]: J, C, P' + C (D - e), D - e, memory of the last
+                     linearisation */
+} linear_memory;
+
 struct run_ahead;
 struct element_part;
 
@@ -39,7 +45,11 @@ typedef struct run_state {
                                   yet: equations_impl.h */
     struct run_ahead *ahead;   /* one block; NULL: nothing has been evaluated ahead: ahead.h */
     run_undeformed undeformed;
+    linear_memory memory; /* of those who linearise one state at a time */
 } run_state;
+
+status linear_memory_alloc(const model *, linear_memory *, fault *);
+void linear_memory_free(linear_memory *);
 
 /* Of a model, nothing done yet. threads share the loop over elements; 0, 1: one. Sums keep their
  * order: results do not depend on it. */

@@ -11,12 +11,12 @@
 #include "harness/newton/ahead.h"
 #include "harness/newton/equations_impl.h"
 
-void stiffness_parts_material_product(const model *m, const model_state *s, const double x[],
-                                      double y[])
+void stiffness_parts_material_product(const model *m, const linear_memory *memory,
+                                      const model_state *s, const double x[], double y[])
 {
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
-        const model_slot w = linearise_slot(m, i);
+        const model_slot w = linearise_slot(m, memory, i);
         double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
             force[MODEL_MAX_COORDINATES] = {0};
         kinematics_local(m, s, el, x, local);
@@ -31,11 +31,12 @@ void stiffness_parts_material_product(const model *m, const model_state *s, cons
 
 /* Strains are off by the rounding of their terms, P'' by that of its entries: errors of all
  * elements alike, so they add up. */
-double stiffness_parts_material_rounding(const model *m, const model_state *s, const double x[])
+double stiffness_parts_material_rounding(const model *m, const linear_memory *memory,
+                                         const model_state *s, const double x[])
 {
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
-        const model_slot w = linearise_slot(m, i);
+        const model_slot w = linearise_slot(m, memory, i);
         double local[ELEMENT_MAX_COORDINATES], e[ELEMENT_MAX_STRAINS];
         kinematics_local(m, s, &m->element[i], x, local);
         dense_mul_vec(m->strains, m->coordinates, w.J, local, e);
@@ -53,7 +54,8 @@ double stiffness_parts_material_rounding(const model *m, const model_state *s, c
     return sum + discrete_material_rounding(m, s, x);
 }
 
-status stiffness_parts_geometric(run_state *run, const model_state *s, sparse *G, fault *f)
+status stiffness_parts_geometric(run_state *run, const linear_memory *memory, const model_state *s,
+                                 sparse *G, fault *f)
 {
     const model *m = run->m;
     const mesh_pattern *p = assemble_of(m, G);
@@ -62,7 +64,7 @@ status stiffness_parts_geometric(run_state *run, const model_state *s, sparse *G
     ahead_strains(run, s, AHEAD_H, s->sigma);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         const mesh_element *el = &m->element[i];
-        const model_slot w = linearise_slot(m, i);
+        const model_slot w = linearise_slot(m, memory, i);
         const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
         node_state x[ELEMENT_MAX_NODES];
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],

@@ -8,10 +8,12 @@
  * sum J^T P'' (J x): as a sum of matrices it would lose all digits of the soft motions. x, y: [free
  * + driven]. The other is a matrix on the pattern of G: sum sigma_i H_i with the second derivatives
  * of offsets and sequences, less the loads' and the rotation's stiffness. */
-void stiffness_parts_material_product(const model *, const model_state *, const double x[],
-                                      double y[]);
+void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
+                                      const double x[], double y[]);
 /* What rounding may change in x^T of the stiff part. */
-double stiffness_parts_material_rounding(const model *, const model_state *, const double x[]);
-status stiffness_parts_geometric(run_state *, const model_state *, sparse *G, fault *);
+double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
+                                         const double x[]);
+status stiffness_parts_geometric(run_state *, const linear_memory *, const model_state *, sparse *G,
+                                 fault *);
 
 #endif

@@ -67,7 +67,7 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
         TRY(settle(s, i, f));
     }
     TRY(linearise_make_compatible(s->of.c->run, s->at->state, f));
-    TRY(linearise_state(s->of.c->run, s->at->state, &lin, f));
+    TRY(linearise_state(s->of.c->run, &s->of.c->run->memory, s->at->state, &lin, f));
     memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
     inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
     return explicit_accelerate(m, s->of.masses, s->at->state, s->at->v, s->residual, s->at->a, f);

@@ -34,11 +34,10 @@ static void advance(const solution *of, const step_record *record, newton_correc
         advance_stress stress;
         memset(r->dx, 0, (size_t)r->all * sizeof *r->dx);
         memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
-        m->work = one->work;
         increment_add(m, one->state, r->dx, one->inc);
         complement_keep(one->complement, one->state);
-        out->size =
-            larger(out->size, advance_state(r->of.c->run, one->state, r->dx, time, &stress));
+        out->size = larger(
+            out->size, advance_state(r->of.c->run, &one->memory, one->state, r->dx, time, &stress));
         out->stress.largest = fmax(out->stress.largest, stress.largest);
         out->stress.change = fmax(out->stress.change, stress.change);
     }
@@ -119,12 +118,9 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     radau *r = (radau *)base;
     model *m = r->of.c->model;
     *error = 0;
-    r->own_work = m->work;
     if (m->damping != NULL) /* stages add theirs by themselves */
         damping_follow(m, 0, m->damping->none, m->damping->none);
-    const status outcome = solve(r, from, h, to, error, record, f);
-    m->work = r->own_work;
-    return outcome;
+    return solve(r, from, h, to, error, record, f);
 }
 
 static void release(scheme *base)
@@ -133,7 +129,7 @@ static void release(scheme *base)
     for (int i = 0; i < STAGES; i++) {
         kinematics_state_free(r->stage[i].state);
         free(r->stage[i].inc);
-        free(r->stage[i].work);
+        linear_memory_free(&r->stage[i].memory);
         complement_free(r->stage[i].complement);
     }
     sparse_free_values(&r->K);
@@ -151,9 +147,9 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     model *m = r->of.c->model;
     const size_t all = (size_t)r->all + 1;
     one->inc = calloc(4 * all, sizeof *one->inc);
-    one->work = calloc((size_t)m->elements * (size_t)m->work_size + 1, sizeof *one->work);
-    if (one->inc == NULL || one->work == NULL)
+    if (one->inc == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
+    TRY(linear_memory_alloc(m, &one->memory, f));
     one->rate = one->inc + all;
     one->v = one->rate + all;
     one->a = one->v + all;

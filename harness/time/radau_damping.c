@@ -20,8 +20,7 @@ static void take(radau *r, const instant *from, int stage, int element, damped *
     model *m = r->of.c->model;
     const mesh_element *el = &m->element[element];
     const size_t first = (size_t)element * (size_t)m->strains;
-    m->work = r->stage[stage].work;
-    const model_slot w = linearise_slot(m, element);
+    const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
     for (int k = 0; k < m->strains; k++) {
         double *row = out->J + k * el->columns;
         memset(row, 0, (size_t)el->columns * sizeof *row);
@@ -44,8 +43,7 @@ static void add_stress(radau *r, const damped all[STAGES], double h, double eta,
         for (int k = 0; k < m->strains; k++)
             rate[k] += eta * r->B[STAGES * stage + j] / h * all[j].gained[k];
     dense_mul_vec(m->strains, m->strains, S, rate, more);
-    m->work = r->stage[stage].work;
-    const model_slot w = linearise_slot(m, element);
+    const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
     for (int k = 0; k < m->strains; k++)
         w.sigma[k] += more[k];
     dense_add_transpose_mul(el->columns, m->strains, 1, all[stage].J, more, force);

@@ -13,7 +13,6 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
                  e[STAGES] = {(-13 - 7 * s) / 3, (-13 + 7 * s) / 3, -1 / 3.0}, g = 1 / (l * h);
     model_linearisation lin = {.path = from->time, .K = &r->K, .residual = r->dx};
     double *still = room->algorithm;
-    m->work = r->own_work;
     for (int c = 0; c < r->free; c++) {
         double positions = from->v[c], rates = 0;
         for (int i = 0; i < STAGES; i++) {
@@ -26,7 +25,7 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
     memset(still, 0, (size_t)r->all * sizeof *still);
     const inertia_relation with = {g * g, 0, still};
     radau_damp_error(r, from, h, e, g, room->strain);
-    TRY(linearise_state(r->of.c->run, from->state, &lin, f));
+    TRY(linearise_state(r->of.c->run, &r->of.c->run->memory, from->state, &lin, f));
     inertia_subtract(m, r->of.masses, from->state, from->v, room->a, r->dx);
     inertia_add_tangent(m, r->of.masses, from->state, from->v, from->a, &with, &r->K);
     TRY(context_factor(r->of.c, r->single, &r->K, f));

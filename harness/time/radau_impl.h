@@ -12,7 +12,7 @@
 typedef struct radau_stage {
     model_state *state;
     double *inc, *rate, *v, *a; /* [free + driven]; rate: of inc */
-    double *work;               /* of its linearisation: model.work */
+    linear_memory memory;       /* of its linearisation */
     complement *complement;
 } radau_stage;
 
@@ -27,7 +27,6 @@ typedef struct radau {
     double *residual;        /* [STAGES x free] */
     double *dx;              /* [free + driven] */
     double *weight;          /* [free + driven] */
-    double *own_work;        /* model.work as it is given back */
     arrival arrival;
     int free, all;
     long counted, counted_single;

@@ -37,7 +37,7 @@ static status forces(stage *s, instant *now, sparse *K, fault *f)
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(s->c->run, now->state, f));
-    TRY(linearise_state(s->c->run, now->state, &lin, f));
+    TRY(linearise_state(s->c->run, &s->c->run->memory, now->state, &lin, f));
     inertia_subtract(m, s->masses, now->state, now->v, now->a, s->residual);
     return STATUS_OK;
 }
@@ -72,7 +72,8 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     for (int c = 0; c < s->free; c++)
         one->moved[c] += s->dx[c];
     out->at = now->time;
-    out->size = advance_state(s->c->run, now->state, s->dx, now->time, &out->stress);
+    out->size =
+        advance_state(s->c->run, &s->c->run->memory, now->state, s->dx, now->time, &out->stress);
     return STATUS_OK;
 }
 

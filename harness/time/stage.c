@@ -81,7 +81,7 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
     const inertia_relation with = {r->b, r->g, r->inc};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(s->c->run, (model_state *)now, f));
-    TRY(linearise_state(s->c->run, now, &lin, f));
+    TRY(linearise_state(s->c->run, &s->c->run->memory, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
     s->c->run->counters.inertia_evaluations +=
         s->masses->spread ? model_sizes(m).elements * (1 + fresh) : 0;
@@ -111,7 +111,8 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     increment_add(m, one->now, s->dx, one->r->inc);
     complement_keep(s->complement, one->now);
     out->at = one->time;
-    out->size = advance_state(s->c->run, one->now, s->dx, one->time, &out->stress);
+    out->size =
+        advance_state(s->c->run, &s->c->run->memory, one->now, s->dx, one->time, &out->stress);
     rates_of(s, one->r);
     return STATUS_OK;
 }

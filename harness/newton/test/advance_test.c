@@ -46,9 +46,9 @@ static double size_of(model *m, int coordinate, double step)
     model_linearisation lin = {.residual = residual};
     run_state_begin(&run, m, 1, NULL);
     if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
-        linearise_state(&run, s, &lin, &f) == STATUS_OK) {
+        linearise_state(&run, &run.memory, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
-        out = advance_state(&run, s, dx, 0, NULL);
+        out = advance_state(&run, &run.memory, s, dx, 0, NULL);
     }
     run_state_end(&run);
     kinematics_state_free(s);

@@ -38,8 +38,8 @@ static void forces_along(int what, const char *name, double path, int follows, i
     run_state run;
     model_linearisation lin = {.path = path, .residual = residual};
     run_state_begin(&run, m, 1, NULL);
-    gsl_test(linearise_state(&run, kinematics_rest(m), &lin, &f) != STATUS_OK, "%s: %s", name,
-             f.text);
+    gsl_test(linearise_state(&run, &run.memory, kinematics_rest(m), &lin, &f) != STATUS_OK,
+             "%s: %s", name, f.text);
     run_state_end(&run);
     for (int k = 0; k < nodes; k++)
         out[k] = residual[kinematics_coordinate(m, k, what == LINE ? SCENE_UY : SCENE_UX)];

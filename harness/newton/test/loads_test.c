@@ -98,8 +98,8 @@ static void factors(void)
         run_state run;
         model_linearisation lin = {.path = row[i][0], .residual = residual};
         run_state_begin(&run, s.m, 1, NULL);
-        linearise_state(&run, s.turned, &lin, &f);
-        advance_state(&run, s.turned, dx, row[i][0], NULL);
+        linearise_state(&run, &run.memory, s.turned, &lin, &f);
+        advance_state(&run, &run.memory, s.turned, dx, row[i][0], NULL);
         run_state_end(&run);
         loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
         gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",

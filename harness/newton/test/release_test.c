@@ -123,7 +123,8 @@ static void linearised(subject *t, const model_state *s, double path)
 {
     fault f = {""};
     model_linearisation lin = {.path = path, .K = &t->K, .residual = t->residual};
-    gsl_test(linearise_state(&t->run, s, &lin, &f) != STATUS_OK, "linearised: %s", f.text);
+    gsl_test(linearise_state(&t->run, &t->run.memory, s, &lin, &f) != STATUS_OK, "linearised: %s",
+             f.text);
     memset(t->A, 0, sizeof t->A);
     for (int j = 0; j < t->n; j++)
         for (int k = t->K.column[j]; k < t->K.column[j + 1]; k++)
@@ -143,7 +144,7 @@ static int solve(subject *t, double path, const char *what)
         size = 0;
         for (int k = 0; k < t->n; k++)
             size = fmax(size, fabs(t->residual[k]));
-        advance_state(&t->run, t->s, t->residual, path, NULL);
+        advance_state(&t->run, &t->run.memory, t->s, t->residual, path, NULL);
     }
     gsl_test(!(size <= 1e-11), "%s: no equilibrium at %g", what, path);
     gsl_test(!(size <= 100 * before * before + 1e-13), "%s: corrections %.1e after %.1e", what,
@@ -158,10 +159,10 @@ static void residual_at(subject *t, int k, double h, double out[])
     model_linearisation lin = {.path = 1, .residual = out};
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
-    linearise_state(&t->run, t->moved, &lin, &f); /* what advance_state works on */
-    advance_state(&t->run, t->moved, dx, 1, NULL);
+    linearise_state(&t->run, &t->run.memory, t->moved, &lin, &f); /* what advance_state works on */
+    advance_state(&t->run, &t->run.memory, t->moved, dx, 1, NULL);
     linearise_make_compatible(&t->run, t->moved, &f);
-    linearise_state(&t->run, t->moved, &lin, &f);
+    linearise_state(&t->run, &t->run.memory, t->moved, &lin, &f);
 }
 
 static void derivative(subject *t, const char *what)

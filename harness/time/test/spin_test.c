@@ -135,14 +135,14 @@ static double settle(flight *f)
     for (int i = 0; i < ITERATIONS && correction > 1e-15; i++) {
         model_linearisation lin = {.path = 0, .K = &K, .residual = residual};
         turn_rates(f);
-        if (linearise_state(&f->run, f->now.state, &lin, &f->why) != STATUS_OK)
+        if (linearise_state(&f->run, &f->run.memory, f->now.state, &lin, &f->why) != STATUS_OK)
             break;
         inertia_subtract(m, &f->masses, f->now.state, f->now.v, f->now.a, residual);
         memset(residual + m->free, 0, (size_t)m->driven * sizeof *residual);
         if (factor_numeric(of, &K, &f->why) != STATUS_OK)
             break;
         factor_solve(of, residual);
-        correction = advance_state(&f->run, f->now.state, residual, 0, NULL);
+        correction = advance_state(&f->run, &f->run.memory, f->now.state, residual, 0, NULL);
     }
     turn_rates(f);
     free(residual);
