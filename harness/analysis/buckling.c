@@ -115,8 +115,8 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
                          "%s, which stay, are critical by themselves: nothing is left to grow; "
                          "make them smaller",
                          linear_initial(c->model) == 0 ? "the loads at path 0"
-                         : !loads_begin(c->model)      ? "the strains of members"
-                                                  : "the loads at path 0 and strains of members");
+                         : !loads_begin(c->run)        ? "the strains of members"
+                                                : "the loads at path 0 and strains of members");
     return factored;
 }
 
@@ -128,7 +128,7 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
     TRY(along_path_proportional(c->scene, f));
     TRY(quadratic_forms_alloc(c->run, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
-    if (loads_begin(c->model) || linear_initial(c->model) > 0)
+    if (loads_begin(c->run) || linear_initial(c->model) > 0)
         TRY(split_stays(c, s, p, f));
     TRY(quadratic_forms_load(&p->growing, 1, 0, f));
     TRY(sparse_alloc_like(&s->K, &p->G, f));

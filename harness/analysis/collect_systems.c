@@ -73,7 +73,7 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     const size_t n = (size_t)size.free;
     for (int i = 0; i < c->scene->loads; i++) {
         memset(w->load, 0, (n + (size_t)size.driven) * sizeof *w->load);
-        loads_add_one(c->model, state, &c->scene->load[i], 1, w->load);
+        loads_add_one(c->run, state, &c->scene->load[i], 1, w->load);
         memcpy(w->input + (size_t)i * n, w->load, n * sizeof *w->input);
     }
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
@@ -102,7 +102,7 @@ static status keep_linear(const analysis_context *c, int analysis, const double 
     static const double none[3];
     TRY(next(s, &out, f));
     out->analysis = analysis;
-    rotating_frame_set(c->model, none, none, 0);
+    rotating_frame_set(c->run, none, none, 0);
     TRY(linear_stiffness(c->run, &w->K, f));
     if (displaced != NULL) {
         TRY(linear_whole_stresses(c->run, displaced, w->sigma, f));
@@ -151,10 +151,10 @@ static status keep_path(const analysis_context *c, int analysis, workspace *w, s
 static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
                             system_matrices *s, fault *f)
 {
-    loads_none(c->model);
+    loads_none(c->run);
     const status outcome =
         keep_linear(c, analysis, outcome_spectrum_of(&c->outcomes[analysis])->strained, 0, w, s, f);
-    loads_of(c->model, analysis);
+    loads_of(c->run, analysis);
     return outcome;
 }
 

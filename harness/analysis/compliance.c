@@ -43,7 +43,7 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
 {
     double load[6];
     linearise_node_force(c->run, s, NULL, what->node, reaction);
-    loads_at_node(c->model, s, kinematics_state_path(s), what->node, load);
+    loads_at_node(c->run, s, kinematics_state_path(s), what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
     if (c->scene->node[what->node].rotation == SCENE_ROTATION_FORK)
@@ -119,7 +119,7 @@ static status unloaded(analysis_context *c, newton *n, const model_state **state
 {
     step_record unused = {0};
     *state = kinematics_rest(c->model);
-    loads_none(c->model);
+    loads_none(c->run);
     if (linear_initial(c->model) == 0)
         return STATUS_OK;
     TRY(newton_alloc(c, 0, n, f));
@@ -171,6 +171,6 @@ status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *
     const status result = solve(c, analysis, &t, &n, &o->left.compliance, f);
     tangent_free(&t);
     newton_free(&n);
-    loads_of(c->model, analysis);
+    loads_of(c->run, analysis);
     return result;
 }

@@ -68,12 +68,11 @@ double continuation_step_dot(const continuation *p, const double a[], const doub
 /* n.dx = K^-1 r and response = K^-1 f' in the present state. */
 static status directions(continuation *p, step_record *record, fault *f)
 {
-    model *m = p->c->model;
     const double load = kinematics_state_path(p->n.state);
     if (p->looked)
         return STATUS_OK;
     TRY(newton_direction(&p->n, load, record, f));
-    loads_rate(m, p->n.state, load, p->load);
+    loads_rate(p->c->run, p->n.state, load, p->load);
     memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
     memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
     factor_solve(p->n.factor, p->response);

@@ -16,7 +16,7 @@ static double reaction_of(run_state *run, const scene_component *what, const dou
     const model *m = run->m;
     double F[6], L[6];
     linearise_node_force(run, kinematics_rest(m), sigma, what->node, F);
-    loads_at_node(m, kinematics_rest(m), 1, what->node, L);
+    loads_at_node(run, kinematics_rest(m), 1, what->node, L);
     return F[what->component] - L[what->component];
 }
 

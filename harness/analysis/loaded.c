@@ -208,7 +208,7 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
     TRY(kinematics_state_alloc(c->model, &s->stable, f));
     TRY(predictor_alloc(c->model, &s->guess, f));
     predictor_forget(&s->guess);
-    TRY(predictor_add(c->model, s->n.state, 0, &s->guess, f));
+    TRY(predictor_add(c->run, s->n.state, 0, &s->guess, f));
     s->n.predictor = &s->guess;
     s->begin = kinematics_state_path(s->n.state);
     sparse_zero(&s->scale);
@@ -291,7 +291,7 @@ static status go_to(search *s, double path, int *stable, fault *f)
     if (*stable)
         return take_state(s, f);
     predictor_forget(&s->guess);
-    return predictor_add(s->n.c->model, s->stable, 0, &s->guess, f);
+    return predictor_add(s->n.c->run, s->stable, 0, &s->guess, f);
 }
 
 /* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
@@ -326,7 +326,7 @@ static status predict(search *s, double step, sparse *A, fault *f)
     memcpy(A->value, n->K.value, (size_t)A->column[A->n] * sizeof *A->value);
     kinematics_state_copy(n->c->model, s->stable, n->state);
     predictor_forget(&s->guess);
-    TRY(predictor_add(n->c->model, n->state, 0, &s->guess, f));
+    TRY(predictor_add(n->c->run, n->state, 0, &s->guess, f));
     TRY(newton_direction(n, s->begin, &unused, f));
     if (step == 0)
         return STATUS_OK;

@@ -183,11 +183,11 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
 static status add_strains(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                           fault *f)
 {
-    loads_none(c->model);
+    loads_none(c->run);
     status outcome = linear_system_solve(c, s, 0, about->of.load_x, f);
     if (outcome == STATUS_OK)
         outcome = add_stresses(c, 0, s, about, f);
-    loads_of(c->model, analysis);
+    loads_of(c->run, analysis);
     return outcome;
 }
 

@@ -75,11 +75,10 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
 }
 
 /* Force and tangent at the nodes themselves; material: with J^T S J of springs. */
-static void evaluate(const model *m, const model_state *s, const mesh_discrete *d, double path,
-                     int material, double force[], double K[])
+static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
+                     const element_rotating_frame *frame, int material, double force[], double K[])
 {
     const int n = NODE_COORDINATES * d->el.nodes;
-    const element_rotating_frame frame = model_rotating_frame(m, path);
     node_state x[ELEMENT_MAX_NODES];
     if (d->spring != NULL) {
         spring_state p;
@@ -93,35 +92,36 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         return;
     }
     kinematics_gather(m, s, &d->el, x);
-    body_inertia(d->body, x, &frame, &(inertia_output){.force = force, .N = K});
+    body_inertia(d->body, x, frame, &(inertia_output){.force = force, .N = K});
     for (int k = 0; k < n; k++)
         force[k] = -force[k];
 }
 
 /* Force and tangent in model coordinates. */
-static void eliminated(const model *m, const model_state *s, const mesh_discrete *d, double path,
-                       int material, double force[], double K[])
+static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
+                       const element_rotating_frame *frame, int material, double force[],
+                       double K[])
 {
-    evaluate(m, s, d, path, material, force, K);
+    evaluate(m, s, d, frame, material, force, K);
     eliminate_matrix(m, s, &d->el, force, K);
     eliminate_forces(m, s, &d->el, force);
 }
 
-void discrete_equations(const model *m, const model_state *s, const mesh_discrete *d, double path,
-                        double force[], double K[])
+void discrete_equations(const model *m, const model_state *s, const mesh_discrete *d,
+                        const element_rotating_frame *frame, double force[], double K[])
 {
-    eliminated(m, s, d, path, 1, force, K);
+    eliminated(m, s, d, frame, 1, force, K);
 }
 
-void discrete_inertia(const model *m, const model_state *s, double path, sparse *M, sparse *G)
+void discrete_inertia(const model *m, const model_state *s, const element_rotating_frame *frame,
+                      sparse *M, sparse *G)
 {
-    const element_rotating_frame frame = model_rotating_frame(m, path);
     for (int i = 0; i < m->discretes - m->springs; i++) {
         const mesh_discrete *d = &m->discrete[i];
         node_state x[ELEMENT_MAX_NODES];
         double mass[X * X], gyroscopic[X * X];
         kinematics_gather(m, s, &d->el, x);
-        body_inertia(d->body, x, &frame, &(inertia_output){.M = mass, .G = gyroscopic});
+        body_inertia(d->body, x, frame, &(inertia_output){.M = mass, .G = gyroscopic});
         eliminate_matrix(m, s, &d->el, NULL, mass);
         assemble_discrete(&d->el, mass, M);
         if (G == NULL)
@@ -148,11 +148,12 @@ void discrete_material_product(const model *m, const model_state *s, const doubl
     }
 }
 
-void discrete_geometric(const model *m, const model_state *s, double path, sparse *out)
+void discrete_geometric(const model *m, const model_state *s, const element_rotating_frame *frame,
+                        sparse *out)
 {
     for (int i = 0; i < m->discretes; i++) {
         double force[X], K[X * X];
-        eliminated(m, s, &m->discrete[i], path, 0, force, K);
+        eliminated(m, s, &m->discrete[i], frame, 0, force, K);
         assemble_discrete(&m->discrete[i].el, K, out);
     }
 }
@@ -187,12 +188,13 @@ double discrete_stored(const model *m, const model_state *s)
     return sum;
 }
 
-void discrete_node_force(const model *m, const model_state *s, int node, double F[6])
+void discrete_node_force(const model *m, const model_state *s, const element_rotating_frame *frame,
+                         int node, double F[6])
 {
     for (int i = 0; i < m->discretes; i++) {
         const mesh_discrete *d = &m->discrete[i];
         double force[X], K[X * X];
-        evaluate(m, s, d, s->path, 1, force, K);
+        evaluate(m, s, d, frame, 1, force, K);
         for (int k = 0; k < d->el.nodes; k++) {
             double *at = force + NODE_COORDINATES * k, rho[3];
             if (m->vertex[d->el.vertex[k]].body != node)

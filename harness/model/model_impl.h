@@ -110,9 +110,6 @@ typedef struct mesh_damping {
     const double *known, *from; /* [elements x strains] */
 } mesh_damping;
 
-/* What of the loads along members goes to the ends of elements. */
-enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
-
 struct model {
     const scene *scene;
     const element_type *given; /* as its file has it */
@@ -140,20 +137,14 @@ struct model {
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
-    double size;                  /* length of the longest member [m] */
-    int asked;                    /* elements of a piece of a member */
-    division division;            /* of the members into elements */
-    mesh_pattern pattern[5];      /* those of assemble.h */
-    int work_size;                /* of an element in a linear_memory: harness/newton/run_state.h */
-    model_state *rest;            /* undeformed */
-    element_rotating_frame frame; /* its velocity times the path if that is followed */
-    mesh_damping *damping;        /* of a motion; NULL: none */
-    int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
-    double held_path; /* path parameter at which those stay in time that have no such function */
-    int unloaded;     /* neither loads nor drivers act */
-    int lumps;        /* LUMPS_* */
-    int takes;        /* elements take loads along them (element_type.along) */
-    int rotates, rotation_follows_path;
+    double size;             /* length of the longest member [m] */
+    int asked;               /* elements of a piece of a member */
+    division division;       /* of the members into elements */
+    mesh_pattern pattern[5]; /* those of assemble.h */
+    int work_size;           /* of an element in a linear_memory: harness/newton/run_state.h */
+    model_state *rest;       /* undeformed */
+    mesh_damping *damping;   /* of a motion; NULL: none */
+    int takes;               /* elements take loads along them (element_type.along) */
     int lines;
     char **line; /* what was left out */
 };
@@ -184,16 +175,6 @@ struct model_state {
     double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
     double *turn;              /* [turns x 3] rotation vectors that have been followed: turns.h */
 };
-
-/* How the frame turns at that path parameter. */
-static inline element_rotating_frame model_rotating_frame(const model *m, double path)
-{
-    element_rotating_frame frame = m->frame;
-    if (m->rotation_follows_path)
-        for (int i = 0; i < 3; i++)
-            frame.omega[i] *= path;
-    return frame;
-}
 
 /* features.c */
 int features_eccentric(const section *c); /* its shear centre is not its centroid */

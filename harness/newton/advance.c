@@ -94,7 +94,7 @@ double advance_state(run_state *run, const linear_memory *memory, model_state *s
         if (m->driver_coordinate[d] != NONE)
             s->driver[d] += dx[m->driver_coordinate[d]];
         else if (m->scene->driver[d].value != NULL)
-            s->driver[d] = loads_driver_value(m, &m->scene->driver[d], path);
+            s->driver[d] = loads_driver_value(run, &m->scene->driver[d], path);
     kinematics_follow(m, s);
     s->path = path;
     return largest;

@@ -13,15 +13,15 @@
 #include "harness/model/release.h"
 #include "harness/newton/equations_impl.h"
 
-double applied_factor(const model *m, const scene_load *load, double path)
+double applied_factor(const run_state *run, const scene_load *load, double path)
 {
     double at[3];
-    if (m->unloaded)
+    if (run->loading.unloaded)
         return 0;
-    if (!m->in_time)
+    if (!run->loading.in_time)
         return along_path_factor(load, path);
     if (load->function.pieces == 0)
-        return along_path_factor(load, m->held_path);
+        return along_path_factor(load, run->loading.held_path);
     function_at(&load->function, path, at);
     return at[0];
 }

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MODEL_APPLIED_H
 #define BEAMWORK_MODEL_APPLIED_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 typedef struct applied {
     int vertex;
@@ -13,7 +13,7 @@ typedef struct applied {
 } applied;
 
 /* What the load is times at `path`, or in time (loads_of). */
-double applied_factor(const model *, const scene_load *load, double path);
+double applied_factor(const run_state *, const scene_load *load, double path);
 /* The load times `scale`.  Along members it is lumped at the nodes of elements, by linear shares,
  * or quadratic ones with a middle node: of a uniform load 1/2, 1/2, or Simpson's weights. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,

@@ -237,12 +237,12 @@ void chunk_evaluate(const run_state *run, const linear_memory *memory, const mod
         element[k].complete = 0;
         element[k].along.acts = 0;
         if (m->takes)
-            distributed_take(m, element[k].index, path, &element[k].along);
+            distributed_take(run, element[k].index, path, &element[k].along);
         if (m->takes)
             linearise_slot(m, memory, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
-    if (together && m->type->equations_many != NULL && !m->rotates && m->damping == NULL &&
-        !m->takes) {
+    if (together && m->type->equations_many != NULL && !run->loading.rotates &&
+        m->damping == NULL && !m->takes) {
         equations_together(m, memory, s, count, element);
         return;
     }

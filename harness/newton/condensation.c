@@ -17,10 +17,11 @@
 
 /* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
  * them free? */
-static int applies(const model *m, int from)
+static int applies(const run_state *run, int from)
 {
+    const model *m = run->m;
     int longest = 0;
-    if (m->rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
+    if (run->loading.rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
         return 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
@@ -145,9 +146,8 @@ static status allocate(run_state *run, const condensation *of, int count, const 
 status condensation_alloc(run_state *run, int from, int count, const int released[],
                           condensation **out, fault *f)
 {
-    const model *m = run->m;
     *out = NULL;
-    return applies(m, from) ? allocate(run, NULL, count, released, out, f) : STATUS_OK;
+    return applies(run, from) ? allocate(run, NULL, count, released, out, f) : STATUS_OK;
 }
 
 status condensation_alloc_like(const condensation *of, int count, const int released[],
@@ -197,7 +197,7 @@ static status link_element_of(const run_state *run, const model_state *s, const 
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
-    distributed_add(m, s, x, i, path, along, H);
+    distributed_add(run, s, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     const link_element el = {m->nodes, m->strains, of->joint, w.J, w.C, H, r};
@@ -252,6 +252,7 @@ static status members(condensation *s, double path, fault *f)
 
 status condensation_at(condensation *s, const model_state *at, double path, fault *f)
 {
+    const element_rotating_frame frame = run_rotating_frame(s->run, path);
     s->at = at;
     s->negative = 0;
     sparse_zero(&s->K);
@@ -261,10 +262,10 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     TRY(outcome);
     for (int i = 0; i < s->m->discretes; i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(s->m, at, &s->m->discrete[i], path, part.force, part.K);
+        discrete_equations(s->m, at, &s->m->discrete[i], &frame, part.force, part.K);
         assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
     }
-    loads_subtract_at_vertices(s->m, at, path, &s->K);
+    loads_subtract_at_vertices(s->run, at, path, &s->K);
     linearise_add_held_moments(s->run, at, path, &s->K);
     return STATUS_OK;
 }

@@ -17,7 +17,7 @@ static void hold_loads(const analysis_context *c, int analysis)
         return;
     const outcome_path *path = outcome_path_of(&c->outcomes[origin]);
     if (path->reached > 0)
-        loads_hold(c->model, kinematics_state_path(path->state[path->reached - 1]));
+        loads_hold(c->run, kinematics_state_path(path->state[path->reached - 1]));
 }
 
 void context_set_frame(const analysis_context *c, int analysis)
@@ -29,8 +29,8 @@ void context_set_frame(const analysis_context *c, int analysis)
                                   : &c->scene->analysis[own->follows];
     const scene_rotating_frame *frame =
         scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
-    rotating_frame_set(c->model, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
-    loads_of(c->model, analysis);
+    rotating_frame_set(c->run, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
+    loads_of(c->run, analysis);
     hold_loads(c, analysis);
 }
 

@@ -10,17 +10,17 @@
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
 
-int distributed_spreads(const model *m, const scene_load *load)
+int distributed_spreads(const run_state *run, const scene_load *load)
 {
-    const int lumped = load->lumped || m->lumps == LUMPS_LOADS ||
-                       (m->lumps == LUMPS_WEIGHTS && load->kind == SCENE_GRAVITY);
+    const int lumped = load->lumped || run->loading.lumps == LUMPS_LOADS ||
+                       (run->loading.lumps == LUMPS_WEIGHTS && load->kind == SCENE_GRAVITY);
     return scene_load_along(load) && !lumped;
 }
 
 int distributed_acts(const distributed *of)
 {
     double part[2];
-    if (of->m->rotates)
+    if (of->run->loading.rotates)
         return 1;
     for (int i = 0; i < of->m->scene->loads; i++)
         if (applied_part(of->m, of->element, &of->m->scene->load[i], part))
@@ -118,11 +118,12 @@ static int points_of(const distributed *of, const scene_load *load, double scale
     return count;
 }
 
-static int taken(const model *m, int element, const scene_load *load, const double part[2])
+static int taken(const run_state *run, int element, const scene_load *load, const double part[2])
 {
+    const model *m = run->m;
     const section *c = &m->section[m->kind[m->element[element].kind].section];
     double centre[3] = {0};
-    if (!m->takes || !distributed_spreads(m, load) || scene_load_within(load) ||
+    if (!m->takes || !distributed_spreads(run, load) || scene_load_within(load) ||
         scene_load_turns(load) || load->follower)
         return 0;
     if (load->kind == SCENE_GRAVITY && c->matrices)
@@ -131,17 +132,19 @@ static int taken(const model *m, int element, const scene_load *load, const doub
            !applied_inside(part[1]);
 }
 
-int distributed_takes(const model *m, int element, const scene_load *load)
+int distributed_takes(const run_state *run, int element, const scene_load *load)
 {
+    const model *m = run->m;
     double part[2];
-    return applied_part(m, element, load, part) && taken(m, element, load, part);
+    return applied_part(m, element, load, part) && taken(run, element, load, part);
 }
 
 /* force[] += one of them times `scale`. */
-static void gather(const model *m, int element, const scene_load *load, double scale,
+static void gather(const run_state *run, int element, const scene_load *load, double scale,
                    double force[3 * ELEMENT_ALONG_POINTS])
 {
-    const distributed of = {m, element, 0};
+    const model *m = run->m;
+    const distributed of = {run, m, element, 0};
     double x[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS], before[9];
     quadrature_points(ELEMENT_ALONG_POINTS, x, weight);
     for (int k = 0; k < ELEMENT_ALONG_POINTS; k++) {
@@ -153,21 +156,22 @@ static void gather(const model *m, int element, const scene_load *load, double s
     }
 }
 
-void distributed_take(const model *m, int element, double path, distributed_taken *out)
+void distributed_take(const run_state *run, int element, double path, distributed_taken *out)
 {
+    const model *m = run->m;
     out->acts = 0;
     for (int i = 0; i < m->scene->loads && m->takes; i++) {
         const scene_load *load = &m->scene->load[i];
         double part[2];
-        if (!applied_part(m, element, load, part) || !taken(m, element, load, part))
+        if (!applied_part(m, element, load, part) || !taken(run, element, load, part))
             continue;
-        const double scale = applied_factor(m, load, path);
+        const double scale = applied_factor(run, load, path);
         if (scale == 0)
             continue;
         if (!out->acts)
             memset(out->force, 0, sizeof out->force);
         out->acts = 1;
-        gather(m, element, load, scale, out->force);
+        gather(run, element, load, scale, out->force);
     }
     out->out = (along_output){.force = out->force, .mixed = out->mixed};
 }
@@ -195,9 +199,10 @@ void distributed_add_taken(const model *m, const along_output *out, const double
             K[i * X + j] += out->H[i * X + j] + of[i * X + j] + both[i * X + j] + both[j * X + i];
 }
 
-int distributed_add_own(const model *m, const model_state *s, const node_state x[], int element,
-                        double path, double forces[], double K[])
+int distributed_add_own(const run_state *run, const model_state *s, const node_state x[],
+                        int element, double path, double forces[], double K[])
 {
+    const model *m = run->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
     const size_t first = (size_t)element * (size_t)m->strains;
     const element_data *data = m->kind[m->element[element].kind].data;
@@ -205,7 +210,7 @@ int distributed_add_own(const model *m, const model_state *s, const node_state x
     distributed_taken of;
     double J[S * X], D[S], sigma[S], C[S * S], H[X * X], work[S * X];
     status outcome;
-    distributed_take(m, element, path, &of);
+    distributed_take(run, element, path, &of);
     if (!of.acts)
         return 0;
     m->type->strain(data, x, &(strain_output){.e = D, .J = J});
@@ -233,12 +238,13 @@ int distributed_add_own(const model *m, const model_state *s, const node_state x
     return 1;
 }
 
-int distributed_stress(const model *m, const model_state *s, const node_state x[], int element,
-                       double path, const stress_output *out, status *outcome)
+int distributed_stress(const run_state *run, const model_state *s, const node_state x[],
+                       int element, double path, const stress_output *out, status *outcome)
 {
+    const model *m = run->m;
     const element_data *data = m->kind[m->element[element].kind].data;
     distributed_taken of;
-    distributed_take(m, element, path, &of);
+    distributed_take(run, element, path, &of);
     if (!of.acts)
         return 0;
     of.out.sigma = out->sigma;
@@ -250,18 +256,19 @@ int distributed_stress(const model *m, const model_state *s, const node_state x[
 }
 
 /* Derivative of the forces by the size of one load. */
-static void add_rate(const model *m, const model_state *s, const node_state x[], int element,
+static void add_rate(const run_state *run, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
+    const model *m = run->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
     const element_data *data = m->kind[m->element[element].kind].data;
     distributed_taken of;
     double rate[3 * ELEMENT_ALONG_POINTS] = {0}, J[S * X], sigma[S], work[X] = {0};
     status outcome;
-    distributed_take(m, element, s->path, &of);
+    distributed_take(run, element, s->path, &of);
     if (!of.acts)
         memset(of.force, 0, sizeof of.force);
-    gather(m, element, load, scale, rate);
+    gather(run, element, load, scale, rate);
     of.out.sigma = sigma;
     of.out.rate = rate;
     if (s == m->rest) {
@@ -279,10 +286,12 @@ static void add_rate(const model *m, const model_state *s, const node_state x[],
     distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
 }
 
-static int add_field(const model *m, const node_state x[], int element, const scene_load *load,
-                     double scale, const double part[2], double forces[], double K[])
+static int add_field(const run_state *run, const node_state x[], int element,
+                     const scene_load *load, double scale, const double part[2], double forces[],
+                     double K[])
 {
-    const distributed of = {m, element, 0};
+    const model *m = run->m;
+    const distributed of = {run, m, element, 0};
     field_rows rows[MOST];
     field_load acting[MOST];
     const int count = points_of(&of, load, scale, part, rows, acting);
@@ -290,39 +299,42 @@ static int add_field(const model *m, const node_state x[], int element, const sc
     return 1;
 }
 
-int distributed_add_one(const model *m, const model_state *s, const node_state x[], int element,
-                        const scene_load *load, double scale, double forces[], double K[])
+int distributed_add_one(const run_state *run, const model_state *s, const node_state x[],
+                        int element, const scene_load *load, double scale, double forces[],
+                        double K[])
 {
+    const model *m = run->m;
     double part[2];
     if (!applied_part(m, element, load, part) || scale == 0)
         return 0;
-    if (!taken(m, element, load, part))
-        return add_field(m, x, element, load, scale, part, forces, K);
-    add_rate(m, s, x, element, load, scale, forces);
+    if (!taken(run, element, load, part))
+        return add_field(run, x, element, load, scale, part, forces, K);
+    add_rate(run, s, x, element, load, scale, forces);
     return 1;
 }
 
-int distributed_add_field(const model *m, const node_state x[], int element, double path,
+int distributed_add_field(const run_state *run, const node_state x[], int element, double path,
                           double forces[], double K[])
 {
+    const model *m = run->m;
     int acting = 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
         double part[2];
-        if (!distributed_spreads(m, load) || !applied_part(m, element, load, part) ||
-            taken(m, element, load, part))
+        if (!distributed_spreads(run, load) || !applied_part(m, element, load, part) ||
+            taken(run, element, load, part))
             continue;
-        const double scale = applied_factor(m, load, path);
-        acting |= scale != 0 && add_field(m, x, element, load, scale, part, forces, K);
+        const double scale = applied_factor(run, load, path);
+        acting |= scale != 0 && add_field(run, x, element, load, scale, part, forces, K);
     }
     return acting;
 }
 
-int distributed_add(const model *m, const model_state *s, const node_state x[], int element,
+int distributed_add(const run_state *run, const model_state *s, const node_state x[], int element,
                     double path, double forces[], double K[])
 {
-    const int acting = distributed_add_field(m, x, element, path, forces, K);
-    return distributed_add_own(m, s, x, element, path, forces, K) || acting;
+    const int acting = distributed_add_field(run, x, element, path, forces, K);
+    return distributed_add_own(run, s, x, element, path, forces, K) || acting;
 }
 
 /* Its vectors, in fixed axes, of the section with the triad R. */
@@ -331,7 +343,7 @@ static void add_load(const distributed *of, const scene_load *load, double x,
 {
     field_load one;
     double at[3], v[3], moment[3], turning[3];
-    load_at(of, load, applied_factor(of->m, load, of->path), x, before, &one);
+    load_at(of, load, applied_factor(of->run, load, of->path), x, before, &one);
     mat3_mul_vec(R, one.arm, at);
     memcpy(v, one.force, sizeof v);
     memcpy(moment, one.moment, sizeof moment);
@@ -371,7 +383,7 @@ static void add_rotating(const distributed *of, const span_frame *at, span_load 
 {
     const model *m = of->m;
     const section *c = &m->section[m->kind[m->element[of->element].kind].section];
-    const element_rotating_frame frame = model_rotating_frame(m, of->path);
+    const element_rotating_frame frame = run_rotating_frame(of->run, of->path);
     double arm[3], speed[3], force[3], inside[3], moment[3];
     const double inertia[3] = {c->Iy + c->Iz, c->Iy, c->Iz};
     for (int i = 0; i < 3; i++)
@@ -407,6 +419,6 @@ void distributed_at(void *context, double x, const span_frame *at, span_load *ou
         if (applied_part(of->m, of->element, load, part) && !scene_load_within(load))
             add_load(of, load, x, before, at->R, out);
     }
-    if (of->m->rotates)
+    if (of->run->loading.rotates)
         add_rotating(of, at, out);
 }

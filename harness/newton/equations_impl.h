@@ -39,16 +39,16 @@ static inline model_slot linearise_slot(const model *m, const linear_memory *mem
 }
 
 /* loads.c: out[free + driven] += all of them, or those on vertices alone, not along elements. */
-void loads_add(const model *m, const model_state *s, double path, double out[]);
-void loads_add_at_vertices(const model *m, const model_state *s, double path, double out[]);
+void loads_add(const run_state *run, const model_state *s, double path, double out[]);
+void loads_add_at_vertices(const run_state *run, const model_state *s, double path, double out[]);
 /* What those on vertices add to K. */
-void loads_stiffness_at_vertices(const model *m, const model_state *s, double path, loads_entry,
-                                 void *context);
-void loads_subtract_at_vertices(const model *m, const model_state *s, double path, sparse *K);
+void loads_stiffness_at_vertices(const run_state *run, const model_state *s, double path,
+                                 loads_entry, void *context);
+void loads_subtract_at_vertices(const run_state *run, const model_state *s, double path, sparse *K);
 /* And all of them, on a pattern of assemble.h. */
-void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K);
+void loads_subtract_stiffness(const run_state *run, const model_state *s, double path, sparse *K);
 /* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
-status loads_have_potential(const model *m, const model_state *s, double path, fault *f);
+status loads_have_potential(const run_state *run, const model_state *s, double path, fault *f);
 
 /* linearise_node.c: the moment [N m] about its axis that a node held about one axis alone takes
  * from its support in a state (sigma: as internal.h has it); 0: rounding. */

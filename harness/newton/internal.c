@@ -58,11 +58,12 @@ static void ends_of(run_state *run, const internal_state *s, int i, node_state x
                        NULL); /* never fails in a state that is reached */
     for (int l = 0; l < m->scene->loads; l++) {
         const scene_load *load = &m->scene->load[l];
-        if (lies_along(m, i, load) && distributed_spreads(m, load) &&
-            !distributed_takes(m, i, load))
-            distributed_add_one(m, s->s, x, i, load, applied_factor(m, load, s->path), along, NULL);
+        if (lies_along(m, i, load) && distributed_spreads(run, load) &&
+            !distributed_takes(run, i, load))
+            distributed_add_one(run, s->s, x, i, load, applied_factor(run, load, s->path), along,
+                                NULL);
     }
-    distributed_add_own(m, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
+    distributed_add_own(run, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     for (int end = 0; end < 2; end++) {
@@ -70,8 +71,8 @@ static void ends_of(run_state *run, const internal_state *s, int i, node_state x
         const share of = {el->vertex[k], force + NODE_COORDINATES * k};
         for (int l = 0; l < m->scene->loads; l++) {
             const scene_load *load = &m->scene->load[l];
-            if (lies_along(m, i, load) && !distributed_spreads(m, load))
-                applied_element(m, s->s, load, applied_factor(m, load, s->path), i, take_off,
+            if (lies_along(m, i, load) && !distributed_spreads(run, load))
+                applied_element(m, s->s, load, applied_factor(run, load, s->path), i, take_off,
                                 (void *)&of);
         }
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
@@ -184,7 +185,7 @@ static status recover(run_state *run, const internal_state *s, int i, const span
 {
     const model *m = run->m;
     const mesh_kind *kind = &m->kind[m->element[i].kind];
-    between loads = {.loads = {m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
+    between loads = {.loads = {run, m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
     element_request request = {
         .section = &m->section[kind->section], .length = kind->length, .options = m->options};
     span_problem problem = {

@@ -134,7 +134,7 @@ status linear_geometric_stiffness(run_state *run, const double sigma[], double p
     const model *m = run->m;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     if (out->symmetric) {
-        TRY(loads_have_potential(m, m->rest, path, f));
+        TRY(loads_have_potential(run, m->rest, path, f));
         TRY(linearise_held_have_potential(run, sigma, path, f));
     }
     sparse_zero(out);
@@ -152,7 +152,7 @@ status linear_geometric_stiffness(run_state *run, const double sigma[], double p
         assemble_matrix(pattern_of(m, out), i, H, out);
     }
     ahead_end(run);
-    loads_subtract_stiffness(m, m->rest, path, out);
+    loads_subtract_stiffness(run, m->rest, path, out);
     linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
     return STATUS_OK;
 }

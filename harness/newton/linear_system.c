@@ -83,7 +83,7 @@ static status workspace_alloc(analysis_context *c, double path, workspace *w, fa
     w->weight = w->r + all;
     w->shaken = w->weight + all;
     metric_of(c->model, w->weight);
-    loads_reference(c->model, path, w->load);
+    loads_reference(c->run, path, w->load);
     return STATUS_OK;
 }
 
@@ -149,7 +149,7 @@ static status solve(analysis_context *c, linear_system *s, double path, workspac
     const model_size size = model_sizes(c->model);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
     TRY(workspace_alloc(c, path, w, f));
-    loads_drive(c->model, kinematics_rest(c->model), path, x);
+    loads_drive(c->run, kinematics_rest(c->model), path, x);
     return refine(c, s, w, x, f);
 }
 

@@ -30,7 +30,7 @@ static status compatible_element(run_state *run, model_state *s, int i)
     run->counters.stress_evaluations++;
     status outcome;
     if (m->takes &&
-        distributed_stress(m, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
+        distributed_stress(run, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
         return outcome;
     return ahead_stress(run, i, e, &s->inner[(size_t)i * (size_t)m->inner],
                         &(stress_output){.sigma = sigma});
@@ -73,7 +73,7 @@ static status add_material(run_state *run, const linear_memory *memory, const mo
     const size_t size = (size_t)m->coordinates * sizeof *present;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(part->force, 0, size);
-    if (m->rotates)
+    if (run->loading.rotates)
         TRY(rotating_frame_add(run, of->x, i, path, part->force, tangent ? part->K : NULL,
                                &part->why));
     memcpy(present, part->force, size);
@@ -87,12 +87,13 @@ static status add_material(run_state *run, const linear_memory *memory, const mo
 }
 
 /* What acts along the element. */
-static void subtract_loads(const model *m, const linear_memory *memory, chunk_element *of,
+static void subtract_loads(const run_state *run, const linear_memory *memory, chunk_element *of,
                            int tangent, double path, element_part *part)
 {
+    const model *m = run->m;
     const model_slot w = linearise_slot(m, memory, of->index);
     double forces[ELEMENT_MAX_COORDINATES] = {0}, *K = tangent ? part->K : NULL;
-    const int acts = distributed_add_field(m, of->x, of->index, path, forces, K);
+    const int acts = distributed_add_field(run, of->x, of->index, path, forces, K);
     if (of->along.acts)
         distributed_add_taken(m, &of->along.out, w.J, w.incompatibility, forces, K);
     else if (!acts)
@@ -117,7 +118,7 @@ static status element_equations(run_state *run, const linear_memory *memory, con
                          m->type->name);
     if (!of->complete)
         TRY(add_material(run, memory, s, of, tangent, path, of->present, part));
-    subtract_loads(m, memory, of, tangent, path, part);
+    subtract_loads(run, memory, of, tangent, path, part);
     if (tangent)
         eliminate_matrix(m, s, el, of->present, part->K);
     eliminate_forces(m, s, el, part->force);
@@ -236,10 +237,11 @@ static void add_part(run_state *run, const mesh_element *el, element_part *part,
 
 static void add_discrete(run_state *run, const model_state *s, model_linearisation *lin)
 {
+    const element_rotating_frame frame = run_rotating_frame(run, lin->path);
     const model *m = run->m;
     for (int i = 0; i < m->discretes; i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(m, s, &m->discrete[i], lin->path, part.force, part.K);
+        discrete_equations(m, s, &m->discrete[i], &frame, part.force, part.K);
         add_part(run, &m->discrete[i].el, &part, lin);
         if (lin->K != NULL)
             assemble_discrete(&m->discrete[i].el, part.K, lin->K);
@@ -285,7 +287,7 @@ static status linearise_elements(run_state *run, const linear_memory *memory, co
                         .part = window > 0 ? run->part : &own,
                         .f = f};
     /* inertia counts its evaluations */
-    team *together = window > 0 && !m->rotates ? run->team : NULL;
+    team *together = window > 0 && !run->loading.rotates ? run->team : NULL;
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -297,9 +299,9 @@ static status linearise_elements(run_state *run, const linear_memory *memory, co
                &loop);
     TRY(loop.outcome);
     add_discrete(run, s, lin);
-    loads_add_at_vertices(m, s, lin->path, lin->residual);
+    loads_add_at_vertices(run, s, lin->path, lin->residual);
     if (lin->K != NULL) {
-        loads_subtract_at_vertices(m, s, lin->path, lin->K);
+        loads_subtract_at_vertices(run, s, lin->path, lin->K);
         linearise_add_held_moments(run, s, lin->path, lin->K);
     }
     phases_lap(&run->phases, PHASE_ASSEMBLY);

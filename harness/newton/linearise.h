@@ -32,7 +32,7 @@ status linearise_make_compatible(run_state *, model_state *, fault *);
 void linearise_node_force(run_state *, const model_state *, const double sigma[], int node,
                           double F[6]);
 /* out[free + driven] += forces that the stresses of these elements take, and all springs. */
-void linearise_add_internal(model *, const model_state *, int elements, const int element[],
-                            double out[]);
+void linearise_add_internal(const run_state *, const model_state *, int elements,
+                            const int element[], double out[]);
 
 #endif

@@ -14,6 +14,7 @@
 void linearise_node_force(run_state *run, const model_state *s, const double sigma[], int node,
                           double F[6])
 {
+    const element_rotating_frame frame = run_rotating_frame(run, s->path);
     const model *m = run->m;
     const double *stress = sigma != NULL ? sigma : s->sigma;
     memset(F, 0, 6 * sizeof(double));
@@ -40,7 +41,7 @@ void linearise_node_force(run_state *run, const model_state *s, const double sig
             }
         }
     }
-    discrete_node_force(m, s, node, F);
+    discrete_node_force(m, s, &frame, node, F);
     if (sigma != NULL)
         linear_springs_node_force(m, &sigma[(size_t)m->elements * (size_t)m->strains], node, F);
 }
@@ -54,7 +55,7 @@ double linearise_held_moment(run_state *run, const model_state *s, const double 
     const model *m = run->m;
     double F[6], load[6];
     linearise_node_force(run, s, sigma, node, F);
-    loads_at_node(m, s, path, node, load);
+    loads_at_node(run, s, path, node, load);
     const double moment = F[3 + axis] - load[3 + axis],
                  size = vec3_norm(F + 3) + vec3_norm(load + 3) +
                         m->size * (vec3_norm(F) + vec3_norm(load));
@@ -91,9 +92,11 @@ status linearise_held_have_potential(run_state *run, const double sigma[], doubl
     return STATUS_OK;
 }
 
-void linearise_add_internal(model *m, const model_state *s, int elements, const int element[],
-                            double out[])
+void linearise_add_internal(const run_state *run, const model_state *s, int elements,
+                            const int element[], double out[])
 {
+    const element_rotating_frame frame = run_rotating_frame(run, s->path);
+    const model *m = run->m;
     for (int k = 0; k < elements; k++) {
         const mesh_element *el = &m->element[element[k]];
         node_state x[ELEMENT_MAX_NODES];
@@ -108,7 +111,7 @@ void linearise_add_internal(model *m, const model_state *s, int elements, const 
     for (int i = m->discretes - m->springs; i < m->discretes; i++) {
         double force[MODEL_MAX_COORDINATES] = {0},
                K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-        discrete_equations(m, s, &m->discrete[i], s->path, force, K);
+        discrete_equations(m, s, &m->discrete[i], &frame, force, K);
         assemble_vector(&m->discrete[i].el, force, out);
     }
 }

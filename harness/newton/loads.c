@@ -33,43 +33,44 @@ static int lumps_of(const model *m, int analysis)
     return lumps;
 }
 
-void loads_of(model *m, int analysis)
+void loads_of(run_state *run, int analysis)
 {
+    const model *m = run->m;
     const scene_analysis *a = &m->scene->analysis[analysis];
-    m->unloaded = 0;
-    m->in_time = a->kind == SCENE_MOTION;
-    m->lumps = lumps_of(m, analysis);
-    m->held_path = 1;
+    run->loading.unloaded = 0;
+    run->loading.in_time = a->kind == SCENE_MOTION;
+    run->loading.lumps = lumps_of(m, analysis);
+    run->loading.held_path = 1;
 }
 
-void loads_hold(model *m, double path)
+void loads_hold(run_state *run, double path)
 {
-    m->held_path = path;
+    run->loading.held_path = path;
 }
 
-void loads_none(model *m)
+void loads_none(run_state *run)
 {
-    m->unloaded = 1;
+    run->loading.unloaded = 1;
 }
 
-double loads_driver_value(const model *m, const scene_driver *d, double path)
+double loads_driver_value(const run_state *run, const scene_driver *d, double path)
 {
     double at[3];
-    loads_driver_rates(m, d, path, at);
+    loads_driver_rates(run, d, path, at);
     return at[0];
 }
 
-void loads_driver_rates(const model *m, const scene_driver *d, double path, double out[3])
+void loads_driver_rates(const run_state *run, const scene_driver *d, double path, double out[3])
 {
     out[0] = out[1] = out[2] = 0;
-    if (m->unloaded)
+    if (run->loading.unloaded)
         return;
-    if (!m->in_time)
+    if (!run->loading.in_time)
         out[0] = along_path_value(d, path);
     else if (d->function.pieces > 0)
         function_at(&d->function, path, out);
     else
-        out[0] = along_path_value(d, m->held_path);
+        out[0] = along_path_value(d, run->loading.held_path);
 }
 
 /* What one load puts on vertices is added up. */
@@ -103,58 +104,65 @@ static void add_at_vertices(const model *m, const model_state *s, const scene_lo
     applied_each(m, s, load, scale, add_applied, &sum);
 }
 
-static void add_within(const model *m, const model_state *s, const scene_load *load, double scale,
-                       double out[])
+static void add_within(const run_state *run, const model_state *s, const scene_load *load,
+                       double scale, double out[])
 {
+    const model *m = run->m;
     for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++) {
         node_state x[ELEMENT_MAX_NODES];
         double forces[MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, &m->element[i], x);
-        if (!distributed_add_one(m, s, x, i, load, scale, forces, NULL))
+        if (!distributed_add_one(run, s, x, i, load, scale, forces, NULL))
             continue;
         eliminate_forces(m, s, &m->element[i], forces);
         assemble_vector(&m->element[i], forces, out);
     }
 }
 
-void loads_add_one(const model *m, const model_state *s, const scene_load *load, double scale,
+void loads_add_one(const run_state *run, const model_state *s, const scene_load *load, double scale,
                    double out[])
 {
-    if (distributed_spreads(m, load))
-        add_within(m, s, load, scale, out);
+    const model *m = run->m;
+    if (distributed_spreads(run, load))
+        add_within(run, s, load, scale, out);
     else
         add_at_vertices(m, s, load, scale, out);
 }
 
-void loads_add_at_vertices(const model *m, const model_state *s, double path, double out[])
+void loads_add_at_vertices(const run_state *run, const model_state *s, double path, double out[])
 {
+    const model *m = run->m;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (!distributed_spreads(m, load))
-            add_at_vertices(m, s, load, applied_factor(m, load, path), out);
+        if (!distributed_spreads(run, load))
+            add_at_vertices(m, s, load, applied_factor(run, load, path), out);
     }
 }
 
-void loads_add(const model *m, const model_state *s, double path, double out[])
+void loads_add(const run_state *run, const model_state *s, double path, double out[])
 {
+    const model *m = run->m;
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(m, s, &m->scene->load[i], applied_factor(m, &m->scene->load[i], path), out);
+        loads_add_one(run, s, &m->scene->load[i], applied_factor(run, &m->scene->load[i], path),
+                      out);
 }
 
-void loads_rate(const model *m, const model_state *s, double path, double out[])
+void loads_rate(const run_state *run, const model_state *s, double path, double out[])
 {
+    const model *m = run->m;
     memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(m, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
+        loads_add_one(run, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
 }
 
-void loads_stiffness_at_vertices(const model *m, const model_state *s, double path,
+void loads_stiffness_at_vertices(const run_state *run, const model_state *s, double path,
                                  loads_entry take, void *context)
 {
+    const model *m = run->m;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (!distributed_spreads(m, load))
-            applied_stiffness(m, s, load, applied_factor(m, load, path), take, context);
+        if (!distributed_spreads(run, load))
+            applied_stiffness(m, s, load, applied_factor(run, load, path), take, context);
     }
 }
 
@@ -163,20 +171,21 @@ static void into_sparse(void *K, int row, int column, double value)
     assemble_subtract(K, row, column, value);
 }
 
-void loads_subtract_at_vertices(const model *m, const model_state *s, double path, sparse *K)
+void loads_subtract_at_vertices(const run_state *run, const model_state *s, double path, sparse *K)
 {
-    loads_stiffness_at_vertices(m, s, path, into_sparse, K);
+    loads_stiffness_at_vertices(run, s, path, into_sparse, K);
 }
 
-void loads_subtract_stiffness(const model *m, const model_state *s, double path, sparse *K)
+void loads_subtract_stiffness(const run_state *run, const model_state *s, double path, sparse *K)
 {
-    loads_subtract_at_vertices(m, s, path, K);
+    const model *m = run->m;
+    loads_subtract_at_vertices(run, s, path, K);
     for (int i = 0; i < m->elements; i++) {
         node_state x[ELEMENT_MAX_NODES];
         double forces[ELEMENT_MAX_COORDINATES] = {0},
                part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, &m->element[i], x);
-        if (!distributed_add(m, s, x, i, path, forces, part))
+        if (!distributed_add(run, s, x, i, path, forces, part))
             continue;
         for (int k = 0; k < m->coordinates; k++)
             forces[k] = -forces[k];
@@ -218,14 +227,15 @@ static double skew_of(const entries_of_load *e)
     return largest;
 }
 
-status loads_have_potential(const model *m, const model_state *s, double path, fault *f)
+status loads_have_potential(const run_state *run, const model_state *s, double path, fault *f)
 {
+    const model *m = run->m;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
         entries_of_load e = {.free = m->free};
         if (load->kind != SCENE_MOMENT)
             continue;
-        applied_stiffness(m, s, load, applied_factor(m, load, path), into_list, &e);
+        applied_stiffness(m, s, load, applied_factor(run, load, path), into_list, &e);
         if (skew_of(&e) > potential * vec3_norm(load->vector))
             return fault_set(
                 f, STATUS_REFUSED,
@@ -258,6 +268,7 @@ void loads_release_moment(const model *m, const model_state *s, int node, const 
 
 /* What acts on the frame of one node is added up. */
 typedef struct sum_at_node {
+    const run_state *run;
     const model *m;
     const model_state *s;
     int node;
@@ -293,7 +304,7 @@ static void add_element_at_node(sum_at_node *sum, int element, double path)
     if (!meets)
         return;
     kinematics_gather(m, sum->s, el, x);
-    if (!distributed_add(m, sum->s, x, element, path, forces, NULL))
+    if (!distributed_add(sum->run, sum->s, x, element, path, forces, NULL))
         return;
     for (int k = 0; k < m->nodes; k++) {
         if (m->vertex[el->vertex[k]].body != sum->node)
@@ -304,32 +315,34 @@ static void add_element_at_node(sum_at_node *sum, int element, double path)
     }
 }
 
-void loads_at_node(const model *m, const model_state *s, double path, int node, double F[6])
+void loads_at_node(const run_state *run, const model_state *s, double path, int node, double F[6])
 {
-    sum_at_node sum = {m, s, node, F};
+    const model *m = run->m;
+    sum_at_node sum = {run, m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (!distributed_spreads(m, load))
-            applied_each(m, s, load, applied_factor(m, load, path), add_at_node, &sum);
+        if (!distributed_spreads(run, load))
+            applied_each(m, s, load, applied_factor(run, load, path), add_at_node, &sum);
     }
     for (int i = 0; i < m->elements; i++)
         add_element_at_node(&sum, i, path);
 }
 
-void loads_drive(const model *m, const model_state *s, double path, double dx[])
+void loads_drive(const run_state *run, const model_state *s, double path, double dx[])
 {
+    const model *m = run->m;
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] =
-                loads_driver_value(m, &m->scene->driver[d], path) - s->driver[d];
+                loads_driver_value(run, &m->scene->driver[d], path) - s->driver[d];
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
         if (v->vector_driver[0] == NONE || v->body != i)
             continue;
         double target[3], q[4], turn[3];
         for (int k = 0; k < 3; k++)
-            target[k] = loads_driver_value(m, &m->scene->driver[v->vector_driver[k]], path);
+            target[k] = loads_driver_value(run, &m->scene->driver[v->vector_driver[k]], path);
         rotation_exp(target, q);
         rotation_between(&s->q[4 * i], q, turn);
         for (int k = 0; k < 3; k++)
@@ -337,9 +350,10 @@ void loads_drive(const model *m, const model_state *s, double path, double dx[])
     }
 }
 
-int loads_conditions(const model *m, const model_state *s, double path,
+int loads_conditions(const run_state *run, const model_state *s, double path,
                      model_condition out[MODEL_MAX_CONDITIONS])
 {
+    const model *m = run->m;
     int count = 0;
     for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
         const scene_driver *u = &m->scene->driver[d];
@@ -348,25 +362,27 @@ int loads_conditions(const model *m, const model_state *s, double path,
         out[count].unknown = m->driver_coordinate[d];
         out[count].coordinate = m->driver_coordinate[u->condition_driver];
         out[count++].increment =
-            loads_driver_value(m, &m->scene->driver[u->condition_driver], path) -
+            loads_driver_value(run, &m->scene->driver[u->condition_driver], path) -
             s->driver[u->condition_driver];
     }
     return count;
 }
 
-void loads_reference(const model *m, double path, double f[])
+void loads_reference(const run_state *run, double path, double f[])
 {
+    const model *m = run->m;
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
-    loads_add(m, m->rest, path, f);
+    loads_add(run, m->rest, path, f);
 }
 
-int loads_begin(const model *m)
+int loads_begin(const run_state *run)
 {
+    const model *m = run->m;
     int begin = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        begin |= applied_factor(m, &m->scene->load[i], 0) != 0;
+        begin |= applied_factor(run, &m->scene->load[i], 0) != 0;
     for (int d = 0; d < m->scene->drivers; d++)
         begin |= m->scene->driver[d].value != NULL &&
-                 loads_driver_value(m, &m->scene->driver[d], 0) != 0;
+                 loads_driver_value(run, &m->scene->driver[d], 0) != 0;
     return begin;
 }

@@ -210,16 +210,15 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 
 static status direction(newton *n, double path, step_record *record, fault *f)
 {
-    model *m = n->c->model;
     counters *count = &n->c->run->counters;
     n->energy = NAN;
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
-    loads_drive(m, n->state, path, n->dx);
+    loads_drive(n->c->run, n->state, path, n->dx);
     if (n->c->options->newton == NEWTON_DISPLACEMENT) {
         TRY(linearise_make_compatible(n->c->run, n->state, f));
     }
     model_condition condition[MODEL_MAX_CONDITIONS];
-    const int conditions = loads_conditions(m, n->state, path, condition);
+    const int conditions = loads_conditions(n->c->run, n->state, path, condition);
     model_linearisation lin = {.path = path,
                                .drive = n->dx,
                                .K = &n->K,

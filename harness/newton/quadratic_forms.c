@@ -39,7 +39,7 @@ void quadratic_forms_free(quadratic_forms *p)
 
 status quadratic_forms_load(quadratic_forms *p, double path, int whole, fault *f)
 {
-    rotating_frame_load_stiffness(p->run->m, kinematics_rest(p->run->m), path, &p->loads);
+    rotating_frame_load_stiffness(p->run, kinematics_rest(p->run->m), path, &p->loads);
     return whole ? linear_whole_stresses(p->run, p->load_x, p->sigma, f)
                  : linear_stresses(p->run, p->load_x, p->sigma, f);
 }

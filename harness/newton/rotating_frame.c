@@ -10,23 +10,25 @@
 #include "harness/model/discrete.h"
 #include "harness/newton/equations_impl.h"
 
-void rotating_frame_set(model *m, const double omega[3], const double centre[3], int follows_path)
+void rotating_frame_set(run_state *run, const double omega[3], const double centre[3],
+                        int follows_path)
 {
-    memcpy(m->frame.omega, omega, sizeof m->frame.omega);
-    memcpy(m->frame.centre, centre, sizeof m->frame.centre);
-    m->rotation_follows_path = follows_path;
-    m->rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
+    memcpy(run->loading.frame.omega, omega, sizeof run->loading.frame.omega);
+    memcpy(run->loading.frame.centre, centre, sizeof run->loading.frame.centre);
+    run->loading.rotation_follows_path = follows_path;
+    run->loading.rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
 }
 
 static status inertia_at(run_state *run, const node_state x[], int i, double path,
                          inertia_output *out, fault *f)
 {
     const model *m = run->m;
-    const element_rotating_frame frame = model_rotating_frame(m, path);
+    const element_rotating_frame frame = run_rotating_frame(run, path);
     const mesh_kind *kind = &m->kind[m->element[i].kind];
-    const element_rotating_frame *turning = m->rotates ? &frame : NULL;
+    const element_rotating_frame *turning = run->loading.rotates ? &frame : NULL;
     status outcome;
-    if (m->scene->lumped || m->lumps != LUMPS_NOTHING) { /* as a motion that starts there does */
+    if (m->scene->lumped ||
+        run->loading.lumps != LUMPS_NOTHING) { /* as a motion that starts there does */
         const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
         outcome = lumped_element(&whole, m->nodes, m->element[i].share, x, turning, out);
     } else {
@@ -45,7 +47,7 @@ status rotating_frame_add(run_state *run, const node_state x[], int i, double pa
     const model *m = run->m;
     double centrifugal[ELEMENT_MAX_COORDINATES],
         N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    if (!m->rotates)
+    if (!run->loading.rotates)
         return STATUS_OK;
     TRY(inertia_at(run, x, i, path,
                    &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
@@ -60,6 +62,7 @@ status rotating_frame_add(run_state *run, const node_state x[], int i, double pa
 status rotating_frame_inertia(run_state *run, const model_state *state, double path, sparse *M,
                               sparse *G, fault *f)
 {
+    const element_rotating_frame frame = run_rotating_frame(run, path);
     const model *m = run->m;
     const model_state *s = state != NULL ? state : m->rest;
     const mesh_pattern *p = assemble_of(m, M);
@@ -80,7 +83,7 @@ status rotating_frame_inertia(run_state *run, const model_state *state, double p
         eliminate_matrix(m, s, &m->element[i], NULL, gyroscopic);
         assemble_matrix(p, i, gyroscopic, G);
     }
-    discrete_inertia(m, s, path, M, G);
+    discrete_inertia(m, s, &frame, M, G);
     return STATUS_OK;
 }
 
@@ -149,8 +152,9 @@ int rotating_frame_inner_matrix(model *m, sparse *out)
     return any;
 }
 
-void rotating_frame_load_stiffness(const model *m, const model_state *s, double path, sparse *out)
+void rotating_frame_load_stiffness(const run_state *run, const model_state *s, double path,
+                                   sparse *out)
 {
     sparse_zero(out);
-    loads_subtract_stiffness(m, s, path, out);
+    loads_subtract_stiffness(run, s, path, out);
 }

@@ -18,8 +18,10 @@ int rotating_frame_inner_matrix(model *, sparse *out);
 /* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times
  * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the
  * centrifugal forces and their stiffness. */
-void rotating_frame_set(model *, const double omega[3], const double centre[3], int follows_path);
+void rotating_frame_set(run_state *, const double omega[3], const double centre[3],
+                        int follows_path);
 /* What loads on offsets and moments add to K. */
-void rotating_frame_load_stiffness(const model *, const model_state *, double path, sparse *out);
+void rotating_frame_load_stiffness(const run_state *, const model_state *, double path,
+                                   sparse *out);
 
 #endif

@@ -24,7 +24,7 @@ void linear_memory_free(linear_memory *memory)
     memory->slot = NULL;
 }
 
-status run_state_begin(run_state *run, model *m, int threads, fault *f)
+status run_state_begin(run_state *run, const model *m, int threads, fault *f)
 {
     const int most = model_sizes(m).elements / ELEMENTS_OF_A_THREAD;
     memset(run, 0, sizeof *run);
@@ -42,4 +42,13 @@ void run_state_end(run_state *run)
     team_free(run->team);
     linear_memory_free(&run->memory);
     memset(run, 0, sizeof *run);
+}
+
+element_rotating_frame run_rotating_frame(const run_state *run, double path)
+{
+    element_rotating_frame frame = run->loading.frame;
+    if (run->loading.rotation_follows_path)
+        for (int i = 0; i < 3; i++)
+            frame.omega[i] *= path;
+    return frame;
 }

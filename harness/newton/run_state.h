@@ -33,11 +33,25 @@ typedef struct linear_memory {
                      linearisation */
 } linear_memory;
 
+/* What of the loads along members goes to the ends of elements. */
+enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
+
+/* What the path parameter means, what acts, and how the axes turn. */
+typedef struct loading {
+    int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
+    double held_path; /* path parameter at which those stay in time that have no such function */
+    int unloaded;     /* neither loads nor drivers act */
+    int lumps;        /* LUMPS_* */
+    element_rotating_frame frame; /* its velocity times the path if that is followed */
+    int rotates, rotation_follows_path;
+} loading;
+
 struct run_ahead;
 struct element_part;
 
 typedef struct run_state {
-    model *m;
+    const model *m;
+    loading loading;
     counters counters;
     phases phases;
     team *team;                /* of the loop over elements; NULL: one thread */
@@ -53,7 +67,9 @@ void linear_memory_free(linear_memory *);
 
 /* Of a model, nothing done yet. threads share the loop over elements; 0, 1: one. Sums keep their
  * order: results do not depend on it. */
-status run_state_begin(run_state *, model *, int threads, fault *);
+status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
+/* How the frame turns at that path parameter. */
+element_rotating_frame run_rotating_frame(const run_state *, double path);
 
 #endif

@@ -81,10 +81,10 @@ static int has_no_number(const sparse *K)
 
 /* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: LOST
  * where it has no digits to spare, NO_NUMBER where entries are none. */
-static double condition_at_rest(const analysis_context *c, run_state *run, int *lost)
+static double condition_at_rest(const analysis_context *c, model *m, run_state *run, int *lost)
 {
     const counters work = run->counters;
-    analysis_context one = {.scene = c->scene, .model = run->m, .run = run, .options = c->options};
+    analysis_context one = {.scene = c->scene, .model = m, .run = run, .options = c->options};
     linear_system s;
     double condition = 1;
     const status outcome = linear_system_alloc(&one, &s, NULL);
@@ -111,7 +111,7 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     *lost = 0;
     if (model_coarse(c->model, &coarse, NULL) == STATUS_OK &&
         run_state_begin(&run, coarse, 1, NULL) == STATUS_OK) {
-        condition = condition_at_rest(c, &run, lost);
+        condition = condition_at_rest(c, coarse, &run, lost);
         *elements = model_sizes(coarse).elements;
     }
     run_state_end(&run);
@@ -148,7 +148,7 @@ void singular_explain(analysis_context *c, fault *f)
     }
     if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)
         return;
-    condition_at_rest(c, c->run, &lost);
+    condition_at_rest(c, c->model, c->run, &lost);
     if (lost == NO_NUMBER)
         fault_set(f, STATUS_SINGULAR,
                   "the formulation returned what is no number: look at its energy, stresses or "

@@ -57,6 +57,7 @@ double stiffness_parts_material_rounding(const model *m, const linear_memory *me
 status stiffness_parts_geometric(run_state *run, const linear_memory *memory, const model_state *s,
                                  sparse *G, fault *f)
 {
+    const element_rotating_frame frame = run_rotating_frame(run, s->path);
     const model *m = run->m;
     const mesh_pattern *p = assemble_of(m, G);
     status outcome = STATUS_OK;
@@ -72,7 +73,7 @@ status stiffness_parts_geometric(run_state *run, const linear_memory *memory, co
         kinematics_gather(m, s, el, x);
         ahead_strain(run, i, x, &(strain_output){.s = sigma, .H = H});
         run->counters.strain_evaluations++;
-        if (m->rotates) {
+        if (run->loading.rotates) {
             outcome = rotating_frame_add(run, x, i, s->path, present, H, f);
         }
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
@@ -81,8 +82,8 @@ status stiffness_parts_geometric(run_state *run, const linear_memory *memory, co
     }
     ahead_end(run);
     TRY(outcome);
-    discrete_geometric(m, s, s->path, G);
-    loads_subtract_stiffness(m, s, s->path, G);
+    discrete_geometric(m, s, &frame, G);
+    loads_subtract_stiffness(run, s, s->path, G);
     linearise_add_held_moments(run, s, s->path, G);
     return STATUS_OK;
 }

@@ -60,7 +60,7 @@ static status add_element(run_state *run, const model_state *state, int i, doubl
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
     const stress_output stresses = {.sigma = P, .C = C};
     status outcome;
-    if (!m->takes || !distributed_stress(m, state, x, i, path, &stresses, &outcome))
+    if (!m->takes || !distributed_stress(run, state, x, i, path, &stresses, &outcome))
         outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
                                   &(stress_output){.sigma = P, .C = C});
     run->counters.strain_evaluations++;
@@ -70,7 +70,7 @@ static status add_element(run_state *run, const model_state *state, int i, doubl
                          scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
     dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
     TRY(rotating_frame_add(run, x, i, path, force, H, f));
-    distributed_add(m, state, x, i, path, along, H);
+    distributed_add(run, state, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     eliminate_matrix(m, state, el, force, H);
@@ -114,12 +114,14 @@ static void put_load(void *context, int row, int column, double value)
     put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
 }
 
-static void add_discrete(const model *m, const model_state *state, const mesh_discrete *d,
+static void add_discrete(const run_state *run, const model_state *state, const mesh_discrete *d,
                          double path, uncondensed *s)
 {
+    const element_rotating_frame frame = run_rotating_frame(run, path);
+    const model *m = run->m;
     const int n = d->el.columns;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    discrete_equations(m, state, d, path, force, K);
+    discrete_equations(m, state, d, &frame, force, K);
     for (int a = 0; a < n; a++) {
         const int row = d->el.index[a] < m->free ? d->el.index[a] : NONE;
         if (row != NONE)
@@ -138,16 +140,16 @@ status uncondensed_system(run_state *run, const model_state *state, double path,
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
-    loads_add_at_vertices(m, state, path, load);
+    loads_add_at_vertices(run, state, path, load);
     memcpy(b, load, (size_t)m->free * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
-    loads_add(m, state, path, load);
+    loads_add(run, state, path, load);
     for (int i = 0; i < m->elements; i++) {
         TRY(add_element(run, state, i, path, &s, f));
     }
-    loads_stiffness_at_vertices(m, state, path, put_load, &(load_part){m, &s});
+    loads_stiffness_at_vertices(run, state, path, put_load, &(load_part){m, &s});
     for (int i = 0; i < m->discretes; i++) {
-        add_discrete(m, state, &m->discrete[i], path, &s);
+        add_discrete(run, state, &m->discrete[i], path, &s);
     }
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;

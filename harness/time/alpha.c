@@ -119,7 +119,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
                      .v = to->v,
                      .a = to->a};
     relate(s, from, h, &r);
-    drive_at(m, from->state, time, s->inc, to->v, to->a);
+    drive_at(s->stage.c->run, from->state, time, s->inc, to->v, to->a);
     kinematics_state_copy(m, from->state, to->state);
     relate_strains(s, from, h, to);
     instant_recall(from, &s->stage.arrival);

@@ -5,6 +5,7 @@
 #ifndef BEAMWORK_BETWEEN_H
 #define BEAMWORK_BETWEEN_H
 
+#include "harness/newton/run_state.h"
 #include "harness/time/instant.h"
 
 typedef enum between_degree {
@@ -13,6 +14,7 @@ typedef enum between_degree {
 } between_degree;
 
 typedef struct between {
+    const run_state *run;
     const model *m;
     const instant *from, *to;
     between_degree degree;
@@ -20,7 +22,7 @@ typedef struct between {
     double *room; /* [3 x (free + driven)] */
 } between;
 
-status between_alloc(const model *, between *, fault *);
+status between_alloc(const run_state *, between *, fault *);
 void between_free(between *);
 /* Of the step; both instants stay as they are as long as it is read. */
 void between_take(between *, between_degree, const instant *from, const instant *to);

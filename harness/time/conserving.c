@@ -134,7 +134,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     instant_remember(&s->arrival, to);
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
-    drive_at(m, from->state, record->path, NULL, to->v, to->a);
+    drive_at(s->of.c->run, from->state, record->path, NULL, to->v, to->a);
     conserving_damped(s, from, h, to);
     to->time = record->path;
     to->work += conserving_impulses(s, from, h, to);

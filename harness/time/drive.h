@@ -2,13 +2,13 @@
 #ifndef BEAMWORK_DRIVE_H
 #define BEAMWORK_DRIVE_H
 
-#include "harness/model/model.h"
+#include "harness/newton/run_state.h"
 
 /* REFUSED: an unknown driver has no motion in time. */
 status drive_check(const model *, fault *);
 /* Entries [free, free + driven) of inc (from the state), v and a at `time`; each NULL: not wanted.
  */
-void drive_at(const model *, const model_state *from, double time, double inc[], double v[],
+void drive_at(const run_state *, const model_state *from, double time, double inc[], double v[],
               double a[]);
 
 #endif

@@ -95,7 +95,7 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
     }
     memcpy(s->inc, y, (size_t)s->free * sizeof *s->inc);
     memcpy(s->at->v, y + s->free, (size_t)s->free * sizeof *s->at->v);
-    drive_at(m, s->from->state, time, s->inc, s->at->v, s->at->a);
+    drive_at(s->of.c->run, s->from->state, time, s->inc, s->at->v, s->at->a);
     increment_apply(m, s->from->state, s->inc, time, s->at->state);
     s->outcome = accelerations(s, time, &s->why);
     if (s->outcome != STATUS_OK)

@@ -305,7 +305,7 @@ static status solve(motion *w, fault *f)
     TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
                                       : carried_alloc(m, &w->masses, f));
     TRY(damping_begin(w->c->model, &w->damping, f));
-    TRY(work_alloc(w->c->model, &w->masses, &w->work, f));
+    TRY(work_alloc(w->c->run, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     w->rounding = balance_rounding(m);
     TRY(integrator_alloc(&request, &w->scheme, f));
@@ -327,7 +327,8 @@ static status solve(motion *w, fault *f)
                        .out = w->out};
     TRY(peaks_alloc(&w->peaks, f));
     TRY(begin(w, &frame, f));
-    w->frames = (frames){.m = m,
+    w->frames = (frames){.run = w->c->run,
+                         .m = m,
                          .to = &w->out->frames,
                          .begin = w->now.time,
                          .end = w->how->path.value[w->how->path.stations - 1]};

@@ -89,7 +89,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
         const double t = r->node[i] * h, time = radau_time(r, from, h, i, record);
         for (int c = 0; c < r->free; c++)
             one->inc[c] = t * from->v[c] + t * t / 2 * from->a[c];
-        drive_at(m, from->state, time, one->inc, one->v, one->a);
+        drive_at(r->of.c->run, from->state, time, one->inc, one->v, one->a);
         kinematics_state_copy(m, from->state, one->state);
         increment_apply(m, from->state, one->inc, time, one->state);
     }

@@ -21,7 +21,7 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
         }
         room->a[c] = -(rates + g * positions);
     }
-    drive_at(m, from->state, from->time, NULL, NULL, room->a);
+    drive_at(r->of.c->run, from->state, from->time, NULL, NULL, room->a);
     memset(still, 0, (size_t)r->all * sizeof *still);
     const inertia_relation with = {g * g, 0, still};
     radau_damp_error(r, from, h, e, g, room->strain);

@@ -95,7 +95,7 @@ static status reaction_of(run_state *run, const scene_component *what, const mod
     const model *m = run->m;
     double F[6], L[6];
     linearise_node_force(run, s, NULL, what->node, F);
-    loads_at_node(m, s, kinematics_state_path(s), what->node, L);
+    loads_at_node(run, s, kinematics_state_path(s), what->node, L);
     if (motion->v != NULL)
         TRY(shares_node(m, s, motion, what->node, F, f));
     *out = F[what->component] - L[what->component];

@@ -6,13 +6,14 @@
 #include "harness/time/instant.h"
 
 typedef struct work {
-    model *m;
+    run_state *run;
+    const model *m;
     const carried *masses;
     double *force, *holding; /* [free + driven] room */
     int elements, *element;  /* that driven coordinates move */
 } work;
 
-status work_alloc(model *, const carried *, work *, fault *);
+status work_alloc(run_state *, const carried *, work *, fault *);
 void work_free(work *);
 
 /* Power [W] at rates v (or work [J] along increments, rotations by vectors in the frames' axes):

@@ -61,8 +61,10 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
                              const double path[], double to)
 {
     predictor t;
+    run_state run;
     model_state *s, *exact;
     fault f = {""};
+    run_state_begin(&run, m, 1, NULL);
     gsl_test(predictor_alloc(m, &t, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &s, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &exact, &f) != STATUS_OK,
@@ -70,9 +72,10 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     for (int i = 0; i < count; i++) {
         fill(m, degree, fabs(path[i] - kink), s);
         s->path = path[i];
-        gsl_test(predictor_add(m, s, 3, &t, &f) != STATUS_OK, "a state: %s", f.text);
+        gsl_test(predictor_add(&run, s, 3, &t, &f) != STATUS_OK, "a state: %s", f.text);
     }
-    predictor_guess(m, &t, to, s);
+    predictor_guess(&run, &t, to, s);
+    run_state_end(&run);
     fill(m, degree, fabs(to - kink), exact);
     const double error = apart(m, s, exact);
     predictor_free(&t);

@@ -20,7 +20,10 @@ static void stiffness(int body)
     gsl_test(assemble_pattern_of_states(s.m, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
-    rotating_frame_load_stiffness(s.m, s.turned, 1, &K);
+    run_state run;
+    run_state_begin(&run, s.m, 1, NULL);
+    rotating_frame_load_stiffness(&run, s.turned, 1, &K);
+    run_state_end(&run);
     double largest = 0;
     for (int j = 0; j < s.n; j++)
         for (int k = K.column[j]; k < K.column[j + 1]; k++) {
@@ -56,7 +59,10 @@ static void stiffness_of_angles(int body, scene_load_kind kind, int follower, co
              "pattern");
     gsl_test((follower || kind == SCENE_MOMENT) && K.symmetric, "%s: an unsymmetric pattern",
              turned_body_name[body]);
-    rotating_frame_load_stiffness(s.m, s.turned, 1, &K);
+    run_state run;
+    run_state_begin(&run, s.m, 1, NULL);
+    rotating_frame_load_stiffness(&run, s.turned, 1, &K);
+    run_state_end(&run);
     for (int j = 0; j < s.n; j++) {
         double load[2][MOST];
         for (int side = 0; side < 2; side++) {

@@ -32,12 +32,12 @@ static void forces_along(int what, const char *name, double path, int follows, i
     gsl_test(formulation_parse(name, &chosen, &f) != STATUS_OK, "%s", f.text);
     const model_request request = {&s, chosen.type, chosen.option, 1, 0};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s: %s", name, f.text);
-    if (what == SPIN)
-        rotating_frame_set(m, z, origin, follows);
     double residual[MOST];
     run_state run;
     model_linearisation lin = {.path = path, .residual = residual};
     run_state_begin(&run, m, 1, NULL);
+    if (what == SPIN)
+        rotating_frame_set(&run, z, origin, follows);
     gsl_test(linearise_state(&run, &run.memory, kinematics_rest(m), &lin, &f) != STATUS_OK,
              "%s: %s", name, f.text);
     run_state_end(&run);

@@ -36,7 +36,10 @@ static void conjugate(int body, scene_load_kind kind)
     for (int i = 0; i < 3; i++)
         arm[i] = edge[i] - at[i];
     vec3_cross(arm, s.scene.load[0].vector, moment);
-    loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
+    run_state run;
+    run_state_begin(&run, s.m, 1, NULL);
+    loads_at_node(&run, s.turned, kinematics_state_path(s.turned), 1, F);
+    run_state_end(&run);
     for (int i = 0; i < 3; i++) {
         const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0,
                      m = kind == SCENE_FORCE ? moment[i] : v;
@@ -65,20 +68,23 @@ static void rates(void)
         double path, rate;
     } row[] = {{-1, 0}, {0, 2}, {0.5, 2}, {1, -0.5}, {2, -0.5}, {3, 0}, {4, 0}};
     turned_body s;
+    run_state run;
     double unit[MOST], out[MOST];
     turned_body_prepare(FREE_TURNS, SCENE_FORCE, &s);
     turned_body_loads(&s, unit);
-    loads_rate(s.m, s.turned, 0.3, out);
+    run_state_begin(&run, s.m, 1, NULL);
+    loads_rate(&run, s.turned, 0.3, out);
     for (int k = 0; k < s.n; k++)
         gsl_test_abs(out[k], unit[k], 1e-11, "proportional load: its rate is itself");
     follow_stations(&s.scene.load[0], path, value);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        loads_rate(s.m, s.turned, row[i].path, out);
+        loads_rate(&run, s.turned, row[i].path, out);
         for (int k = 0; k < s.n; k++)
             gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11),
                      "rate at path %g: %g of the load, not %g", row[i].path, out[k] / unit[k],
                      row[i].rate);
     }
+    run_state_end(&run);
     turned_body_release(&s);
 }
 
@@ -100,8 +106,8 @@ static void factors(void)
         run_state_begin(&run, s.m, 1, NULL);
         linearise_state(&run, &run.memory, s.turned, &lin, &f);
         advance_state(&run, &run.memory, s.turned, dx, row[i][0], NULL);
+        loads_at_node(&run, s.turned, kinematics_state_path(s.turned), 1, F);
         run_state_end(&run);
-        loads_at_node(s.m, s.turned, kinematics_state_path(s.turned), 1, F);
         gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
                      row[i][0]);
     }
@@ -132,7 +138,10 @@ static void reference(void)
     gsl_test(!good, "%s", f.text);
     if (!good)
         return;
-    loads_reference(m, at, out);
+    run_state run;
+    run_state_begin(&run, m, 1, NULL);
+    loads_reference(&run, at, out);
+    run_state_end(&run);
     for (int i = 0; i < 2; i++)
         gsl_test_abs(out[kinematics_coordinate(m, tip, SCENE_UX + i)], expected[i], 1e-14,
                      "load %d at path %g", i, at);

@@ -57,13 +57,15 @@ static void run(const moving_one *o, between_degree degree)
     const double h = 0.3;
     instant from, to, at;
     between inside;
+    run_state loaded;
     fault f = {""};
     uint64_t seed = 31;
     double inc[MOST];
+    run_state_begin(&loaded, o->m, 1, NULL);
     gsl_test(instant_alloc(o->m, &from, &f) != STATUS_OK ||
                  instant_alloc(o->m, &to, &f) != STATUS_OK ||
                  instant_alloc(o->m, &at, &f) != STATUS_OK ||
-                 between_alloc(o->m, &inside, &f) != STATUS_OK,
+                 between_alloc(&loaded, &inside, &f) != STATUS_OK,
              "%s", f.text);
     kinematics_state_copy(o->m, o->now, from.state);
     some(o->all, 0.4, &seed, inc);
@@ -89,6 +91,7 @@ static void run(const moving_one *o, between_degree degree)
     gsl_test(!(places_apart(o->m, at.state, from.state) > 0.01), "%s: half of the way",
              o->m->type->name);
     between_free(&inside);
+    run_state_end(&loaded);
     instant_free(&from);
     instant_free(&to);
     instant_free(&at);

@@ -28,26 +28,27 @@ static void build_driven(scene *s)
 }
 
 /* From a state to a time. */
-static void go(const model *m, const model_state *from, double time, model_state *to,
+static void go(const run_state *run, const model_state *from, double time, model_state *to,
                frame_rates *r)
 {
+    const model *m = run->m;
     double inc[MOST] = {0}, v[MOST] = {0}, a[MOST] = {0};
-    drive_at(m, from, time, inc, v, a);
+    drive_at(run, from, time, inc, v, a);
     increment_apply(m, from, inc, time, to);
     forms_rates(m, to, 0, v, a, r);
 }
 
 /* What is driven at a time, from a state. */
-static void check(const model *m, const model_state *from, double t, model_state *to)
+static void check(const run_state *run, const model_state *from, double t, model_state *to)
 {
     const double dt = 1e-4;
     frame_rates at, before, after;
     double q[2][4], turn[3], expected[4];
-    go(m, from, t - dt, to, &before);
+    go(run, from, t - dt, to, &before);
     memcpy(q[0], to->q, sizeof q[0]);
-    go(m, from, t + dt, to, &after);
+    go(run, from, t + dt, to, &after);
     memcpy(q[1], to->q, sizeof q[1]);
-    go(m, from, t, to, &at);
+    go(run, from, t, to, &at);
     rotation_exp((const double[]){0.3 + sin(2 * t), 0.5 * t * t - 0.2, cos(3 * t)}, expected);
     rotation_between(expected, to->q, turn);
     gsl_test(!(vec3_norm(turn) < 1e-13), "turned otherwise by %g rad", vec3_norm(turn));
@@ -66,6 +67,7 @@ int main(void)
 {
     scene s;
     model *m;
+    run_state run;
     model_state *now = NULL, *to = NULL;
     formulation chosen;
     frame_rates at;
@@ -75,15 +77,17 @@ int main(void)
     const model_request request = {
         .scene = &s, .type = &element_collocation, .options = chosen.option, .elements = 1};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s", f.text);
-    m->in_time = 1;
+    gsl_test(run_state_begin(&run, m, 1, &f) != STATUS_OK, "%s", f.text);
+    run.loading.in_time = 1;
     gsl_test(kinematics_state_alloc(m, &now, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &to, &f) != STATUS_OK,
              "%s", f.text);
-    go(m, kinematics_rest(m), 0.4, now, &at);
-    check(m, kinematics_rest(m), 0.7, to);
-    check(m, now, 0.7, to);
+    go(&run, kinematics_rest(m), 0.4, now, &at);
+    check(&run, kinematics_rest(m), 0.7, to);
+    check(&run, now, 0.7, to);
     kinematics_state_free(now);
     kinematics_state_free(to);
+    run_state_end(&run);
     model_free(m);
     scene_free(&s);
     return gsl_test_summary();

@@ -49,7 +49,7 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
                               .options = &f->options,
                               .result = &f->result};
     f->how = *scene_motion_of(&f->scene.analysis[f->scene.analyses - 1]);
-    f->m->in_time = 1;
+    f->run.loading.in_time = 1;
     TRY(carried_alloc(f->m, &f->masses, &f->why));
     const scheme_request asked = {.c = &f->c, .masses = &f->masses, .how = &f->how};
     TRY(conserving_alloc(&asked, &f->scheme, &f->why));

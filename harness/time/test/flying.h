@@ -44,7 +44,7 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
     const scene_motion *how = scene_motion_of(&s->analysis[0]);
     TRY(carried_alloc(f->m, &f->masses, &f->why));
     TRY(damping_begin(f->m, &f->damping, &f->why));
-    TRY(work_alloc(f->m, &f->masses, &f->work, &f->why));
+    TRY(work_alloc(&f->run, &f->masses, &f->work, &f->why));
     const scheme_request request = {
         .c = &f->c, .masses = &f->masses, .how = how, .work = &f->work, .estimate = 1};
     TRY(integrator_alloc(&request, &f->scheme, &f->why));

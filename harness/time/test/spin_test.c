@@ -159,7 +159,7 @@ static void pull(flight *f)
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] =
-                loads_driver_value(m, &m->scene->driver[d], 0) - f->now.state->driver[d];
+                loads_driver_value(&f->run, &m->scene->driver[d], 0) - f->now.state->driver[d];
     increment_apply(m, f->now.state, dx, 0, f->next.state);
     instant_copy(m, &f->next, &f->now);
     free(dx);
