@@ -43,7 +43,7 @@ status flutter_motions(const newton *n, flutter_system *s, int wanted, int estim
     if (!s->massless)
         TRY(rotating_frame_inertia(n->c->run, n->state, 0, &s->M, NULL, f));
     if (s->damped)
-        TRY(damping_matrix(n->c->model, n->state, &s->C, f));
+        TRY(damping_matrix(n->c->run, n->state, &s->C, f));
     const status found = unsymmetric_solve(&p, r, f);
     n->c->run->counters.solutions += r->solutions;
     return found;

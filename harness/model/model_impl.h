@@ -102,14 +102,6 @@ typedef struct mesh_pattern {
     const mesh_element *element; /* of the model */
 } mesh_pattern;
 
-/* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/damping.h. */
-typedef struct mesh_damping {
-    double *stiffness;          /* [kinds x strains^2] S0 */
-    double *none;               /* [elements x strains] zero */
-    double g;                   /* e' = known + g (e - from) */
-    const double *known, *from; /* [elements x strains] */
-} mesh_damping;
-
 struct model {
     const scene *scene;
     const element_type *given; /* as its file has it */
@@ -143,7 +135,6 @@ struct model {
     mesh_pattern pattern[5]; /* those of assemble.h */
     int work_size;           /* of an element in a linear_memory: harness/newton/run_state.h */
     model_state *rest;       /* undeformed */
-    mesh_damping *damping;   /* of a motion; NULL: none */
     int takes;               /* elements take loads along them (element_type.along) */
     int lines;
     char **line; /* what was left out */

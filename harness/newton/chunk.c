@@ -206,9 +206,10 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
 }
 
 /* The strains' rates, of those that the linearised equations have without a motion. */
-static void damp(const model *m, const linear_memory *memory, const model_state *s, int index)
+static void damp(const run_state *run, const linear_memory *memory, const model_state *s, int index)
 {
-    const mesh_damping *d = m->damping;
+    const model *m = run->m;
+    const run_damping *d = run->damping;
     const double eta = m->scene->member[m->element[index].member].damping;
     const size_t n = (size_t)m->strains, first = (size_t)index * n;
     const double *S = d->stiffness + (size_t)m->element[index].kind * n * n;
@@ -242,7 +243,7 @@ void chunk_evaluate(const run_state *run, const linear_memory *memory, const mod
             linearise_slot(m, memory, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
     if (together && m->type->equations_many != NULL && !run->loading.rotates &&
-        m->damping == NULL && !m->takes) {
+        run->damping == NULL && !m->takes) {
         equations_together(m, memory, s, count, element);
         return;
     }
@@ -258,6 +259,6 @@ void chunk_evaluate(const run_state *run, const linear_memory *memory, const mod
         stresses_under_loads(m, memory, s, count, element);
     for (int k = 0; k < count; k++)
         mix(m, memory, s, element[k].index, deformed[k]);
-    for (int k = 0; k < count && m->damping != NULL; k++)
-        damp(m, memory, s, element[k].index);
+    for (int k = 0; k < count && run->damping != NULL; k++)
+        damp(run, memory, s, element[k].index);
 }

@@ -46,6 +46,14 @@ typedef struct loading {
     int rotates, rotation_follows_path;
 } loading;
 
+/* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/damping.h. */
+typedef struct run_damping {
+    double *stiffness;          /* [kinds x strains^2] S0 */
+    double *none;               /* [elements x strains] zero */
+    double g;                   /* e' = known + g (e - from) */
+    const double *known, *from; /* [elements x strains] */
+} run_damping;
+
 struct run_ahead;
 struct element_part;
 
@@ -59,6 +67,7 @@ typedef struct run_state {
                                   yet: equations_impl.h */
     struct run_ahead *ahead;   /* one block; NULL: nothing has been evaluated ahead: ahead.h */
     run_undeformed undeformed;
+    run_damping *damping; /* of a motion; NULL: none */
     linear_memory memory; /* of those who linearise one state at a time */
 } run_state;
 

@@ -181,7 +181,7 @@ static const double *goal_of(const complement *c, const model_state *s, int elem
     const model *m = c->m;
     const size_t first = (size_t)element * (size_t)m->strains;
     double C[MOST * MOST], de[MOST], more[MOST];
-    if (m->damping == NULL || m->scene->member[m->element[element].member].damping == 0)
+    if (c->run->damping == NULL || m->scene->member[m->element[element].member].damping == 0)
         return s->sigma + first;
     c->run->counters.stress_evaluations++;
     if (m->type->stress(m->kind[m->element[element].kind].data, c->before + first, NULL,

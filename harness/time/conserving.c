@@ -186,7 +186,7 @@ static status allocate(conserving *s, fault *f)
     const int nodes = m->nodes > 2 || m->springs == 0 ? m->nodes : 2;
     const size_t all = (size_t)s->all + 1, count = (size_t)deformable_count(s) + 1,
                  strains = (size_t)s->strains,
-                 elastic = m->damping != NULL ? (size_t)(m->elements * m->strains) : 0;
+                 elastic = s->of.c->run->damping != NULL ? (size_t)(m->elements * m->strains) : 0;
     s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + m->memory + 1;
     s->step = calloc(6 * all, sizeof *s->step);
     s->W = calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +

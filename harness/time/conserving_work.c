@@ -38,7 +38,7 @@ static int moves_by_drivers(const conserving *s)
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
-    for (int i = 0; i < s->of.c->model->elements && s->of.c->model->damping != NULL; i++) {
+    for (int i = 0; i < s->of.c->model->elements && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, now, i);
         if (of.S != NULL)
             sum += of.damping / s->h * dense_quadratic(of.strains, of.S, of.d);
@@ -79,7 +79,7 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
-    for (int i = 0; i < m->elements && m->damping != NULL; i++) {
+    for (int i = 0; i < m->elements && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, to->state, i);
         const int first = i * m->strains;
         double *r = to->strain + first, *rate2 = to->strain2 + first, more[DEFORMABLE_STRAINS];

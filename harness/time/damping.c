@@ -17,8 +17,9 @@ int damping_acts(const scene *s)
     return 0;
 }
 
-status damping_begin(model *m, mesh_damping *d, fault *f)
+status damping_begin(run_state *run, run_damping *d, fault *f)
 {
+    const model *m = run->m;
     const size_t n = (size_t)m->strains, all = (size_t)m->elements * n;
     memset(d, 0, sizeof *d);
     if (!damping_acts(m->scene))
@@ -37,37 +38,38 @@ status damping_begin(model *m, mesh_damping *d, fault *f)
             return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
                              m->type->name);
     }
-    m->damping = d;
-    damping_follow(m, 0, d->none, d->none);
+    run->damping = d;
+    damping_follow(run, 0, d->none, d->none);
     return STATUS_OK;
 }
 
-void damping_end(model *m, mesh_damping *d)
+void damping_end(run_state *run, run_damping *d)
 {
-    m->damping = NULL;
+    run->damping = NULL;
     free(d->stiffness);
     free(d->none);
 }
 
-void damping_follow(model *m, double g, const double known[], const double from[])
+void damping_follow(run_state *run, double g, const double known[], const double from[])
 {
-    if (m->damping == NULL)
+    if (run->damping == NULL)
         return;
-    m->damping->g = g;
-    m->damping->known = known;
-    m->damping->from = from;
+    run->damping->g = g;
+    run->damping->known = known;
+    run->damping->from = from;
 }
 
-status damping_matrix(model *m, const model_state *s, sparse *C, fault *f)
+status damping_matrix(run_state *run, const model_state *s, sparse *C, fault *f)
 {
+    const model *m = run->m;
     enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
     const mesh_pattern *p = assemble_of(m, C);
-    mesh_damping *const before = m->damping;
-    mesh_damping d;
+    run_damping *const before = run->damping;
+    run_damping d;
     sparse_zero(C);
-    m->damping = NULL;
-    const status begun = damping_begin(m, &d, f);
-    for (int i = 0; begun == STATUS_OK && m->damping != NULL && i < m->elements; i++) {
+    run->damping = NULL;
+    const status begun = damping_begin(run, &d, f);
+    for (int i = 0; begun == STATUS_OK && run->damping != NULL && i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
         const double eta = m->scene->member[el->member].damping;
         const size_t n = (size_t)m->strains;
@@ -83,8 +85,8 @@ status damping_matrix(model *m, const model_state *s, sparse *C, fault *f)
         eliminate_matrix(m, s, el, NULL, A);
         assemble_matrix(p, i, A, C);
     }
-    damping_end(m, &d);
-    m->damping = before;
+    damping_end(run, &d);
+    run->damping = before;
     return begun;
 }
 
@@ -125,24 +127,26 @@ status damping_rates(const model *m, const model_state *s, const double v[], dou
     return STATUS_OK;
 }
 
-status damping_now(model *m, instant *now, fault *f)
+status damping_now(run_state *run, instant *now, fault *f)
 {
+    const model *m = run->m;
     if (now->strain == NULL)
         return STATUS_OK;
     TRY(damping_rates(m, now->state, now->v, now->strain, f));
     memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
-    damping_follow(m, 0, now->strain, kinematics_strains(now->state));
+    damping_follow(run, 0, now->strain, kinematics_strains(now->state));
     return STATUS_OK;
 }
 
-double damping_power(const model *m, const double rate[])
+double damping_power(const run_state *run, const double rate[])
 {
+    const model *m = run->m;
     const size_t n = (size_t)m->strains;
     double sum = 0;
     for (int i = 0; i < m->elements; i++)
-        sum +=
-            m->scene->member[m->element[i].member].damping *
-            dense_quadratic(m->strains, m->damping->stiffness + (size_t)m->element[i].kind * n * n,
-                            rate + (size_t)i * n);
+        sum += m->scene->member[m->element[i].member].damping *
+               dense_quadratic(m->strains,
+                               run->damping->stiffness + (size_t)m->element[i].kind * n * n,
+                               rate + (size_t)i * n);
     return sum;
 }

@@ -4,25 +4,26 @@
 #define BEAMWORK_DAMPING_H
 
 #include "harness/model/model_impl.h"
+#include "harness/newton/run_state.h"
 #include "harness/time/instant.h"
 
 /* Is any member of the scene damped? */
 int damping_acts(const scene *);
-/* S0 of all kinds, and from here on its share of the model's stresses, with rates that stay zero
+/* S0 of all kinds, and from here on its share of the run's stresses, with rates that stay zero
  * until they are set. Nothing where no member is damped. */
-status damping_begin(model *, mesh_damping *, fault *);
-void damping_end(model *, mesh_damping *);
+status damping_begin(run_state *, run_damping *, fault *);
+void damping_end(run_state *, run_damping *);
 
 /* C of small motions about a state, on a pattern of assemble.h. */
-status damping_matrix(model *, const model_state *, sparse *C, fault *);
+status damping_matrix(run_state *, const model_state *, sparse *C, fault *);
 
 /* Rates of the strains now: known + g (e - from); all [elements x strains]. */
-void damping_follow(model *, double g, const double known[], const double from[]);
+void damping_follow(run_state *, double g, const double known[], const double from[]);
 /* e' = J x' at rates v[free + driven] -> rate[elements x strains]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
 /* Rates of the strains by those of the coordinates, which stay; nothing where nothing is damped. */
-status damping_now(model *, instant *, fault *);
+status damping_now(run_state *, instant *, fault *);
 /* Power that rates of strains lose [W]. */
-double damping_power(const model *, const double rate[]);
+double damping_power(const run_state *, const double rate[]);
 
 #endif

@@ -38,9 +38,9 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
         of.e = now->e + first;
         of.sigma = now->sigma + first;
         of.length = m->kind[of.el->kind].length;
-        of.damping = m->damping != NULL ? m->scene->member[of.el->member].damping : 0;
+        of.damping = s->of.c->run->damping != NULL ? m->scene->member[of.el->member].damping : 0;
         if (of.damping > 0)
-            of.S = m->damping->stiffness +
+            of.S = s->of.c->run->damping->stiffness +
                    (size_t)of.el->kind * (size_t)m->strains * (size_t)m->strains;
     } else {
         double *own = s->spring + (size_t)(3 * SPRING_STRAINS * spring);

@@ -150,7 +150,7 @@ static status begin(stage *s, const scene_motion *how, instant *now, instant *ro
 {
     model *m = s->c->model;
     int massless;
-    TRY(damping_now(m, now, f));
+    TRY(damping_now(s->c->run, now, f));
     drive_at(s->c->run, now->state, now->time, inc, now->v, now->a);
     TRY(check_drivers(m, inc, f));
     TRY(massless_count(m, s->masses, now->state, &massless, f));

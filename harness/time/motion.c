@@ -37,7 +37,7 @@ typedef struct motion {
     double path;             /* parameter of the state that it starts from; NAN: it has none */
     const outcome_end *from; /* where the motion stopped that this one goes on from; NULL: none */
     carried masses;
-    mesh_damping damping;
+    run_damping damping;
     work work;
     scheme *scheme;
     instant now, next;
@@ -304,7 +304,7 @@ static status solve(motion *w, fault *f)
     TRY(checks_of(w->c, w->analysis, f));
     TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
                                       : carried_alloc(m, &w->masses, f));
-    TRY(damping_begin(w->c->model, &w->damping, f));
+    TRY(damping_begin(w->c->run, &w->damping, f));
     TRY(work_alloc(w->c->run, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     w->rounding = balance_rounding(m);
@@ -358,7 +358,7 @@ static void release(motion *w)
     integrator_free(w->scheme);
     carried_free(&w->masses);
     work_free(&w->work);
-    damping_end(w->c->model, &w->damping);
+    damping_end(w->c->run, &w->damping);
 }
 
 /* Once, with a guess of its extent; *again: it was less, and there is a better guess. */

@@ -116,10 +116,9 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
                    step_record *record, fault *f)
 {
     radau *r = (radau *)base;
-    model *m = r->of.c->model;
     *error = 0;
-    if (m->damping != NULL) /* stages add theirs by themselves */
-        damping_follow(m, 0, m->damping->none, m->damping->none);
+    if (r->of.c->run->damping != NULL) /* stages add theirs by themselves */
+        damping_follow(r->of.c->run, 0, r->of.c->run->damping->none, r->of.c->run->damping->none);
     return solve(r, from, h, to, error, record, f);
 }
 
@@ -172,7 +171,7 @@ static status allocate(radau *r, fault *f)
         TRY(allocate_stage(r, &r->stage[i], f));
     TRY(assemble_pattern_in_time(r->of.c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &r->K, f));
-    TRY(stages_alloc(r->of.c->model, r->of.masses, pattern, &r->S, f));
+    TRY(stages_alloc(r->of.c->run, r->of.masses, pattern, &r->S, f));
     TRY(factor_alloc(&r->S.whole, &r->factor, f));
     return factor_alloc(pattern, &r->single, f);
 }

@@ -78,9 +78,9 @@ void radau_damp(radau *r, int fresh, const instant *from, double h)
 {
     const model *m = r->of.c->model;
     const size_t n = (size_t)m->strains;
-    for (int i = 0; i < m->elements && m->damping != NULL; i++) {
+    for (int i = 0; i < m->elements && r->of.c->run->damping != NULL; i++) {
         const double eta = m->scene->member[m->element[i].member].damping;
-        const double *S = m->damping->stiffness + (size_t)m->element[i].kind * n * n;
+        const double *S = r->of.c->run->damping->stiffness + (size_t)m->element[i].kind * n * n;
         damped all[STAGES];
         if (eta == 0)
             continue;
@@ -108,14 +108,13 @@ static void sum_strains(const radau *r, const instant *from, const double weight
 
 double radau_dissipated(const radau *r, const instant *from, double h, double room[])
 {
-    const model *m = r->of.c->model;
     double sum = 0;
-    for (int i = 0; i < STAGES && m->damping != NULL; i++) {
+    for (int i = 0; i < STAGES && r->of.c->run->damping != NULL; i++) {
         double weight[STAGES];
         for (int j = 0; j < STAGES; j++)
             weight[j] = r->B[STAGES * i + j] / h;
         sum_strains(r, from, weight, room);
-        sum += h * r->weights[i] * damping_power(m, room);
+        sum += h * r->weights[i] * damping_power(r->of.c->run, room);
     }
     return sum;
 }
@@ -124,10 +123,10 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
                       double g, double room[])
 {
     double weight[STAGES];
-    if (r->of.c->model->damping == NULL)
+    if (r->of.c->run->damping == NULL)
         return;
     for (int j = 0; j < STAGES; j++)
         weight[j] = -e[j] / h;
     sum_strains(r, from, weight, room);
-    damping_follow(r->of.c->model, g, room, from->state->e);
+    damping_follow(r->of.c->run, g, room, from->state->e);
 }

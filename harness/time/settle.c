@@ -121,7 +121,7 @@ static status give_way(stage *s, const double zero[], double h, double softness,
 {
     model *m = s->c->model;
     memcpy(now->strain2, now->state->e, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
-    damping_follow(m, 1 / (softness * h), now->strain, now->strain2);
+    damping_follow(s->c->run, 1 / (softness * h), now->strain, now->strain2);
     return balance(s, zero, now, moved, f);
 }
 
@@ -145,12 +145,12 @@ static status creep(stage *s, const double zero[], double h, instant *now, doubl
         for (int c = 0; c < s->free; c++)
             now->v[c] += of[c] ? moved[c] / (telling * h) : 0;
         kinematics_state_copy(m, before, now->state);
-        outcome = damping_now(m, now, f);
+        outcome = damping_now(s->c->run, now, f);
     }
     kinematics_state_free(before);
     TRY(outcome);
     TRY(give_way(s, zero, h, nothing, now, moved, f));
-    return damping_now(m, now, f);
+    return damping_now(s->c->run, now, f);
 }
 
 static status find_balance(stage *s, const double zero[], double h, instant *now, fault *f)
@@ -160,7 +160,7 @@ static status find_balance(stage *s, const double zero[], double h, instant *now
     unsigned char *of = calloc((size_t)s->free + 1, 1);
     status outcome = fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     if (moved != NULL && of != NULL)
-        outcome = m->damping != NULL && creeping(m, h, of) > 0
+        outcome = s->c->run->damping != NULL && creeping(m, h, of) > 0
                       ? creep(s, zero, h, now, moved, of, f)
                       : balance(s, zero, now, moved, f);
     free(moved);

@@ -4,6 +4,7 @@
 #define BEAMWORK_STAGES_H
 
 #include "harness/model/model_impl.h"
+#include "harness/newton/run_state.h"
 #include "harness/time/carried.h"
 
 enum { STAGES = 3 };
@@ -15,7 +16,8 @@ typedef struct stages_matrix {
 } stages_matrix;
 
 /* single: pattern of one block, whole. */
-status stages_alloc(const model *, const carried *, const sparse *single, stages_matrix *, fault *);
+status stages_alloc(const run_state *, const carried *, const sparse *single, stages_matrix *,
+                    fault *);
 void stages_free(stages_matrix *);
 /* The block of a stage on the diagonal becomes K; the others zero it first. */
 void stages_put(stages_matrix *, int stage, const sparse *K);

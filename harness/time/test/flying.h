@@ -22,7 +22,7 @@ typedef struct flying {
     run_state run;
     carried masses;
     work work;
-    mesh_damping damping;
+    run_damping damping;
     scheme *scheme;
     instant now, next;
     double error; /* that the last step has estimated */
@@ -43,7 +43,7 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
     context_set_frame(&f->c, 0);
     const scene_motion *how = scene_motion_of(&s->analysis[0]);
     TRY(carried_alloc(f->m, &f->masses, &f->why));
-    TRY(damping_begin(f->m, &f->damping, &f->why));
+    TRY(damping_begin(&f->run, &f->damping, &f->why));
     TRY(work_alloc(&f->run, &f->masses, &f->work, &f->why));
     const scheme_request request = {
         .c = &f->c, .masses = &f->masses, .how = how, .work = &f->work, .estimate = 1};
@@ -55,7 +55,7 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
 
 static inline void flying_end(flying *f)
 {
-    damping_end(f->m, &f->damping);
+    damping_end(&f->run, &f->damping);
     integrator_free(f->scheme);
     instant_free(&f->now);
     instant_free(&f->next);
