@@ -71,8 +71,8 @@ status stage_direction(stage *s, int fresh, fault *f)
 
 /* dx, from the equations of the present state. fresh 0: with the factors of the iteration before.
  */
-static status direction(stage *s, int fresh, double time, const stage_rates *r,
-                        const model_state *now, step_record *record, fault *f)
+static status direction(stage *s, int fresh, double time, const stage_rates *r, model_state *now,
+                        step_record *record, fault *f)
 {
     model *m = s->c->model;
     model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
@@ -80,7 +80,7 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r,
                                .residual = s->residual};
     const inertia_relation with = {r->b, r->g, r->inc};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
-        TRY(linearise_make_compatible(s->c->run, (model_state *)now, f));
+        TRY(linearise_make_compatible(s->c->run, now, f));
     TRY(linearise_state(s->c->run, &s->c->run->memory, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
     s->c->run->counters.inertia_evaluations +=
