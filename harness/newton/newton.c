@@ -173,7 +173,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 /* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
 static status solve_dense(newton *n, model_linearisation *lin, fault *f)
 {
-    model *m = n->c->model;
+    const model *m = n->c->model;
     const size_t size = (size_t)uncondensed_size(m) + (size_t)lin->conditions;
     TRY(memory_check((double)size * (double)size * sizeof *n->dense,
                      "dense matrices of all unknowns at once", "give newton=mixed", f));

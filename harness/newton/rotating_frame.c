@@ -134,7 +134,7 @@ static void turn_inner(const mesh_element *el, const double B[], double out[])
     dense_add_transpose_mul(FIELD_INNER, FIELD_INNER, FIELD_INNER, T, half, out);
 }
 
-int rotating_frame_inner_matrix(model *m, sparse *out)
+int rotating_frame_inner_matrix(const model *m, sparse *out)
 {
     const mesh_pattern *p = assemble_of(m, out);
     int any = 0;

@@ -13,7 +13,7 @@ status rotating_frame_inertia(run_state *, const model_state *, double path, spa
  * mode, k = lambda m + lambda^2 b (field/field_mass.h). */
 double rotating_frame_inner(const model *, const double x[]);
 /* B itself, with the pattern of a symmetric K. 0: no element has it, and it is zero. */
-int rotating_frame_inner_matrix(model *, sparse *out);
+int rotating_frame_inner_matrix(const model *, sparse *out);
 
 /* From here on the scene's axes turn with omega [rad/s] about an axis through `centre` [m]; times
  * the path parameter if that is followed. Zero: they are at rest. What is linearised contains the

@@ -109,7 +109,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
                    step_record *record, fault *f)
 {
     alpha *s = (alpha *)base;
-    model *m = s->stage.c->model;
+    const model *m = s->stage.c->model;
     const double time = record->path;
     stage_rates r = {.b = (1 - s->mass) / ((1 - s->force) * s->beta * h * h),
                      .g = s->gamma / (s->beta * h),

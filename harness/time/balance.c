@@ -7,7 +7,7 @@
 #include "harness/model/kinematics.h"
 #include "harness/time/inertia.h"
 
-static status stored(model *m, const model_state *s, double *out, fault *f)
+static status stored(const model *m, const model_state *s, double *out, fault *f)
 {
     double none[1] = {0};
     *out = 0;
@@ -26,8 +26,8 @@ static status stored(model *m, const model_state *s, double *out, fault *f)
     return STATUS_OK;
 }
 
-status balance_of(model *m, const carried *masses, const instant *at, double out[SCENE_BALANCES],
-                  fault *f)
+status balance_of(const model *m, const carried *masses, const instant *at,
+                  double out[SCENE_BALANCES], fault *f)
 {
     inertia_balance moving;
     inertia_of(m, masses, at->state, at->v, at->ends_known ? at->ends : NULL, &moving);

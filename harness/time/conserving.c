@@ -116,7 +116,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
                    step_record *record, fault *f)
 {
     conserving *s = (conserving *)base;
-    model *m = s->of.c->model;
+    const model *m = s->of.c->model;
     double *inc = to->algorithm;
     *error = 0;
     s->h = h;
@@ -180,7 +180,7 @@ static status check(const model *m, fault *f)
 
 static status allocate(conserving *s, fault *f)
 {
-    model *m = s->of.c->model;
+    const model *m = s->of.c->model;
     const sparse *pattern;
     s->strains = m->springs > 0 && m->strains < SPRING_STRAINS ? SPRING_STRAINS : m->strains;
     const int nodes = m->nodes > 2 || m->springs == 0 ? m->nodes : 2;
@@ -213,7 +213,7 @@ static status allocate(conserving *s, fault *f)
         s->elastic = s->massless + (size_t)(9 * s->of.masses->masses);
     TRY(conserving_massless(s, f));
     metric_of(m, s->weight);
-    TRY(assemble_pattern_in_time(m, &pattern, f));
+    TRY(assemble_pattern_in_time(s->of.c->model, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
 }

@@ -65,7 +65,7 @@ static void begin_spring(conserving *s, const instant *from, int i)
 
 status conserving_begin(conserving *s, const instant *from, fault *f)
 {
-    model *m = s->of.c->model;
+    const model *m = s->of.c->model;
     const double *e[CHUNK_MOST] = {NULL};
     memset(s->d, 0, (size_t)deformable_count(s) * (size_t)s->strains * sizeof *s->d);
     for (int i = 0; i < m->elements;) {
@@ -107,7 +107,7 @@ static void take_energy(conserving *s, const deformable *of, double energy, scal
 static status stress_together(conserving *s, const instant *from, model_state *now, int first,
                               int count, scalar_parts *sum, fault *f)
 {
-    model *m = s->of.c->model;
+    const model *m = s->of.c->model;
     deformable of[CHUNK_MOST];
     const double *e[CHUNK_MOST] = {NULL};
     stress_output out[CHUNK_MOST];

@@ -57,7 +57,7 @@ static status settle(const explicit_scheme *s, int i, fault *f)
 
 static status accelerations(explicit_scheme *s, double time, fault *f)
 {
-    model *m = s->of.c->model;
+    const model *m = s->of.c->model;
     model_linearisation lin = {.path = time, .residual = s->residual};
     for (int i = 0; i < m->elements && m->inner > 0; i++) {
         node_state x[ELEMENT_MAX_NODES];

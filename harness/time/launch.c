@@ -125,7 +125,7 @@ static status check_drivers(const model *m, const double inc[], fault *f)
 static status accelerate(stage *s, double h, instant *now, instant *room, double *inc, double *zero,
                          fault *f)
 {
-    model *m = s->c->model;
+    const model *m = s->c->model;
     stage_rates r = {.b = 1 / (softness * h * h),
                      .g = 0,
                      .a0 = zero,
@@ -148,7 +148,7 @@ static status accelerate(stage *s, double h, instant *now, instant *room, double
 static status begin(stage *s, const scene_motion *how, instant *now, instant *room, double *inc,
                     double *zero, fault *f)
 {
-    model *m = s->c->model;
+    const model *m = s->c->model;
     int massless;
     TRY(damping_now(s->c->run, now, f));
     drive_at(s->c->run, now->state, now->time, inc, now->v, now->a);

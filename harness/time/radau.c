@@ -27,7 +27,7 @@ typedef struct solution {
 static void advance(const solution *of, const step_record *record, newton_correction *out)
 {
     radau *r = of->r;
-    model *m = r->of.c->model;
+    const model *m = r->of.c->model;
     for (int i = 0; i < STAGES; i++) {
         radau_stage *one = &r->stage[i];
         const double time = radau_time(r, of->from, of->h, i, record);
@@ -143,7 +143,7 @@ static void release(scheme *base)
 
 static status allocate_stage(radau *r, radau_stage *one, fault *f)
 {
-    model *m = r->of.c->model;
+    const model *m = r->of.c->model;
     const size_t all = (size_t)r->all + 1;
     one->inc = calloc(4 * all, sizeof *one->inc);
     if (one->inc == NULL)

@@ -17,7 +17,7 @@ typedef struct damped {
 
 static void take(radau *r, const instant *from, int stage, int element, damped *out)
 {
-    model *m = r->of.c->model;
+    const model *m = r->of.c->model;
     const mesh_element *el = &m->element[element];
     const size_t first = (size_t)element * (size_t)m->strains;
     const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
@@ -35,7 +35,7 @@ static void take(radau *r, const instant *from, int stage, int element, damped *
 static void add_stress(radau *r, const damped all[STAGES], double h, double eta, const double S[],
                        int stage, int element)
 {
-    model *m = r->of.c->model;
+    const model *m = r->of.c->model;
     const mesh_element *el = &m->element[element];
     double rate[ELEMENT_MAX_STRAINS] = {0}, more[ELEMENT_MAX_STRAINS],
            force[MODEL_MAX_COORDINATES] = {0};

@@ -93,7 +93,7 @@ static void add_warps(radau *r, double h)
 status radau_equations(radau *r, int fresh, const instant *from, double h, step_record *record,
                        fault *f)
 {
-    model *m = r->of.c->model;
+    const model *m = r->of.c->model;
     if (fresh)
         stages_zero(&r->S);
     record->incompatibility = 0;

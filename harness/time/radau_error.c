@@ -8,7 +8,7 @@
 
 status radau_error(radau *r, const instant *from, double h, instant *room, double *error, fault *f)
 {
-    model *m = r->of.c->model;
+    const model *m = r->of.c->model;
     const double s = sqrt(6), l = 0.2748888295956773677478286,
                  e[STAGES] = {(-13 - 7 * s) / 3, (-13 + 7 * s) / 3, -1 / 3.0}, g = 1 / (l * h);
     model_linearisation lin = {.path = from->time, .K = &r->K, .residual = r->dx};

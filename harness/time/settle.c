@@ -33,7 +33,7 @@ static double *diagonal_of(const sparse *S, double out[])
 /* What acts, at the accelerations that are known; K: NULL: not wanted. */
 static status forces(stage *s, instant *now, sparse *K, fault *f)
 {
-    model *m = s->c->model;
+    const model *m = s->c->model;
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(s->c->run, now->state, f));
@@ -56,7 +56,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     solution *one = of;
     stage *s = one->s;
     instant *now = one->now;
-    model *m = s->c->model;
+    const model *m = s->c->model;
     (void)iteration;
     (void)record;
     TRY(forces(s, now, &s->S, f));
@@ -119,7 +119,7 @@ static int creeping(const model *m, double h, unsigned char of[])
 static status give_way(stage *s, const double zero[], double h, double softness, instant *now,
                        double moved[], fault *f)
 {
-    model *m = s->c->model;
+    const model *m = s->c->model;
     memcpy(now->strain2, now->state->e, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
     damping_follow(s->c->run, 1 / (softness * h), now->strain, now->strain2);
     return balance(s, zero, now, moved, f);
@@ -132,7 +132,7 @@ static status creep(stage *s, const double zero[], double h, instant *now, doubl
                     const unsigned char of[], fault *f)
 {
     const double telling = 1e-6, nothing = 1e-9;
-    model *m = s->c->model;
+    const model *m = s->c->model;
     model_state *before = NULL;
     TRY(linearise_make_compatible(s->c->run, now->state, f));
     status outcome = kinematics_state_alloc(m, &before, f);
@@ -170,7 +170,7 @@ static status find_balance(stage *s, const double zero[], double h, instant *now
 
 status settle(stage *s, const double zero[], double h, instant *now, fault *f)
 {
-    model *m = s->c->model;
+    const model *m = s->c->model;
     memset(now->a, 0, (size_t)s->free * sizeof *now->a);
     TRY(find_balance(s, zero, h, now, f));
     TRY(forces(s, now, NULL, f));

@@ -74,7 +74,7 @@ status stage_direction(stage *s, int fresh, fault *f)
 static status direction(stage *s, int fresh, double time, const stage_rates *r, model_state *now,
                         step_record *record, fault *f)
 {
-    model *m = s->c->model;
+    const model *m = s->c->model;
     model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
                                .K = fresh ? &s->S : NULL,
                                .residual = s->residual};
@@ -105,7 +105,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 {
     const solution *one = of;
     stage *s = one->s;
-    model *m = s->c->model;
+    const model *m = s->c->model;
     const int fresh = iteration == 1 || !stage_stands(&s->arrival);
     TRY(direction(s, fresh, one->time, one->r, one->now, record, f));
     increment_add(m, one->now, s->dx, one->r->inc);
