@@ -10,7 +10,6 @@
 
 #include "harness/analysis/continuation_impl.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
 #include "harness/newton/history.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
@@ -196,10 +195,11 @@ static int is_pair(const continuation *p, const sought *s)
  * that holds it, so that what passes beside zero may be what passes through it. */
 static int holds_some_turns(const model *m)
 {
-    for (int i = 0; i < m->scene->nodes; i++) {
+    const scene *s = model_scene(m);
+    for (int i = 0; i < s->nodes; i++) {
         int free = 0;
         for (int k = 0; k < 3; k++)
-            free += m->scene->node[i].angle[k] == SCENE_FREE;
+            free += s->node[i].angle[k] == SCENE_FREE;
         if (free == 1 || free == 2)
             return 1;
     }

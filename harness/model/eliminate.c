@@ -5,6 +5,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/offset.h"
+#include "harness/model/kinematics.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/release.h"
 

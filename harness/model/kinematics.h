@@ -42,5 +42,7 @@ enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
  * dimension m). */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
+/* Current offset of a vertex from its body [m]. */
+void kinematics_offset(const model *, const model_state *, int vertex, double rho[3]);
 
 #endif

@@ -237,6 +237,21 @@ int model_stresses(const model *m)
     return m->elements * m->strains + SPRING_STRAINS * m->springs;
 }
 
+const scene *model_scene(const model *m)
+{
+    return m->scene;
+}
+
+int model_body(const model *m, int vertex)
+{
+    return m->vertex[vertex].body;
+}
+
+int model_is_released(const model *m, int vertex)
+{
+    return vertex >= m->first_release;
+}
+
 double model_length(const model *m)
 {
     return m->size;

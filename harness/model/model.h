@@ -48,6 +48,11 @@ int model_spreads(const model *, int analysis);
 status model_coarse(const model *, model **, fault *);
 /* The same with twice as many elements. */
 status model_halved(const model *, model **, fault *);
+const scene *model_scene(const model *);
+/* The vertex that moves this one rigidly; itself: it has coordinates of its own. */
+int model_body(const model *, int vertex);
+/* 1: it is the vertex of a released end, behind those of nodes. */
+int model_is_released(const model *, int vertex);
 /* Longest member [m]: displacements are small or large beside it. */
 double model_length(const model *);
 

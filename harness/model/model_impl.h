@@ -186,8 +186,6 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
 void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
                        node_state x[]);
 void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
-/* Current offset of a vertex from its body [m]. */
-void kinematics_offset(const model *m, const model_state *s, int vertex, double rho[3]);
 /* Spatial axes of a sequence's angles in the present state: b[angles][3]. */
 void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
 /* Recomputes what depends on bodies' coordinates. */

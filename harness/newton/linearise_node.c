@@ -6,6 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 #include "harness/model/discrete.h"
+#include "harness/model/kinematics.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/linear_springs.h"
 #include "harness/newton/linearise.h"

@@ -1,6 +1,5 @@
 #include "harness/time/checks.h"
 
-#include "harness/model/model_impl.h"
 #include "harness/time/drive.h"
 #include "harness/time/forms.h"
 #include "harness/time/massless.h"
@@ -33,7 +32,7 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "the mass of %s is lumped at its nodes; give mass: lumped, or another "
                          "formulation",
-                         c->model->type->name);
+                         model_formulation(c->model));
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
         model_spreads(c->model, follows) != spreads)
         return fault_set(f, STATUS_REFUSED,

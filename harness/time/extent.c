@@ -3,14 +3,14 @@
 #include <float.h>
 #include <math.h>
 
+#include "harness/model/kinematics.h"
 #include "harness/model/metric.h"
-#include "harness/model/model_impl.h"
 
 const double extent_guess = 0.02;
 
 void extent_begin(extent *e, const model *m)
 {
-    e->bent = metric_distance(m, m->rest, e->begin, NULL);
+    e->bent = metric_distance(m, kinematics_rest(m), e->begin, NULL);
 }
 
 extent extent_with(const extent *so_far, const model *m, const scheme *s, const instant *from,

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "harness/model/model_impl.h"
-
 static double first_behind(const scene_function *f, double time)
 {
     double next = INFINITY;
@@ -15,11 +13,12 @@ static double first_behind(const scene_function *f, double time)
 
 double kinks_next(const model *m, double time)
 {
+    const scene *s = model_scene(m);
     double next = INFINITY;
-    for (int i = 0; i < m->scene->loads; i++)
-        next = fmin(next, first_behind(&m->scene->load[i].function, time));
-    for (int i = 0; i < m->scene->drivers; i++)
-        next = fmin(next, first_behind(&m->scene->driver[i].function, time));
+    for (int i = 0; i < s->loads; i++)
+        next = fmin(next, first_behind(&s->load[i].function, time));
+    for (int i = 0; i < s->drivers; i++)
+        next = fmin(next, first_behind(&s->driver[i].function, time));
     return next;
 }
 

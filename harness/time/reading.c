@@ -5,7 +5,6 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
 #include "harness/time/forms.h"
 
 int reading_is_kinematic(scene_quantity_kind kind)
@@ -18,9 +17,9 @@ int reading_is_kinematic(scene_quantity_kind kind)
 static double rate_of(const model *m, const model_state *s, const scene_component *what,
                       const double rate[])
 {
-    const mesh_vertex *v = &m->vertex[what->node];
+    const int moved_by = model_body(m, what->node);
     frame_rates body;
-    forms_rates(m, s, v->body, rate, NULL, &body);
+    forms_rates(m, s, moved_by, rate, NULL, &body);
     if (what->component >= SCENE_RX) {
         double own[3];
         mat3_transpose_mul_vec(body.R, body.w, own);
@@ -29,7 +28,7 @@ static double rate_of(const model *m, const model_state *s, const scene_componen
     double rho[3], carried[3];
     kinematics_offset(m, s, what->node, rho);
     vec3_cross(body.w, rho, carried);
-    return body.v[what->component] + (v->body == what->node ? 0 : carried[what->component]);
+    return body.v[what->component] + (moved_by == what->node ? 0 : carried[what->component]);
 }
 
 double reading_of(const model *m, const scene_quantity *q, const model_state *s,

@@ -2,13 +2,12 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
 #include "harness/time/released.h"
 
 void inertia_rates(const model *m, const model_state *s, int vertex, const double v[],
                    const double a[], frame_rates *out)
 {
-    if (vertex >= m->first_release)
+    if (model_is_released(m, vertex))
         released_rates(m, s, vertex, v, a, out);
     else
         forms_rates(m, s, vertex, v, a, out);
@@ -17,10 +16,11 @@ void inertia_rates(const model *m, const model_state *s, int vertex, const doubl
 void vertex_rates(const model *m, const model_state *s, int vertex, const double v[],
                   const double a[], frame_rates *out)
 {
-    const int body = m->vertex[vertex].body;
+    const int body = model_body(m, vertex),
+              by_itself = vertex == body || model_is_released(m, vertex);
     double rho[3], moved[3], twice[3];
-    inertia_rates(m, s, vertex < m->first_release ? body : vertex, v, a, out);
-    if (vertex == body || vertex >= m->first_release)
+    inertia_rates(m, s, by_itself ? vertex : body, v, a, out);
+    if (by_itself)
         return;
     kinematics_offset(m, s, vertex, rho);
     vec3_cross(out->w, rho, moved);

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/model/model_impl.h"
 #include "harness/time/aside.h"
 #include "harness/time/reading.h"
 
@@ -22,7 +21,7 @@ static void begin(const watches *s, watched *one, const scene_quantity *q)
                      .out = &s->out->passing[q - s->c->scene->quantity],
                      .from = q->passing.from,
                      .until = q->passing.until > 0 ? fmin(q->passing.until, end) : end,
-                     .noise = no_sign * fmax(1, s->c->model->size)};
+                     .noise = no_sign * fmax(1, model_length(s->c->model))};
 }
 
 status watches_alloc(watches *s, fault *f)
