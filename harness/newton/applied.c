@@ -160,10 +160,9 @@ static int points_of(const scene_load *load, const double part[2], double x[2], 
     return 2;
 }
 
-/* Along the whole of a member, on its nodes with a motion's mass: not by the load's own wish. */
-static int with_mass(const scene_load *load)
+int applied_with_mass(const scene_load *load)
 {
-    return !load->lumped && load->range[0] == 0 && load->range[1] == 1;
+    return !load->lumped && !load->varies && load->range[0] == 0 && load->range[1] == 1;
 }
 
 /* What node k of an element takes: the load's vector times its shares. */
@@ -174,7 +173,8 @@ static void share_at(const model *m, const scene_load *load, int element, const 
     double x[2], weight[2];
     memset(vector, 0, 3 * sizeof *vector);
     if (!load->varies && !scene_load_within(load) && part[0] == 0 && part[1] == 1) {
-        const double *share = with_mass(load) ? m->element[element].share : lumped_shares(m->nodes);
+        const double *share =
+            applied_with_mass(load) ? m->element[element].share : lumped_shares(m->nodes);
         for (int i = 0; i < 3; i++)
             vector[i] = share[k] * length * load->vector[i];
         return;

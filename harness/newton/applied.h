@@ -14,6 +14,9 @@ typedef struct applied {
 
 /* What the load is times at `path`, or in time (loads_of). */
 double applied_factor(const run_state *, const scene_load *load, double path);
+/* Along the whole of a member, where it goes to nodes with a motion's mass by the shares of that;
+ * not by the load's own wish. */
+int applied_with_mass(const scene_load *);
 /* The load times `scale`.  Along members it is lumped at the nodes of elements, by linear shares,
  * or quadratic ones with a middle node: of a uniform load 1/2, 1/2, or Simpson's weights. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,

@@ -10,6 +10,7 @@
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
+#include "harness/newton/rotating_frame.h"
 
 /* Loads along the member that a vertex of it takes are taken off. */
 typedef struct share {
@@ -40,6 +41,35 @@ static int lies_along(const model *m, int element, const scene_load *load)
            (!scene_load_within(load) || applied_inside(part[0]));
 }
 
+/* taken[] += sign times the forces on the ends. */
+static void note_taken(const model *m, const double force[], double sign, double taken[2][3])
+{
+    for (int end = 0; end < 2; end++)
+        for (int i = 0; i < 3; i++)
+            taken[end][i] += sign * force[NODE_COORDINATES * (end ? m->nodes - 1 : 0) + i];
+}
+
+/* What was taken off the ends for shares of the mass of an element of two nodes, weight or
+ * centrifugal: what lies within it has a couple beside, as its inertia has (harness/time/shares.c).
+ */
+static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
+                        double ends[2][7])
+{
+    for (int e = 0; e < 2; e++)
+        for (int i = 0; i < 3; i++)
+            taken[e][i] /= el->share[e];
+    for (int e = 0; e < 2; e++) {
+        double arm[3], moment[3];
+        for (int i = 0; i < 3; i++) {
+            arm[i] = x[!e].r[i] - x[e].r[i];
+            ends[e][i] -= el->couple[e] * (taken[!e][i] - taken[e][i]);
+        }
+        vec3_cross(arm, taken[e], moment);
+        for (int i = 0; i < 3; i++)
+            ends[e][3 + i] -= el->couple[e] * moment[i];
+    }
+}
+
 /* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
  * along it, in fixed axes: ends[2][7]; and its nodes. */
 static void ends_of(run_state *run, const internal_state *s, int i, node_state x[],
@@ -54,8 +84,13 @@ static void ends_of(run_state *run, const internal_state *s, int i, node_state x
     m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
     dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                             s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
+    double taken[2][3] = {{0}};
+    if (rotating_frame_lumps(run))
+        note_taken(m, force, 1, taken);
     rotating_frame_add(run, x, i, s->path, force, NULL,
                        NULL); /* never fails in a state that is reached */
+    if (rotating_frame_lumps(run))
+        note_taken(m, force, -1, taken);
     for (int l = 0; l < m->scene->loads; l++) {
         const scene_load *load = &m->scene->load[l];
         if (lies_along(m, i, load) && distributed_spreads(run, load) &&
@@ -71,12 +106,20 @@ static void ends_of(run_state *run, const internal_state *s, int i, node_state x
         const share of = {el->vertex[k], force + NODE_COORDINATES * k};
         for (int l = 0; l < m->scene->loads; l++) {
             const scene_load *load = &m->scene->load[l];
-            if (lies_along(m, i, load) && !distributed_spreads(run, load))
-                applied_element(m, s->s, load, applied_factor(run, load, s->path), i, take_off,
-                                (void *)&of);
+            if (!lies_along(m, i, load) || distributed_spreads(run, load))
+                continue;
+            const int weighted = applied_with_mass(load);
+            double before[3];
+            memcpy(before, of.force, sizeof before);
+            applied_element(m, s->s, load, applied_factor(run, load, s->path), i, take_off,
+                            (void *)&of);
+            for (int c = 0; c < 3 && weighted; c++)
+                taken[end][c] += before[c] - of.force[c];
         }
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
     }
+    if (m->nodes == 2)
+        take_couple(el, x, taken, ends);
     if (s->moving != NULL)
         s->moving->ends(s->moving->context, i, ends);
 }

@@ -19,6 +19,11 @@ void rotating_frame_set(run_state *run, const double omega[3], const double cent
     run->loading.rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
 }
 
+int rotating_frame_lumps(const run_state *run)
+{
+    return run->m->scene->lumped || run->loading.lumps != LUMPS_NOTHING;
+}
+
 static status inertia_at(run_state *run, const node_state x[], int i, double path,
                          inertia_output *out, fault *f)
 {
@@ -27,8 +32,7 @@ static status inertia_at(run_state *run, const node_state x[], int i, double pat
     const mesh_kind *kind = &m->kind[m->element[i].kind];
     const element_rotating_frame *turning = run->loading.rotates ? &frame : NULL;
     status outcome;
-    if (m->scene->lumped ||
-        run->loading.lumps != LUMPS_NOTHING) { /* as a motion that starts there does */
+    if (rotating_frame_lumps(run)) {
         const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
         outcome = lumped_element(&whole, m->nodes, m->element[i].share, x, turning, out);
     } else {

@@ -9,6 +9,9 @@
 status rotating_frame_inertia(run_state *, const model_state *, double path, sparse *M, sparse *G,
                               fault *);
 
+/* 1: mass is at nodes, as the scene says or a motion that starts there has it. */
+int rotating_frame_lumps(const run_state *);
+
 /* x^T B x of the undeformed structure, x[free + driven]: what the mass inside of elements adds to a
  * mode, k = lambda m + lambda^2 b (field/field_mass.h). */
 double rotating_frame_inner(const model *, const double x[]);

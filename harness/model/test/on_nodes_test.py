@@ -39,6 +39,22 @@ plane: xy
 analyses: {m: {motion: {stations: [1e-4], step: 1e-5, integrator: %s, start: {spin: [0, 0, 2]}}}}
 quantities: {L: {momentum: {analysis: m, component: lz}}}
 """
+CLAMPED = """beamwork: 1
+mass: lumped
+sections: {s: {rectangle: {width: 10e-3, thickness: 10e-3}, young: 2e11, shear_modulus: 8e10, density: 7800}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
+members: {rod: {from: a, to: b, section: s, y: [0, 1, 0]}}
+plane: xy
+"""
+TURNING = CLAMPED + """analyses: {m: {rotation: {stations: [1], omega: [0, 0, 10]}}}
+quantities: {N: {internal: {analysis: m, member: rod, where: 0.3, resultant: N}}}
+"""
+WEIGHED = CLAMPED + """loads: {w: {gravity: [0, -0.01, 0], on: all}}
+analyses: {st: {static: {stations: [1]}}, m: {motion: {about: st, stations: [1e-3], step: 1e-4, integrator: conserving}}}
+quantities:
+  M: {internal: {analysis: st, member: rod, where: 0.3, resultant: Mz}}
+  V: {internal: {analysis: st, member: rod, where: 0.3, resultant: Qy}}
+"""
 WIDER = """
   t: {rectangle: {width: 20e-3, thickness: 10e-3}, young: 2e11, shear_modulus: 8e10, density: 7800, given: {Iw: 0}}
 nodes:"""
@@ -123,6 +139,19 @@ class OnNodes(ProgramTest):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 right = 7800 * (1e-4 * 0.8**3 / 12 + 0.8 * 1e-8 / 12) * 2
                 self.assertAlmostEqual(json.loads(done.stdout)["quantities"][0]["value"] / right, 1, delta=1e-11)
+
+    def test_resultants_beside_masses_at_nodes(self):
+        """Of a rod that turns steadily, m w^2 (L^2 - x^2)/2, and of a cantilever under its weight that a conserving motion
+        begins at: with any number of elements."""
+        for elements in (1, 2, 3, 4, 6, 9):
+            for scene, right in ((TURNING, {"N": 7800*1e-4*100*(1 - 0.09)/2}),
+                                 (WEIGHED, {"M": -7800*1e-4*0.01*0.49/2, "V": -7800*1e-4*0.01*0.7})):
+                path = self.folder / "rod.yaml"
+                path.write_text(scene, encoding="utf-8")
+                done = run("solve", "--scene", path, "-f", "collocation", "-n", elements, "--format", "json")
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                for q in json.loads(done.stdout)["quantities"]:
+                    self.assertAlmostEqual(q["value"] / right[q["quantity"]], 1, delta=1e-5, msg=(elements, q))
 
     def test_changing_members_keep_their_mass(self):
         """Elements that differ from each other, of a tapered member, carry half of their own at both nodes."""
