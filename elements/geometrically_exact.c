@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/alone.h"
-#include "elements/exact/lanes.h"
-#include "elements/exact/stiffness.h"
-#include "elements/exact/strain.h"
+#include "elements/geometrically_exact/alone.h"
+#include "elements/geometrically_exact/lanes.h"
+#include "elements/geometrically_exact/stiffness.h"
+#include "elements/geometrically_exact/strain.h"
 #include "elements/field/field_mass.h"
 #include "elements/shared/lanes.h"
 

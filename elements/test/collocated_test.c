@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/collocated.h"
+#include "elements/collocation/collocated.h"
 #include "elements/test/random.h"
 #include "elements/test/sections.h"
 #include "elements/test/worst.h"

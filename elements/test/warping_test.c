@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/line.h"
-#include "elements/exact/warping.h"
+#include "elements/geometrically_exact/line.h"
+#include "elements/geometrically_exact/warping.h"
 #include "elements/math/quadrature.h"
 #include "elements/test/random.h"
 #include "elements/test/worst.h"

@@ -14,13 +14,14 @@ rule() {
     fi
 }
 rule elements 'cases/|harness/|reference/|reports/' 'elements know no case, truth or solver'
-rule elements/math 'elements/(section|element|feature|beamw|sheet|exact|shared/[^s])' 'math is the lowest floor, but for status'
-rule elements/shared 'elements/(beamw|sheet|exact)' 'what all families share names none'
-rule elements/sheet 'elements/(beamw|exact)' 'families borrow from shared/ only'
-rule elements/beamw 'elements/(sheet|exact)' 'families borrow from shared/ only'
-rule elements/exact 'elements/(sheet|beamw)' 'families borrow from shared/ only'
-rule elements/section 'elements/(element|beamw|sheet|exact)' 'a section knows no element'
-rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|exact)' 'a case knows no formulation and no solver'
+rule elements/math 'elements/(section|element|feature|beamw|sheet|geometrically_exact|collocation|shared/[^s])' 'math is the lowest floor, but for status'
+rule elements/shared 'elements/(beamw|sheet|geometrically_exact|collocation)' 'what all families share names none'
+rule elements/sheet 'elements/(beamw|geometrically_exact|collocation)' 'families borrow from shared/ only'
+rule elements/beamw 'elements/(sheet|geometrically_exact|collocation)' 'families borrow from shared/ only'
+rule elements/geometrically_exact 'elements/(sheet|beamw|collocation)' 'families borrow from shared/ only'
+rule elements/collocation 'elements/(sheet|beamw)' 'families borrow from shared/ and from what they solve'
+rule elements/section 'elements/(element|beamw|sheet|geometrically_exact|collocation)' 'a section knows no element'
+rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|geometrically_exact|collocation)' 'a case knows no formulation and no solver'
 rule cases/scene 'cases/format/' 'a scene knows no file'
 # The floors of the harness, lowest first: one includes itself and those before it.
 floors="numerics formulations model section_forces newton time analysis study records terminal exchange experiments cli library"
@@ -30,8 +31,8 @@ for room in $floors; do
     above=${above# }
     [ -z "$above" ] || rule "harness/$room" "harness/($(echo $above | tr ' ' '|'))/" "$room stands below"
 done
-rule harness/numerics 'cases/|elements/(element|section|beamw|sheet|exact)' 'numerics know no beam'
-rule harness 'reference/|reports/|elements/(beamw|sheet|exact)/' 'the harness names no formulation and no truth'
+rule harness/numerics 'cases/|elements/(element|section|beamw|sheet|geometrically_exact|collocation)' 'numerics know no beam'
+rule harness 'reference/|reports/|elements/(beamw|sheet|geometrically_exact|collocation)/' 'the harness names no formulation and no truth'
 for room in ${floors%% study *}; do
     rule "harness/$room" 'cases/format/' 'what solves reads no files'
 done

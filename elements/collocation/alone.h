@@ -1,18 +1,16 @@
-/* Strains and stresses of one exact element; of each two, the second for processors with AVX2, the
+/* Stresses of one element by collocation; of each two, the second for processors with AVX2, the
  * same bits (elements/math/real.h). */
-#ifndef BEAMWORK_EXACT_ALONE_H
-#define BEAMWORK_EXACT_ALONE_H
+#ifndef BEAMWORK_COLLOCATION_ALONE_H
+#define BEAMWORK_COLLOCATION_ALONE_H
 
-#include "elements/exact/along.h"
+#include "elements/collocation/along.h"
 
-typedef void exact_alone_strains(const exact_strain_line *, const node_state x[], strain_output *);
 typedef status exact_alone_stresses(const exact_stages *, const double e[], const double inner[],
                                     stress_output *);
 /* As element_type.along, of one. */
 typedef status exact_alone_loads(const exact_stages *, const exact_along *, const node_state x[],
                                  along_output *);
 
-exact_alone_strains exact_alone_strain_plain, exact_alone_strain_avx2;
 exact_alone_stresses exact_alone_stress_plain, exact_alone_stress_avx2;
 exact_alone_loads exact_alone_along_plain, exact_alone_along_avx2;
 

@@ -1,4 +1,4 @@
-#include "elements/exact/line.h"
+#include "elements/geometrically_exact/line.h"
 
 void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[])
 {

@@ -16,7 +16,7 @@
 #ifndef BEAMWORK_EXACT_STIFFNESS_H
 #define BEAMWORK_EXACT_STIFFNESS_H
 
-#include "elements/exact/strain.h"
+#include "elements/geometrically_exact/strain.h"
 #include "elements/shared/beam_constants.h"
 
 enum {

@@ -8,7 +8,7 @@
 #ifndef BEAMWORK_EXACT_ALONG_H
 #define BEAMWORK_EXACT_ALONG_H
 
-#include "elements/exact/stages.h"
+#include "elements/collocation/stages.h"
 
 /* Of a kind of element; of q at the points of element.h. */
 typedef struct exact_along {

@@ -1,10 +1,10 @@
-#include "elements/exact/along.h"
+#include "elements/collocation/along.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/collocated.h"
-#include "elements/exact/prestress.h"
+#include "elements/collocation/collocated.h"
+#include "elements/collocation/prestress.h"
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 

@@ -1,4 +1,4 @@
-#include "elements/exact/variables.h"
+#include "elements/collocation/variables.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_EXACT_PRESTRESS_H
 #define BEAMWORK_EXACT_PRESTRESS_H
 
-#include "elements/exact/stages.h"
+#include "elements/collocation/stages.h"
 
 /* Q[i]: derivative of the condensed stiffness [8 x 8] with respect to stress i of the undeformed
  * geometry, in which it is linear; dimensionless. */

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_EXACT_STAGE_H
 #define BEAMWORK_EXACT_STAGE_H
 
-#include "elements/exact/milenkovic.h"
+#include "elements/collocation/milenkovic.h"
 #include "elements/shared/beam_constants.h"
 
 enum {

@@ -3,8 +3,8 @@
 #ifndef BEAMWORK_EXACT_VARIABLES_H
 #define BEAMWORK_EXACT_VARIABLES_H
 
-#include "elements/exact/blocks.h"
-#include "elements/exact/stages.h"
+#include "elements/collocation/blocks.h"
+#include "elements/collocation/stages.h"
 
 enum { EXACT_VARIABLES_BLOCKS = EXACT_BLOCKS_MAX * (EXACT_BLOCKS_MAX + 1) / 2 };
 

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "elements/exact/point.h"
-#include "elements/exact/strain.h"
+#include "elements/geometrically_exact/point.h"
+#include "elements/geometrically_exact/strain.h"
 #include "elements/math/rotation.h"
 
 enum { EXACT_DEFORMED_PAIRS = ELEMENT_MAX_NODES * (ELEMENT_MAX_NODES + 1) / 2 };

@@ -1,4 +1,4 @@
-#include "elements/exact/measure.h"
+#include "elements/geometrically_exact/measure.h"
 
 #include <math.h>
 

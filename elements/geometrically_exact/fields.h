@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_EXACT_FIELDS_H
 #define BEAMWORK_EXACT_FIELDS_H
 
-#include "elements/exact/stiffness.h"
+#include "elements/geometrically_exact/stiffness.h"
 #include "elements/shared/beam_constants.h"
 
 enum {

@@ -1,9 +1,9 @@
-#include "elements/exact/fields.h"
+#include "elements/geometrically_exact/fields.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/line.h"
+#include "elements/geometrically_exact/line.h"
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 

@@ -1,10 +1,10 @@
-#include "elements/exact/strain.h"
+#include "elements/geometrically_exact/strain.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/deformed.h"
-#include "elements/exact/line.h"
+#include "elements/geometrically_exact/deformed.h"
+#include "elements/geometrically_exact/line.h"
 #include "elements/math/arc.h"
 #include "elements/math/quadrature.h"
 

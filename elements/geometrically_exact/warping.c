@@ -1,9 +1,9 @@
-#include "elements/exact/warping.h"
+#include "elements/geometrically_exact/warping.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/line.h"
+#include "elements/geometrically_exact/line.h"
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 

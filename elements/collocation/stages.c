@@ -1,10 +1,10 @@
-#include "elements/exact/stages.h"
+#include "elements/collocation/stages.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/line.h"
-#include "elements/exact/sums.h"
+#include "elements/collocation/sums.h"
+#include "elements/geometrically_exact/line.h"
 #include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"

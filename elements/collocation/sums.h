@@ -6,9 +6,9 @@
 #ifndef BEAMWORK_EXACT_SUMS_H
 #define BEAMWORK_EXACT_SUMS_H
 
-#include "elements/exact/blocks.h"
-#include "elements/exact/stage.h"
-#include "elements/exact/stages.h"
+#include "elements/collocation/blocks.h"
+#include "elements/collocation/stage.h"
+#include "elements/collocation/stages.h"
 
 /* x, x' of all points; at: x of the inner nodes, then 2 X. */
 static inline void exact_sums_geometry(int stages, const exact_stages *s, real at[][3],

@@ -5,11 +5,11 @@
  * they do without stress: the error of a critical load is of fourth order in the length of an
  * element, and of second where shear is flexible (c_column: 0.052, 0.0033, 0.00021 % rigid in
  * shear, 1.26, 0.31, 0.078 % with n = 4, 8, 16). */
-#include "elements/exact/prestress.h"
+#include "elements/collocation/prestress.h"
 
 #include <string.h>
 
-#include "elements/exact/collocated.h"
+#include "elements/collocation/collocated.h"
 #include "elements/math/dense.h"
 
 enum { OUTER = EXACT_STAGES_OUTER };

@@ -2,8 +2,8 @@
 #ifndef BEAMWORK_EXACT_LOADED_H
 #define BEAMWORK_EXACT_LOADED_H
 
-#include "elements/exact/along.h"
-#include "elements/exact/collocated.h"
+#include "elements/collocation/along.h"
+#include "elements/collocation/collocated.h"
 
 static inline void exact_loaded_write(int stages, const exact_stages *s, const exact_along *a,
                                       const exact_along_frame *at, exact_collocated *w,

@@ -1,11 +1,11 @@
-#include "elements/exact/stiffness.h"
+#include "elements/geometrically_exact/stiffness.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elements/exact/coupled.h"
-#include "elements/exact/fields.h"
-#include "elements/exact/stressed.h"
+#include "elements/geometrically_exact/coupled.h"
+#include "elements/geometrically_exact/fields.h"
+#include "elements/geometrically_exact/stressed.h"
 #include "elements/math/dense.h"
 
 static void condense(const beam_constants *c, const exact_fields *f, const double X[],

@@ -6,7 +6,7 @@
 #define BEAMWORK_EXACT_STRAIN_H
 
 #include "elements/element.h"
-#include "elements/exact/measure.h"
+#include "elements/geometrically_exact/measure.h"
 
 enum { EXACT_STRAIN_MAX_POINTS = 2 };
 

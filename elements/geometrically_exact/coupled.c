@@ -1,4 +1,4 @@
-#include "elements/exact/coupled.h"
+#include "elements/geometrically_exact/coupled.h"
 
 #include <string.h>
 

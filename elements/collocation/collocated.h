@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-#include "elements/exact/sums.h"
-#include "elements/exact/variables.h"
+#include "elements/collocation/sums.h"
+#include "elements/collocation/variables.h"
 
 /* X of 2 X, v, (a_p, a_q, 1), and of the turn of loads along. */
 typedef struct exact_collocated {

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_EXACT_LANES_H
 #define BEAMWORK_EXACT_LANES_H
 
-#include "elements/exact/along.h"
+#include "elements/geometrically_exact/strain.h"
 
 typedef void exact_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);
@@ -11,16 +11,8 @@ typedef void exact_lanes_stresses(int count, const element_data *const data[],
                                   const double *const e[], const double *const inner[],
                                   stress_output out[], status outcome[]);
 
-typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int count,
-                               const node_state x[], along_output out[], status outcome[]);
-
 /* Of data that begin with exact_gauss. */
 exact_lanes_strains exact_lanes_gauss_strain_plain, exact_lanes_gauss_strain_avx2;
 exact_lanes_stresses exact_lanes_gauss_stress_plain, exact_lanes_gauss_stress_avx2;
-/* Of data that begin with exact_stages. */
-exact_lanes_strains exact_lanes_stages_strain_plain, exact_lanes_stages_strain_avx2;
-exact_lanes_stresses exact_lanes_stages_stress_plain, exact_lanes_stages_stress_avx2;
-/* Of one kind, at most LANES_TOGETHER; as element_type.along. */
-exact_lanes_loads exact_lanes_along_plain, exact_lanes_along_avx2;
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "elements/exact/stiffness.h"
+#include "elements/geometrically_exact/stiffness.h"
 #include "elements/math/real.h"
 
 /* Per lane: stresses, energy, and what C is more than S in rows of the strains that twist. */

@@ -16,8 +16,8 @@
 #ifndef BEAMWORK_EXACT_STAGES_H
 #define BEAMWORK_EXACT_STAGES_H
 
-#include "elements/exact/strain.h"
-#include "elements/exact/warping.h"
+#include "elements/geometrically_exact/strain.h"
+#include "elements/geometrically_exact/warping.h"
 
 enum {
     EXACT_STAGES_MAX = EXACT_WARPING_MAX_STAGES,
