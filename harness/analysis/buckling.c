@@ -98,11 +98,11 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     p->product = calloc((size_t)size.free + 1, sizeof *p->product);
     if (p->product == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
-    TRY(quadratic_forms_alloc(c->run, &s->K, &p->staying, f));
+    TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->staying, f));
     TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
-    TRY(quadratic_forms_load(&p->staying, 0, 1, f));
+    TRY(quadratic_forms_load(&c->eq, &p->staying, 0, 1, f));
     TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
-    TRY(linear_geometric_stiffness(c->run, p->staying.sigma, 0, &p->of_stay, f));
+    TRY(linear_geometric_stiffness(&c->eq, p->staying.sigma, 0, &p->of_stay, f));
     for (int i = 0; i < size.free + size.driven; i++)
         p->growing.load_x[i] -= p->staying.load_x[i];
     for (int i = 0; i < s->K.column[s->K.n]; i++)
@@ -115,7 +115,7 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
                          "%s, which stay, are critical by themselves: nothing is left to grow; "
                          "make them smaller",
                          linear_initial(c->model) == 0 ? "the loads at path 0"
-                         : !loads_begin(c->run)        ? "the strains of members"
+                         : !loads_begin(&c->eq)        ? "the strains of members"
                                                 : "the loads at path 0 and strains of members");
     return factored;
 }
@@ -126,13 +126,13 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
     TRY(along_path_proportional(c->scene, f));
-    TRY(quadratic_forms_alloc(c->run, &s->K, &p->growing, f));
+    TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
-    if (loads_begin(c->run) || linear_initial(c->model) > 0)
+    if (loads_begin(&c->eq) || linear_initial(c->model) > 0)
         TRY(split_stays(c, s, p, f));
-    TRY(quadratic_forms_load(&p->growing, 1, 0, f));
+    TRY(quadratic_forms_load(&c->eq, &p->growing, 1, 0, f));
     TRY(sparse_alloc_like(&s->K, &p->G, f));
-    TRY(linear_geometric_stiffness(c->run, p->growing.sigma, 1, &p->G, f));
+    TRY(linear_geometric_stiffness(&c->eq, p->growing.sigma, 1, &p->G, f));
     if (p->stays) {
         subtract(&p->staying.loads, &p->G);
         subtract(&p->staying.loads, &p->growing.loads);
@@ -198,6 +198,7 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
 {
     model *halved = NULL;
     run_state run = {0}; /* its work does not count */
+    context_work work = {0};
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);
     if (result == STATUS_OK)
@@ -207,8 +208,9 @@ static status solve_halved(const analysis_context *c, int analysis, eigen_result
                                   .model = halved,
                                   .run = &run,
                                   .options = c->options,
-                                  .result = c->result};
-        context_set_frame(&finer, analysis);
+                                  .result = c->result,
+                                  .work = &work};
+        finer.eq = (equations){halved, loading_of(halved, analysis), &run};
         result = solve(&finer, analysis, &b, f);
     }
     *found = b.found;

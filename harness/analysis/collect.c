@@ -80,7 +80,7 @@ static status keep_displacements(const analysis_context *c, int analysis, double
 {
     const double *x = outcome_displacements(&c->outcomes[analysis]);
     shape_state what = {SHAPE_LINEAR, analysis, 1, 1};
-    TRY(linear_whole_stresses(c->run, x, sigma, f));
+    TRY(linear_whole_stresses(&c->eq, x, sigma, f));
     return keep_displaced(c, &what, x, sigma, s, f);
 }
 

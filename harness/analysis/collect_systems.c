@@ -31,7 +31,7 @@ static status workspace_alloc(const analysis_context *c, workspace *w, fault *f)
     if (w->residual == NULL || w->sigma == NULL || w->input == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for matrices of states");
     w->load = w->residual + all;
-    TRY(assemble_pattern_of_states(c->model, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(c->model, c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &w->K, f));
     TRY(sparse_alloc_like(pattern, &w->M, f));
     TRY(sparse_alloc_like(pattern, &w->G, f));
@@ -73,7 +73,7 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     const size_t n = (size_t)size.free;
     for (int i = 0; i < c->scene->loads; i++) {
         memset(w->load, 0, (n + (size_t)size.driven) * sizeof *w->load);
-        loads_add_one(c->run, state, &c->scene->load[i], 1, w->load);
+        loads_add_one(&c->eq, state, &c->scene->load[i], 1, w->load);
         memcpy(w->input + (size_t)i * n, w->load, n * sizeof *w->input);
     }
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
@@ -88,7 +88,7 @@ static status keep(const analysis_context *c, const model_state *state, double p
     TRY(inputs(c, state, w, &out->B, f));
     if (!(model_sizes(c->model).features & FEATURE_MASS))
         return STATUS_OK;
-    TRY(rotating_frame_inertia(c->run, state, path, &w->M, out->turns ? &w->G : NULL, f));
+    TRY(rotating_frame_inertia(&c->eq, state, path, &w->M, out->turns ? &w->G : NULL, f));
     TRY(triplets_of(&w->M, 0, &out->M, f));
     return out->turns ? triplets_of(&w->G, 1, &out->G, f) : STATUS_OK;
 }
@@ -99,19 +99,17 @@ static status keep_linear(const analysis_context *c, int analysis, const double 
                           double path, workspace *w, system_matrices *s, fault *f)
 {
     state_matrices *out = NULL;
-    static const double none[3];
     TRY(next(s, &out, f));
     out->analysis = analysis;
-    rotating_frame_set(c->run, none, none, 0);
-    TRY(linear_stiffness(c->run, &w->K, f));
+    TRY(linear_stiffness(&c->eq, &w->K, f));
     if (displaced != NULL) {
-        TRY(linear_whole_stresses(c->run, displaced, w->sigma, f));
-        TRY(linear_geometric_stiffness(c->run, w->sigma, path, &w->G, f));
+        TRY(linear_whole_stresses(&c->eq, displaced, w->sigma, f));
+        TRY(linear_geometric_stiffness(&c->eq, w->sigma, path, &w->G, f));
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];
     }
     TRY(keep(c, kinematics_rest(c->model), 0, w, out, f));
-    return displaced == NULL && rotating_frame_inner_matrix(c->model, &w->G)
+    return displaced == NULL && rotating_frame_inner_matrix(&c->eq, &w->G)
                ? triplets_of(&w->G, 0, &out->inside, f)
                : STATUS_OK;
 }
@@ -127,11 +125,10 @@ static status keep_state(const analysis_context *c, int analysis, int station,
     out->analysis = analysis;
     out->station = station;
     out->turns = scene_rotates(&c->scene->analysis[analysis]);
-    context_set_frame(c, analysis);
     kinematics_state_copy(c->model, state, w->state);
     if (c->options->newton == NEWTON_DISPLACEMENT)
-        TRY(linearise_make_compatible(c->run, w->state, f));
-    TRY(linearise_state(c->run, &c->run->memory, w->state, &lin, f));
+        TRY(linearise_make_compatible(&c->eq, w->state, f));
+    TRY(linearise_state(&c->eq, &c->run->memory, w->state, &lin, f));
     return keep(c, w->state, path, w, out, f);
 }
 
@@ -151,11 +148,9 @@ static status keep_path(const analysis_context *c, int analysis, workspace *w, s
 static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
                             system_matrices *s, fault *f)
 {
-    loads_none(c->run);
-    const status outcome =
-        keep_linear(c, analysis, outcome_spectrum_of(&c->outcomes[analysis])->strained, 0, w, s, f);
-    loads_of(c->run, analysis);
-    return outcome;
+    const analysis_context unloaded = context_unloaded(c);
+    const double *strained = outcome_spectrum_of(&c->outcomes[analysis])->strained;
+    return keep_linear(&unloaded, analysis, strained, 0, w, s, f);
 }
 
 /* About what the modal analysis follows. */
@@ -196,14 +191,23 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
 static status collect(const analysis_context *c, workspace *w, system_matrices *s, fault *f)
 {
     TRY(workspace_alloc(c, w, f));
-    TRY(keep_linear(c, SCENE_NONE, NULL, 0, w, s, f));
+    const analysis_context rest = {.scene = c->scene,
+                                   .model = c->model,
+                                   .run = c->run,
+                                   .eq = {.m = c->model, .run = c->run},
+                                   .options = c->options,
+                                   .result = c->result,
+                                   .outcomes = c->outcomes,
+                                   .work = c->work};
+    TRY(keep_linear(&rest, SCENE_NONE, NULL, 0, w, s, f));
     for (int i = 0; i < c->scene->analyses; i++) {
         if (!context_runs(c, i))
             continue;
+        const analysis_context own = context_of(c, i);
         if (outcome_has_path(&c->outcomes[i]))
-            TRY(keep_path(c, i, w, s, f));
+            TRY(keep_path(&own, i, w, s, f));
         else if (c->scene->analysis[i].kind == SCENE_MODAL)
-            TRY(keep_modal(c, i, w, s, f));
+            TRY(keep_modal(&own, i, w, s, f));
     }
     return STATUS_OK;
 }

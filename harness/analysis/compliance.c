@@ -42,8 +42,8 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
                         const model_state *s, double reaction[6])
 {
     double load[6];
-    linearise_node_force(c->run, s, NULL, what->node, reaction);
-    loads_at_node(c->run, s, kinematics_state_path(s), what->node, load);
+    linearise_node_force(&c->eq, s, NULL, what->node, reaction);
+    loads_at_node(&c->eq, s, kinematics_state_path(s), what->node, load);
     for (int i = 0; i < 6; i++)
         reaction[i] -= load[i];
     if (c->scene->node[what->node].rotation == SCENE_ROTATION_FORK)
@@ -119,7 +119,6 @@ static status unloaded(analysis_context *c, newton *n, const model_state **state
 {
     step_record unused = {0};
     *state = kinematics_rest(c->model);
-    loads_none(c->run);
     if (linear_initial(c->model) == 0)
         return STATUS_OK;
     TRY(newton_alloc(c, 0, n, f));
@@ -168,9 +167,10 @@ status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *
 {
     tangent t = {0};
     newton n = {0};
-    const status result = solve(c, analysis, &t, &n, &o->left.compliance, f);
+    analysis_context unloaded = context_unloaded(c);
+    const int alone = c->scene->analysis[analysis].follows == SCENE_NONE;
+    const status result = solve(alone ? &unloaded : c, analysis, &t, &n, &o->left.compliance, f);
     tangent_free(&t);
     newton_free(&n);
-    loads_of(c->run, analysis);
     return result;
 }

@@ -72,7 +72,7 @@ static status directions(continuation *p, step_record *record, fault *f)
     if (p->looked)
         return STATUS_OK;
     TRY(newton_direction(&p->n, load, record, f));
-    loads_rate(p->c->run, p->n.state, load, p->load);
+    loads_rate(&p->c->eq, p->n.state, load, p->load);
     memset(p->response, 0, (size_t)p->n.all * sizeof *p->response);
     memcpy(p->response, p->load, (size_t)p->n.free * sizeof *p->response);
     factor_solve(p->n.factor, p->response);

@@ -66,7 +66,7 @@ static double force_at(const analysis_context *c, const scene_quantity *q,
     double value = NAN;
     fault f = {""};
     const status outcome =
-        resultants_of(c->run, q, outcome_path_of(o)->state[i], moving != NULL ? moving->rate : NULL,
+        resultants_of(&c->eq, q, outcome_path_of(o)->state[i], moving != NULL ? moving->rate : NULL,
                       moving != NULL ? moving->acceleration : NULL, &value, &f);
     if (outcome != STATUS_OK)
         quantity_no_value(r, outcome, f.text);

@@ -11,12 +11,12 @@
 #include "harness/time/resultants.h"
 
 /* Under the loads at path 1. */
-static double reaction_of(run_state *run, const scene_component *what, const double sigma[])
+static double reaction_of(const equations *eq, const scene_component *what, const double sigma[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double F[6], L[6];
-    linearise_node_force(run, kinematics_rest(m), sigma, what->node, F);
-    loads_at_node(run, kinematics_rest(m), 1, what->node, L);
+    linearise_node_force(eq, kinematics_rest(m), sigma, what->node, F);
+    loads_at_node(eq, kinematics_rest(m), 1, what->node, L);
     return F[what->component] - L[what->component];
 }
 
@@ -27,11 +27,11 @@ void extract_section_linear(const analysis_context *c, const scene_quantity *q,
     const internal_state at = {
         .s = kinematics_rest(c->model), .sigma = sigma, .x = outcome_displacements(o), .path = 1};
     fault f = {"out of memory for stresses"};
-    status outcome = sigma != NULL ? linear_whole_stresses(c->run, at.x, sigma, &f) : STATUS_FAULT;
+    status outcome = sigma != NULL ? linear_whole_stresses(&c->eq, at.x, sigma, &f) : STATUS_FAULT;
     if (outcome == STATUS_OK && q->what.kind == SCENE_REACTION)
-        value = reaction_of(c->run, scene_component_of(q), sigma);
+        value = reaction_of(&c->eq, scene_component_of(q), sigma);
     else if (outcome == STATUS_OK)
-        outcome = resultants_in_section(c->run, q, &at, &value, &f);
+        outcome = resultants_in_section(&c->eq, q, &at, &value, &f);
     if (outcome == STATUS_OK)
         r->value = quantity_scaled(q, value);
     else

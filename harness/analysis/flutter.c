@@ -13,7 +13,7 @@ status flutter_system_alloc(const newton *n, flutter_system *s, fault *f)
 {
     memset(s, 0, sizeof *s);
     TRY(sparse_alloc_like(&n->K, &s->M, f));
-    TRY(rotating_frame_inertia(n->c->run, n->state, 0, &s->M, NULL, f));
+    TRY(rotating_frame_inertia(&n->c->eq, n->state, 0, &s->M, NULL, f));
     s->massless = 1;
     for (int k = 0; k < s->M.column[s->M.n]; k++)
         s->massless &= s->M.value[k] == 0;
@@ -41,9 +41,9 @@ status flutter_motions(const newton *n, flutter_system *s, int wanted, int estim
                                    .wanted = wanted,
                                    .estimate = estimate};
     if (!s->massless)
-        TRY(rotating_frame_inertia(n->c->run, n->state, 0, &s->M, NULL, f));
+        TRY(rotating_frame_inertia(&n->c->eq, n->state, 0, &s->M, NULL, f));
     if (s->damped)
-        TRY(damping_matrix(n->c->run, n->state, &s->C, f));
+        TRY(damping_matrix(&n->c->eq, n->state, &s->C, f));
     const status found = unsymmetric_solve(&p, r, f);
     n->c->run->counters.solutions += r->solutions;
     return found;

@@ -82,11 +82,11 @@ status flutter_judge_state(flutter_judge *j, analysis_context *c, const model_st
                            step_record *record, fault *f)
 {
     const counters work = c->run->counters;
-    const int singular = c->singular;
+    const int singular = c->work->singular;
     TRY(flutter_judge_begin(j, c, f));
     kinematics_state_copy(c->model, state, j->n.state);
     const status outcome = flutter_judge_here(j, record, f);
-    c->singular = singular;
+    c->work->singular = singular;
     c->run->counters = work;
     return outcome;
 }

@@ -62,12 +62,12 @@ status within_step(flutter_judge *j, analysis_context *c, const model_state *fro
                    const model_state *to, double *found, fault *f)
 {
     const counters work = c->run->counters;
-    const int singular = c->singular;
+    const int singular = c->work->singular;
     *found = INFINITY;
     TRY(flutter_judge_begin(j, c, f));
     j->n.arrival.criterion = fmax(near_enough, c->options->criterion);
     const status outcome = look_at_parts(j, from, to, found, f);
-    c->singular = singular;
+    c->work->singular = singular;
     c->run->counters = work;
     return outcome;
 }

@@ -113,9 +113,9 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
     const int negative = factor_count(n->factor).negative_pivots;
     if (negative < 0 || (negative > 0 && asks_for_growth(c, analysis)))
         return unsymmetric_frequencies(c, analysis, n, out, f);
-    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern(c->model, c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, M, f));
-    TRY(rotating_frame_inertia(c->run, n->state, 0, M, NULL, f));
+    TRY(rotating_frame_inertia(&c->eq, n->state, 0, M, NULL, f));
     snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, 0));
     const sparse *upper = factor_upper(n->factor);
     const eigen_problem p = {.K = upper != NULL ? upper : &n->K,
@@ -208,7 +208,7 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
     TRY(kinematics_state_alloc(c->model, &s->stable, f));
     TRY(predictor_alloc(c->model, &s->guess, f));
     predictor_forget(&s->guess);
-    TRY(predictor_add(c->run, s->n.state, 0, &s->guess, f));
+    TRY(predictor_add(&c->eq, s->n.state, 0, &s->guess, f));
     s->n.predictor = &s->guess;
     s->begin = kinematics_state_path(s->n.state);
     sparse_zero(&s->scale);
@@ -291,7 +291,7 @@ static status go_to(search *s, double path, int *stable, fault *f)
     if (*stable)
         return take_state(s, f);
     predictor_forget(&s->guess);
-    return predictor_add(s->n.c->run, s->stable, 0, &s->guess, f);
+    return predictor_add(&s->n.c->eq, s->stable, 0, &s->guess, f);
 }
 
 /* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
@@ -326,7 +326,7 @@ static status predict(search *s, double step, sparse *A, fault *f)
     memcpy(A->value, n->K.value, (size_t)A->column[A->n] * sizeof *A->value);
     kinematics_state_copy(n->c->model, s->stable, n->state);
     predictor_forget(&s->guess);
-    TRY(predictor_add(n->c->run, n->state, 0, &s->guess, f));
+    TRY(predictor_add(&n->c->eq, n->state, 0, &s->guess, f));
     TRY(newton_direction(n, s->begin, &unused, f));
     if (step == 0)
         return STATUS_OK;
@@ -507,7 +507,7 @@ static double thrust_of_elements(const newton *n)
         const section *s = &m->section[kind->section];
         double end[2][7];
         for (int k = 0; k < 2; k++)
-            internal_at_end(n->c->run, &at, m->element[i].member, k, end[k]);
+            internal_at_end(&n->c->eq, &at, m->element[i].member, k, end[k]);
         const double EI = s->young * fmin(s->Iy, s->Iz), thrust = -fmin(end[0][0], end[1][0]);
         if (EI > 0) /* of a section by matrices: 0 */
             most = fmax(most, thrust * kind->length * kind->length / (PI * PI * EI));

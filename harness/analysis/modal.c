@@ -90,7 +90,7 @@ static double eigenvalue(modal_forms *about, double mu, const double mode[])
     if (about->prestressed)
         return square;
     memcpy(about->of.x, mode, (size_t)about->of.free * sizeof *mode);
-    const double k = square * mu, b = rotating_frame_inner(about->of.run->m, about->of.x);
+    const double k = square * mu, b = rotating_frame_inner(about->of.eq->m, about->of.x);
     return 2 * k / (mu + sqrt(mu * mu + 4 * b * k));
 }
 
@@ -122,7 +122,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
 /* What nothing resists, neither stiffness nor mass, has any frequency. */
 static status explain_massless(analysis_context *c, fault *f)
 {
-    c->singular = 0;
+    c->work->singular = 0;
     fault_set(f, STATUS_SINGULAR,
               "a motion that no stiffness resists has no mass either (a point mass, or a bar "
               "without density between two, turns about itself): give bodies an inertia, sections "
@@ -153,9 +153,9 @@ static status add_stresses(analysis_context *c, double path, linear_system *s, m
                            fault *f)
 {
     about->prestressed = 1;
-    TRY(quadratic_forms_load(&about->of, path, 1, f));
+    TRY(quadratic_forms_load(&c->eq, &about->of, path, 1, f));
     TRY(sparse_alloc_like(&s->K, &about->G, f));
-    TRY(linear_geometric_stiffness(c->run, about->of.sigma, path, &about->G, f));
+    TRY(linear_geometric_stiffness(&c->eq, about->of.sigma, path, &about->G, f));
     for (int i = 0; i < s->K.column[s->K.n]; i++)
         s->K.value[i] += about->G.value[i];
     c->run->counters.factorisations++;
@@ -180,15 +180,11 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
 
 /* K += G of the stresses that initial strains leave in the structure without loads. K may be that
  * of a structure that is not held, with its shift. */
-static status add_strains(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
-                          fault *f)
+static status add_strains(const analysis_context *c, linear_system *s, modal_forms *about, fault *f)
 {
-    loads_none(c->run);
-    status outcome = linear_system_solve(c, s, 0, about->of.load_x, f);
-    if (outcome == STATUS_OK)
-        outcome = add_stresses(c, 0, s, about, f);
-    loads_of(c->run, analysis);
-    return outcome;
+    analysis_context unloaded = context_unloaded(c);
+    TRY(linear_system_solve(&unloaded, s, 0, about->of.load_x, f));
+    return add_stresses(&unloaded, 0, s, about, f);
 }
 
 /* K with its factors, and M; K of a structure that is not held is shifted. */
@@ -200,7 +196,7 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     int singular = solved == STATUS_SINGULAR;
     if (!singular)
         TRY(solved);
-    TRY(quadratic_forms_alloc(c->run, &s->K, &about->of, f));
+    TRY(quadratic_forms_alloc(&c->eq, &s->K, &about->of, f));
     if (follows != SCENE_NONE && !singular) {
         const status stressed = add_prestress(c, follows, s, about, f);
         singular = stressed == STATUS_SINGULAR;
@@ -211,11 +207,11 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     about->work = calloc((size_t)s->K.n + 1, sizeof *about->work);
     if (about->work == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    TRY(rotating_frame_inertia(c->run, NULL, 0, &about->M, NULL, f));
+    TRY(rotating_frame_inertia(&c->eq, NULL, 0, &about->M, NULL, f));
     if (singular)
         TRY(shifted_system(c, s, &about->M, &about->shift, f));
     if (follows == SCENE_NONE && linear_initial(c->model) > 0)
-        TRY(add_strains(c, analysis, s, about, f));
+        TRY(add_strains(c, s, about, f));
     return STATUS_OK;
 }
 

@@ -73,7 +73,7 @@ static status allocate(const analysis_context *c, matrices *a, fault *f)
     a->y = calloc(all, sizeof(double));
     if (a->residual == NULL || a->x == NULL || a->y == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
-    TRY(assemble_pattern_of_states(c->model, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(c->model, c->run->patterns, 0, &pattern, f));
     for (int i = 0; i < 4; i++)
         TRY(sparse_alloc_like(pattern, each[i], f));
     return factor_alloc(pattern, &a->factor, f);
@@ -84,7 +84,7 @@ static status matrices_alloc(analysis_context *c, matrices *a, fault *f)
     const double begin = clock_processor_seconds();
     memset(a, 0, sizeof *a);
     const status outcome = allocate(c, a, f);
-    c->setup += clock_processor_seconds() - begin;
+    c->work->setup += clock_processor_seconds() - begin;
     return outcome;
 }
 
@@ -104,9 +104,9 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
 {
     const double path = kinematics_state_path(state);
     model_linearisation lin = {.path = path, .K = &a->K, .residual = a->residual};
-    TRY(linearise_state(c->run, &c->run->memory, state, &lin, f));
-    TRY(rotating_frame_inertia(c->run, state, path, &a->M, &a->G, f));
-    TRY(stiffness_parts_geometric(c->run, &c->run->memory, state, &a->geometric, f));
+    TRY(linearise_state(&c->eq, &c->run->memory, state, &lin, f));
+    TRY(rotating_frame_inertia(&c->eq, state, path, &a->M, &a->G, f));
+    TRY(stiffness_parts_geometric(&c->eq, &c->run->memory, state, &a->geometric, f));
     c->run->counters.factorisations++;
     TRY(context_factor(c, a->factor, &a->K, f));
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);

@@ -93,24 +93,24 @@ static void run_analyses(analysis_context *c)
         const scene_analysis *a = &c->scene->analysis[i];
         analysis_function *run = function_of(c->scene, a);
         o->kind = a->kind;
-        context_set_frame(c, i);
         if (!context_runs(c, i) || (c->options->sample > 0 && a->kind != SCENE_STATIC))
             continue;
-        c->singular = 0;
+        analysis_context own = context_of(c, i);
+        c->work->singular = 0;
         const int first_step = c->result->steps;
         o->status = scene_inputs_check(c->scene, i, &f);
         if (o->status == STATUS_OK)
             o->status = newton_judge_rest(c->model, &f);
         if (o->status == STATUS_OK)
-            o->status = run(c, i, o, &f);
+            o->status = run(&own, i, o, &f);
         history_judge_steps(c->result, c->scene, i, first_step);
         if (a->kind == SCENE_ROTATION)
-            rotation_judge_stations(c, i, o);
-        if (o->status == STATUS_SINGULAR && c->singular)
-            singular_explain(c, &f);
+            rotation_judge_stations(&own, i, o);
+        if (o->status == STATUS_SINGULAR && c->work->singular)
+            singular_explain(&own, &f);
         else if (is_stuck(o))
-            o->status = singular_mechanism(c, o->status, &f);
-        o->status = judge_rest(c, o, first_step, &f);
+            o->status = singular_mechanism(&own, o->status, &f);
+        o->status = judge_rest(&own, o, first_step, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
             c->result->status = o->status;
@@ -149,16 +149,18 @@ static void put_over(const scene *s, solve_result *r, int quantity)
         c->x[i] = i < of->points ? of->value[i] : NAN;
 }
 
-status solve_scene(const scene *s, model *m, const solve_options *options, solve_result *result,
-                   fault *f)
+status solve_scene(const scene *s, const model *m, const solve_options *options,
+                   solve_result *result, fault *f)
 {
     static const solve_options defaults = {0};
     run_state run;
+    context_work work = {0};
     analysis_context c = {.scene = s,
                           .model = m,
                           .run = &run,
                           .options = options != NULL ? options : &defaults,
-                          .result = result};
+                          .result = result,
+                          .work = &work};
     memset(result, 0, sizeof *result);
     TRY(run_state_begin(&run, m, c.options->threads, f));
     phases_want(&run.phases, c.options->phases);
@@ -172,14 +174,14 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     }
     result->quantities = s->quantities;
     run_analyses(&c);
-    result->seconds_setup = c.setup;
-    result->seconds_solve = clock_processor_seconds() - start - c.setup;
+    result->seconds_setup = work.setup;
+    result->seconds_solve = clock_processor_seconds() - start - work.setup;
     if (c.options->phases)
         phases_of_whole(&run.phases, result->seconds_solve, result->phase);
     for (int i = 0; i < s->quantities; i++) {
         quantity_result *q = &result->quantity[i];
-        context_set_frame(&c, s->quantity[i].analysis);
-        extract_quantity(&c, &s->quantity[i], q);
+        const analysis_context own = context_of(&c, s->quantity[i].analysis);
+        extract_quantity(&own, &s->quantity[i], q);
         q->change = NAN;
         if (q->status == STATUS_FAULT && result->status == STATUS_OK) {
             result->status = STATUS_FAULT;
@@ -193,7 +195,7 @@ status solve_scene(const scene *s, model *m, const solve_options *options, solve
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);
     free(c.outcomes);
-    factor_free(c.left);
+    factor_free(work.left);
     run_state_end(&run);
     if (result->status != STATUS_OK && f != NULL)
         snprintf(f->text, sizeof f->text, "%s", result->reason);

@@ -6,6 +6,6 @@
 #include "harness/newton/result.h"
 
 /* Fills result even on failure (quantities that could be found stay); result_free frees it. */
-status solve_scene(const scene *, model *, const solve_options *, solve_result *, fault *);
+status solve_scene(const scene *, const model *, const solve_options *, solve_result *, fault *);
 
 #endif

@@ -56,7 +56,7 @@ static status walk_to(newton *n, double target, flutter_judge *judge, double *in
         step_record record = {.path = to, .increment = to - from, .rejected = rejected};
         kinematics_state_copy(n->c->model, n->state, n->backup);
         if (n->predictor != NULL)
-            predictor_guess(n->c->run, n->predictor, to, n->state);
+            predictor_guess(&n->c->eq, n->predictor, to, n->state);
         const status outcome = newton_to(n, to, &record, f);
         double found = INFINITY;
         if (outcome == STATUS_OK)
@@ -74,7 +74,7 @@ static status walk_to(newton *n, double target, flutter_judge *judge, double *in
                                          ? record.negative_pivots
                                          : count->negative_pivots;
             if (n->predictor != NULL)
-                TRY(predictor_add(n->c->run, n->state, record.iterations, n->predictor, f));
+                TRY(predictor_add(&n->c->eq, n->state, record.iterations, n->predictor, f));
             if (record.iterations <= EASY_ITERATIONS && rejected == 0 &&
                 to - from >= *increment * (1 - 1e-9))
                 *increment *= 2;

@@ -204,7 +204,7 @@ static status find_places(const model *m, mesh_pattern *p, fault *f)
     return STATUS_OK;
 }
 
-void assemble_pattern_free(mesh_pattern *p)
+static void pattern_free(mesh_pattern *p)
 {
     free(p->matrix.column);
     free(p->matrix.row);
@@ -221,11 +221,27 @@ static status fill_pattern(const model *m, mesh_pattern *p, fault *f)
     return find_places(m, p, f);
 }
 
-enum { FREE, WITH_DRIVEN, IN_TIME, WHOLE, WHOLE_WITH_DRIVEN };
+enum { FREE, WITH_DRIVEN, IN_TIME, WHOLE, WHOLE_WITH_DRIVEN, PATTERNS };
+struct assemble_patterns {
+    mesh_pattern pattern[PATTERNS];
+};
 
-static status make(model *m, int which, const sparse **out, fault *f)
+status assemble_patterns_alloc(assemble_patterns **out, fault *f)
 {
-    mesh_pattern *p = &m->pattern[which];
+    *out = calloc(1, sizeof **out);
+    return *out != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for patterns");
+}
+
+void assemble_patterns_free(assemble_patterns *all)
+{
+    for (int i = 0; i < PATTERNS && all != NULL; i++)
+        pattern_free(&all->pattern[i]);
+    free(all);
+}
+
+static status make(const model *m, assemble_patterns *all, int which, const sparse **out, fault *f)
+{
+    mesh_pattern *p = &all->pattern[which];
     *out = &p->matrix;
     if (p->made)
         return STATUS_OK;
@@ -236,33 +252,36 @@ static status make(model *m, int which, const sparse **out, fault *f)
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
-        assemble_pattern_free(p); /* the next analysis tries again */
+        pattern_free(p); /* the next analysis tries again */
     return outcome;
 }
 
-status assemble_pattern(model *m, int with_driven, const sparse **out, fault *f)
+status assemble_pattern(const model *m, assemble_patterns *all, int with_driven, const sparse **out,
+                        fault *f)
 {
-    return make(m, with_driven ? WITH_DRIVEN : FREE, out, f);
+    return make(m, all, with_driven ? WITH_DRIVEN : FREE, out, f);
 }
 
-status assemble_pattern_of_states(model *m, int with_driven, const sparse **out, fault *f)
+status assemble_pattern_of_states(const model *m, assemble_patterns *all, int with_driven,
+                                  const sparse **out, fault *f)
 {
     if (assemble_symmetric(m))
-        return assemble_pattern(m, with_driven, out, f);
-    return make(m, with_driven ? WHOLE_WITH_DRIVEN : WHOLE, out, f);
+        return assemble_pattern(m, all, with_driven, out, f);
+    return make(m, all, with_driven ? WHOLE_WITH_DRIVEN : WHOLE, out, f);
 }
 
-status assemble_pattern_in_time(model *m, const sparse **out, fault *f)
+status assemble_pattern_in_time(const model *m, assemble_patterns *all, const sparse **out,
+                                fault *f)
 {
-    return make(m, IN_TIME, out, f);
+    return make(m, all, IN_TIME, out, f);
 }
 
-const mesh_pattern *assemble_of(const model *m, const sparse *a)
+const mesh_pattern *assemble_of(const assemble_patterns *all, const sparse *a)
 {
     for (int i = WITH_DRIVEN; i <= WHOLE_WITH_DRIVEN; i++)
-        if (m->pattern[i].made && m->pattern[i].matrix.row == a->row)
-            return &m->pattern[i];
-    return &m->pattern[FREE];
+        if (all->pattern[i].made && all->pattern[i].matrix.row == a->row)
+            return &all->pattern[i];
+    return &all->pattern[FREE];
 }
 
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out)

@@ -189,8 +189,6 @@ void model_free(model *m)
 {
     if (m == NULL)
         return;
-    for (size_t i = 0; i < sizeof m->pattern / sizeof m->pattern[0]; i++)
-        assemble_pattern_free(&m->pattern[i]);
     for (int i = 0; i < m->kinds; i++) {
         free(m->kind[i].data);
         free(m->kind[i].inner);

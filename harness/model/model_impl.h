@@ -129,13 +129,12 @@ struct model {
     int *first_element;     /* [members + 1] */
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
-    double size;             /* length of the longest member [m] */
-    int asked;               /* elements of a piece of a member */
-    division division;       /* of the members into elements */
-    mesh_pattern pattern[5]; /* those of assemble.h */
-    int work_size;           /* of an element in a linear_memory: harness/newton/run_state.h */
-    model_state *rest;       /* undeformed */
-    int takes;               /* elements take loads along them (element_type.along) */
+    double size;       /* length of the longest member [m] */
+    int asked;         /* elements of a piece of a member */
+    division division; /* of the members into elements */
+    int work_size;     /* of an element in a linear_memory: harness/newton/run_state.h */
+    model_state *rest; /* undeformed */
+    int takes;         /* elements take loads along them (element_type.along) */
     int lines;
     char **line; /* what was left out */
 };
@@ -202,9 +201,9 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
                       const double force[], double K[]);
 
 /* assemble.c */
-void assemble_pattern_free(mesh_pattern *p);
 /* That on which a matrix was made. */
-const mesh_pattern *assemble_of(const model *m, const sparse *a);
+struct assemble_patterns;
+const mesh_pattern *assemble_of(const struct assemble_patterns *, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
 /* The same of a discrete element, whose places are looked for. */
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out);

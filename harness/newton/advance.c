@@ -70,17 +70,17 @@ static double advance_vertex(const model *m, model_state *s, int index, const do
     return largest;
 }
 
-double advance_state(run_state *run, const linear_memory *memory, model_state *s, const double dx[],
-                     double path, advance_stress *stress)
+double advance_state(const equations *eq, const linear_memory *memory, model_state *s,
+                     const double dx[], double path, advance_stress *stress)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double largest = 0;
     advance_stress of_elements = {0, 0};
     for (int i = 0; i < m->elements; i++)
         largest = larger(largest, advance_element(m, memory, s, i, dx, &of_elements));
     if (stress != NULL)
         *stress = of_elements;
-    phases_lap(&run->phases, PHASE_ELEMENTS);
+    phases_lap(&eq->run->phases, PHASE_ELEMENTS);
     for (int i = 0; i < m->vertices; i++)
         if (m->vertex[i].body == i)
             largest = larger(largest, advance_vertex(m, s, i, dx));
@@ -94,7 +94,7 @@ double advance_state(run_state *run, const linear_memory *memory, model_state *s
         if (m->driver_coordinate[d] != NONE)
             s->driver[d] += dx[m->driver_coordinate[d]];
         else if (m->scene->driver[d].value != NULL)
-            s->driver[d] = loads_driver_value(run, &m->scene->driver[d], path);
+            s->driver[d] = loads_driver_value(eq, &m->scene->driver[d], path);
     kinematics_follow(m, s);
     s->path = path;
     return largest;

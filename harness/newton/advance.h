@@ -13,7 +13,7 @@ typedef struct advance_stress {
  * every element and then the frames take their increments. dx[free + driven]. Returns the largest
  * correction, dimensionless: translations by the size of the scene, rotations in rad, warping by
  * the element length, inner unknowns as the element says. stress: NULL where nobody asks. */
-double advance_state(run_state *, const linear_memory *, model_state *, const double dx[],
+double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
 /* The state is in equilibrium: the next increments start from it with the tangent of the last
  * linearisation, and nothing that this had left open is closed again. */

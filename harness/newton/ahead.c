@@ -18,9 +18,9 @@ static void *part(char **from, size_t count, size_t size)
 }
 
 /* All arrays in one block. 0: no memory. */
-static int allocate(run_state *run)
+static int allocate(const equations *eq)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const size_t n = (size_t)m->elements, s = (size_t)m->strains, c = (size_t)m->coordinates,
                  nodes = (size_t)m->nodes, memory = (size_t)m->memory;
     const size_t size = bytes(1, sizeof(run_ahead)) + 3 * bytes(n, sizeof(void *)) +
@@ -29,10 +29,10 @@ static int allocate(run_state *run)
                         2 * bytes(n * s, sizeof(double)) + bytes(n * s * c, sizeof(double)) +
                         bytes(n * c * c, sizeof(double)) + bytes(n * s * s, sizeof(double)) +
                         bytes(n * memory, sizeof(double));
-    char *block = run->ahead == NULL ? malloc(size) : NULL;
+    char *block = eq->run->ahead == NULL ? malloc(size) : NULL;
     if (block == NULL)
-        return run->ahead != NULL;
-    run_ahead *a = run->ahead = part(&block, 1, sizeof *a);
+        return eq->run->ahead != NULL;
+    run_ahead *a = eq->run->ahead = part(&block, 1, sizeof *a);
     memset(a, 0, sizeof *a);
     a->data = part(&block, n, sizeof(void *));
     a->at = part(&block, n, sizeof(void *));
@@ -52,12 +52,12 @@ static int allocate(run_state *run)
     return 1;
 }
 
-void ahead_strains(run_state *run, const model_state *s, int what, const double sigma[])
+void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[])
 {
-    const model *m = run->m;
-    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(run))
+    const model *m = eq->m;
+    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(eq))
         return;
-    run_ahead *a = run->ahead;
+    run_ahead *a = eq->run->ahead;
     const int n = m->strains, c = m->coordinates;
     for (int i = 0; i < m->elements; i++) {
         kinematics_gather(m, s, &m->element[i], a->x + i * m->nodes);
@@ -70,12 +70,12 @@ void ahead_strains(run_state *run, const model_state *s, int what, const double 
     a->what = what;
 }
 
-void ahead_stresses(run_state *run, const double e[], const double inner[])
+void ahead_stresses(const equations *eq, const double e[], const double inner[])
 {
-    const model *m = run->m;
-    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(run))
+    const model *m = eq->m;
+    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(eq))
         return;
-    run_ahead *a = run->ahead;
+    run_ahead *a = eq->run->ahead;
     const int n = m->strains;
     if (e == NULL && !(a->what & AHEAD_E))
         return;
@@ -90,10 +90,10 @@ void ahead_stresses(run_state *run, const double e[], const double inner[])
     a->stresses = 1;
 }
 
-void ahead_end(run_state *run)
+void ahead_end(const equations *eq)
 {
-    if (run->ahead != NULL)
-        run->ahead->what = run->ahead->stresses = 0;
+    if (eq->run->ahead != NULL)
+        eq->run->ahead->what = eq->run->ahead->stresses = 0;
 }
 
 static void copy(double *to, const double *from, int count)
@@ -102,10 +102,10 @@ static void copy(double *to, const double *from, int count)
         memcpy(to, from, (size_t)count * sizeof *to);
 }
 
-void ahead_copy_strain(const run_state *run, int i, const strain_output *out)
+void ahead_copy_strain(const equations *eq, int i, const strain_output *out)
 {
-    const model *m = run->m;
-    const run_ahead *a = run->ahead;
+    const model *m = eq->m;
+    const run_ahead *a = eq->run->ahead;
     const int n = m->strains, c = m->coordinates;
     copy(out->e, a->e + i * n, n);
     copy(out->J, a->J + i * n * c, n * c);
@@ -113,10 +113,10 @@ void ahead_copy_strain(const run_state *run, int i, const strain_output *out)
         copy(out->H, a->H + i * c * c, c * c);
 }
 
-status ahead_copy_stress(const run_state *run, int i, const stress_output *out)
+status ahead_copy_stress(const equations *eq, int i, const stress_output *out)
 {
-    const model *m = run->m;
-    const run_ahead *a = run->ahead;
+    const model *m = eq->m;
+    const run_ahead *a = eq->run->ahead;
     const int n = m->strains;
     copy(out->sigma, a->sigma + i * n, n);
     copy(out->C, a->C + i * n * n, n * n);

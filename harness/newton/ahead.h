@@ -23,31 +23,31 @@ typedef struct run_ahead {
 enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* what of the strains */
 
 /* Of the nodes of s; sigma[elements x strains] for H. Until ahead_end. */
-void ahead_strains(run_state *run, const model_state *s, int what, const double sigma[]);
+void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
 /* At e[elements x strains], or NULL: at the strains evaluated ahead; sigma and C. */
-void ahead_stresses(run_state *run, const double e[], const double inner[]);
-void ahead_end(run_state *run);
+void ahead_stresses(const equations *eq, const double e[], const double inner[]);
+void ahead_end(const equations *eq);
 
-void ahead_copy_strain(const run_state *run, int i, const strain_output *out);
-status ahead_copy_stress(const run_state *run, int i, const stress_output *out);
+void ahead_copy_strain(const equations *eq, int i, const strain_output *out);
+status ahead_copy_stress(const equations *eq, int i, const stress_output *out);
 
 /* Those of element i at x or e, for loops between ahead_strains or ahead_stresses and ahead_end:
  * what was evaluated ahead, or the type's own functions. */
-static inline void ahead_strain(const run_state *run, int i, const node_state x[],
+static inline void ahead_strain(const equations *eq, int i, const node_state x[],
                                 strain_output *out)
 {
-    if (run->ahead != NULL && run->ahead->what != 0)
-        ahead_copy_strain(run, i, out);
+    if (eq->run->ahead != NULL && eq->run->ahead->what != 0)
+        ahead_copy_strain(eq, i, out);
     else
-        run->m->type->strain(run->m->kind[run->m->element[i].kind].data, x, out);
+        eq->m->type->strain(eq->m->kind[eq->m->element[i].kind].data, x, out);
 }
 
-static inline status ahead_stress(const run_state *run, int i, const double e[],
+static inline status ahead_stress(const equations *eq, int i, const double e[],
                                   const double inner[], stress_output *out)
 {
-    if (run->ahead != NULL && run->ahead->stresses)
-        return ahead_copy_stress(run, i, out);
-    return run->m->type->stress(run->m->kind[run->m->element[i].kind].data, e, inner, out);
+    if (eq->run->ahead != NULL && eq->run->ahead->stresses)
+        return ahead_copy_stress(eq, i, out);
+    return eq->m->type->stress(eq->m->kind[eq->m->element[i].kind].data, e, inner, out);
 }
 
 #endif

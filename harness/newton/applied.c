@@ -13,15 +13,15 @@
 #include "harness/model/release.h"
 #include "harness/newton/equations_impl.h"
 
-double applied_factor(const run_state *run, const scene_load *load, double path)
+double applied_factor(const equations *eq, const scene_load *load, double path)
 {
     double at[3];
-    if (run->loading.unloaded)
+    if (eq->loading.unloaded)
         return 0;
-    if (!run->loading.in_time)
+    if (!eq->loading.in_time)
         return along_path_factor(load, path);
     if (load->function.pieces == 0)
-        return along_path_factor(load, run->loading.held_path);
+        return along_path_factor(load, eq->loading.held_path);
     function_at(&load->function, path, at);
     return at[0];
 }

@@ -12,8 +12,8 @@ typedef struct applied {
     double arm[3]; /* from the vertex to where the force acts, with which it turns [m] */
 } applied;
 
-/* What the load is times at `path`, or in time (loads_of). */
-double applied_factor(const run_state *, const scene_load *load, double path);
+/* What the load is times at `path`, or in time (loading_of). */
+double applied_factor(const equations *, const scene_load *load, double path);
 /* Along the whole of a member, where it goes to nodes with a motion's mass by the shares of that;
  * not by the load's own wish. */
 int applied_with_mass(const scene_load *);

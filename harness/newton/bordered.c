@@ -66,25 +66,25 @@ void bordered_solve(tangent *t, counters *n, const bordered *s, int columns, dou
 }
 
 /* rest[all] = load - K x */
-static void residual_of(const run_state *run, const tangent *t, const bordered *s)
+static void residual_of(const equations *eq, const tangent *t, const bordered *s)
 {
     double *rest = s->rest;
     memset(rest, 0, (size_t)t->all * sizeof *rest);
     sparse_mul(&t->geometric, s->x, rest);
-    stiffness_parts_material_product(run->m, &run->memory, t->state, s->x, rest);
+    stiffness_parts_material_product(eq->m, &eq->run->memory, t->state, s->x, rest);
     for (int k = 0; k < t->all; k++)
         rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
 }
 
-status bordered_refine(run_state *run, tangent *t, const bordered *s, fault *f)
+status bordered_refine(const equations *eq, tangent *t, const bordered *s, fault *f)
 {
     /* x itself was the first, and of condensed members as good as the second */
     refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
-    metric_of(run->m, s->weight);
+    metric_of(eq->m, s->weight);
     while (state == REFINEMENT_GOES_ON) {
-        residual_of(run, t, s);
-        bordered_solve(t, &run->counters, s, 1, s->rest);
+        residual_of(eq, t, s);
+        bordered_solve(t, &eq->run->counters, s, 1, s->rest);
         for (int k = 0; k < t->all; k++)
             s->x[k] += s->rest[k];
         state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x, 0));

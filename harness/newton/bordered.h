@@ -21,6 +21,6 @@ void bordered_free(bordered *s);
 void bordered_solve(tangent *t, counters *n, const bordered *s, int columns, double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
  * strains (refinement.h). SINGULAR: round-off leaves too few digits. */
-status bordered_refine(run_state *run, tangent *t, const bordered *s, fault *f);
+status bordered_refine(const equations *eq, tangent *t, const bordered *s, fault *f);
 
 #endif

@@ -43,15 +43,15 @@ static const double *inner_of(const model *m, const model_state *s, int element)
 }
 
 /* Their functions of one element, or what was evaluated ahead. */
-static void strains_one_by_one(const run_state *run, const linear_memory *memory,
+static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int k = 0; k < count; k++) {
         chunk_element *c = &element[k];
         const model_slot w = linearise_slot(m, memory, c->index);
-        ahead_strain(run, c->index, c->x,
+        ahead_strain(eq, c->index, c->x,
                      &(strain_output){.e = deformed[k],
                                       .J = w.J,
                                       .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
@@ -59,17 +59,17 @@ static void strains_one_by_one(const run_state *run, const linear_memory *memory
     }
 }
 
-static void stresses_one_by_one(const run_state *run, const linear_memory *memory,
+static void stresses_one_by_one(const equations *eq, const linear_memory *memory,
                                 const model_state *s, int count, chunk_element element[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int k = 0; k < count; k++) {
         const int i = element[k].index;
         const model_slot w = linearise_slot(m, memory, i);
         if (element[k].along.acts)
             continue;
         element[k].outcome = ahead_stress(
-            run, i, of_strains(m, s->e, i), inner_of(m, s, i),
+            eq, i, of_strains(m, s->e, i), inner_of(m, s, i),
             &(stress_output){
                 .sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL});
     }
@@ -206,10 +206,10 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
 }
 
 /* The strains' rates, of those that the linearised equations have without a motion. */
-static void damp(const run_state *run, const linear_memory *memory, const model_state *s, int index)
+static void damp(const equations *eq, const linear_memory *memory, const model_state *s, int index)
 {
-    const model *m = run->m;
-    const run_damping *d = run->damping;
+    const model *m = eq->m;
+    const run_damping *d = eq->run->damping;
     const double eta = m->scene->member[m->element[index].member].damping;
     const size_t n = (size_t)m->strains, first = (size_t)index * n;
     const double *S = d->stiffness + (size_t)m->element[index].kind * n * n;
@@ -227,10 +227,10 @@ static void damp(const run_state *run, const linear_memory *memory, const model_
         w.C[k] += eta * d->g * S[k];
 }
 
-void chunk_evaluate(const run_state *run, const linear_memory *memory, const model_state *s,
+void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
     const int together = count >= REAL_CHOSEN(together_from) && chunk_size(m) > 1;
     for (int k = 0; k < count; k++) {
@@ -238,27 +238,27 @@ void chunk_evaluate(const run_state *run, const linear_memory *memory, const mod
         element[k].complete = 0;
         element[k].along.acts = 0;
         if (m->takes)
-            distributed_take(run, element[k].index, path, &element[k].along);
+            distributed_take(eq, element[k].index, path, &element[k].along);
         if (m->takes)
             linearise_slot(m, memory, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
-    if (together && m->type->equations_many != NULL && !run->loading.rotates &&
-        run->damping == NULL && !m->takes) {
+    if (together && m->type->equations_many != NULL && !eq->loading.rotates &&
+        eq->run->damping == NULL && !m->takes) {
         equations_together(m, memory, s, count, element);
         return;
     }
     if (together)
         strains_together(m, memory, s, count, element, deformed);
     else
-        strains_one_by_one(run, memory, s, count, element, deformed);
+        strains_one_by_one(eq, memory, s, count, element, deformed);
     if (together && m->type->stress_many != NULL)
         stresses_together(m, memory, s, count, element);
     else
-        stresses_one_by_one(run, memory, s, count, element);
+        stresses_one_by_one(eq, memory, s, count, element);
     if (m->takes)
         stresses_under_loads(m, memory, s, count, element);
     for (int k = 0; k < count; k++)
         mix(m, memory, s, element[k].index, deformed[k]);
-    for (int k = 0; k < count && run->damping != NULL; k++)
-        damp(run, memory, s, element[k].index);
+    for (int k = 0; k < count && eq->run->damping != NULL; k++)
+        damp(eq, memory, s, element[k].index);
 }

@@ -31,7 +31,7 @@ typedef struct chunk_element {
 
 /* Strains and stresses of count elements in the state, into their slots (linearise_slot), and what
  * chunk_element says. */
-void chunk_evaluate(const run_state *run, const linear_memory *memory, const model_state *s,
+void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
 
 #endif

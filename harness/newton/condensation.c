@@ -17,11 +17,11 @@
 
 /* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
  * them free? */
-static int applies(const run_state *run, int from)
+static int applies(const equations *eq, int from)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     int longest = 0;
-    if (run->loading.rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
+    if (eq->loading.rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
         return 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
@@ -124,15 +124,15 @@ static status build(condensation *s, const condensation *of, int count, const in
     return factor_alloc(&s->inside, &s->factor, f);
 }
 
-static status allocate(run_state *run, const condensation *of, int count, const int released[],
+static status allocate(const equations *eq, const condensation *of, int count, const int released[],
                        condensation **out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     int few = 0;
     condensation *s = calloc(1, sizeof *s);
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
-    s->run = run;
+    s->eq = eq;
     s->m = m;
     s->all = m->free + m->driven;
     const status outcome = build(s, of, count, released, &few, f);
@@ -143,18 +143,18 @@ static status allocate(run_state *run, const condensation *of, int count, const 
     return outcome;
 }
 
-status condensation_alloc(run_state *run, int from, int count, const int released[],
+status condensation_alloc(const equations *eq, int from, int count, const int released[],
                           condensation **out, fault *f)
 {
     *out = NULL;
-    return applies(run, from) ? allocate(run, NULL, count, released, out, f) : STATUS_OK;
+    return applies(eq, from) ? allocate(eq, NULL, count, released, out, f) : STATUS_OK;
 }
 
 status condensation_alloc_like(const condensation *of, int count, const int released[],
                                condensation **out, fault *f)
 {
     *out = NULL;
-    return allocate(of->run, of, count, released, out, f);
+    return allocate(of->eq, of, count, released, out, f);
 }
 
 static void free_sparse(sparse *a)
@@ -182,22 +182,22 @@ void condensation_free(condensation *s)
 }
 
 /* One element as a link; force[7 nodes]: internal, in the state. */
-static status link_element_of(const run_state *run, const model_state *s, const member *of, int i,
+static status link_element_of(const equations *eq, const model_state *s, const member *of, int i,
                               double path, chain_link *link, double force[], fault *f)
 {
-    const model *m = run->m;
-    const model_slot w = linearise_slot(m, &run->memory, i);
+    const model *m = eq->m;
+    const model_slot w = linearise_slot(m, &eq->run->memory, i);
     const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
     node_state x[ELEMENT_MAX_NODES];
     double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
         along[ELEMENT_MAX_COORDINATES] = {0};
     kinematics_gather(m, s, &m->element[i], x);
-    ahead_strain(run, i, x, &(strain_output){.s = sigma, .H = H});
+    ahead_strain(eq, i, x, &(strain_output){.s = sigma, .H = H});
     for (int k = 0; k < m->nodes; k++)
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
     memset(force, 0, (size_t)m->coordinates * sizeof *force);
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
-    distributed_add(run, s, x, i, path, along, H);
+    distributed_add(eq, s, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     const link_element el = {m->nodes, m->strains, of->joint, w.J, w.C, H, r};
@@ -205,15 +205,15 @@ static status link_element_of(const run_state *run, const model_state *s, const 
 }
 
 /* The chain of a member; force[14]: internal forces of its ends. */
-static status fill_chain(const run_state *run, const model_state *s, member *of, double path,
+static status fill_chain(const equations *eq, const model_state *s, member *of, double path,
                          double force[], fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double own[ELEMENT_MAX_COORDINATES];
     chain_begin(of->chain);
     for (int i = of->first; i < of->first + of->links; i++) {
         chain_link link;
-        TRY(link_element_of(run, s, of, i, path, &link, own, f));
+        TRY(link_element_of(eq, s, of, i, path, &link, own, f));
         TRY(chain_add(of->chain, &link, f));
         if (i == of->first)
             memcpy(force, own, NODE_COORDINATES * sizeof *force);
@@ -228,7 +228,7 @@ static status member_matrix(condensation *s, member *of, double path, double K[]
 {
     const int c = of->joint, n = 2 * NODE_COORDINATES;
     double small[CHAIN_LINK * CHAIN_LINK], force[2 * NODE_COORDINATES];
-    TRY(fill_chain(s->run, s->at, of, path, force, f));
+    TRY(fill_chain(s->eq, s->at, of, path, force, f));
     TRY(chain_stiffness(of->chain, small, f));
     s->negative += chain_negative(of->chain);
     memset(K, 0, (size_t)(n * n) * sizeof *K);
@@ -252,21 +252,21 @@ static status members(condensation *s, double path, fault *f)
 
 status condensation_at(condensation *s, const model_state *at, double path, fault *f)
 {
-    const element_rotating_frame frame = run_rotating_frame(s->run, path);
+    const element_rotating_frame frame = loading_frame(&s->eq->loading, path);
     s->at = at;
     s->negative = 0;
     sparse_zero(&s->K);
-    ahead_strains(s->run, at, AHEAD_H, at->sigma);
+    ahead_strains(s->eq, at, AHEAD_H, at->sigma);
     const status outcome = members(s, path, f);
-    ahead_end(s->run);
+    ahead_end(s->eq);
     TRY(outcome);
     for (int i = 0; i < s->m->discretes; i++) {
         element_part part = {.incompatibility = 0};
         discrete_equations(s->m, at, &s->m->discrete[i], &frame, part.force, part.K);
         assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
     }
-    loads_subtract_at_vertices(s->run, at, path, &s->K);
-    linearise_add_held_moments(s->run, at, path, &s->K);
+    loads_subtract_at_vertices(s->eq, at, path, &s->K);
+    linearise_add_held_moments(s->eq, at, path, &s->K);
     return STATUS_OK;
 }
 

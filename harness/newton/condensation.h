@@ -17,7 +17,7 @@ enum { CONDENSATION_ELEMENTS = 1000 };
 
 /* *out NULL: members have fewer elements than `from`, or something acts between their ends that has
  * a stiffness, or frames turn. released[count]: driven coordinates that are unknown too. */
-status condensation_alloc(run_state *, int from, int count, const int released[],
+status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
 /* The members of `of`, which must outlive it, with other released coordinates: condensation_take.
  */

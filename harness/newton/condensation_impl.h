@@ -17,7 +17,7 @@ typedef struct member {
 } member;
 
 struct condensation {
-    run_state *run;
+    const equations *eq;
     const model *m;
     const model_state *at;
     int members, all, unknowns;

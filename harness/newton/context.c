@@ -9,35 +9,35 @@ int context_runs(const analysis_context *c, int analysis)
     return c->options->all_analyses || scene_reads(c->scene, analysis);
 }
 
-/* In a motion loads without a function of time stay as in the state that it starts from. */
-static void hold_loads(const analysis_context *c, int analysis)
+/* Path parameter of the state that a motion starts from; 1: it starts from none. */
+static double held_path(const analysis_context *c, int analysis)
 {
     const int origin = scene_origin_of(c->scene, analysis);
     if (origin == analysis || origin == SCENE_NONE || !outcome_has_path(&c->outcomes[origin]))
-        return;
+        return 1;
     const outcome_path *path = outcome_path_of(&c->outcomes[origin]);
-    if (path->reached > 0)
-        loads_hold(c->run, kinematics_state_path(path->state[path->reached - 1]));
+    return path->reached > 0 ? kinematics_state_path(path->state[path->reached - 1]) : 1;
 }
 
-void context_set_frame(const analysis_context *c, int analysis)
+analysis_context context_of(const analysis_context *c, int analysis)
 {
-    static const scene_rotating_frame rest = {{0}, {0}};
-    const scene_analysis *own = &c->scene->analysis[analysis],
-                         *a = own->follows == SCENE_NONE || own->kind == SCENE_MOTION
-                                  ? own
-                                  : &c->scene->analysis[own->follows];
-    const scene_rotating_frame *frame =
-        scene_rotating_frame_of(a) != NULL ? scene_rotating_frame_of(a) : &rest;
-    rotating_frame_set(c->run, frame->omega, frame->centre, a->kind == SCENE_ROTATION);
-    loads_of(c->run, analysis);
-    hold_loads(c, analysis);
+    analysis_context of = *c;
+    of.eq = (equations){c->model, loading_of(c->model, analysis), c->run};
+    of.eq.loading.held_path = held_path(c, analysis);
+    return of;
+}
+
+analysis_context context_unloaded(const analysis_context *c)
+{
+    analysis_context none = *c;
+    none.eq.loading.unloaded = 1;
+    return none;
 }
 
 status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)
 {
     const status outcome = factor_numeric(fa, K, f);
-    c->singular = outcome == STATUS_SINGULAR;
+    c->work->singular = outcome == STATUS_SINGULAR;
     return outcome;
 }
 
@@ -47,13 +47,13 @@ status context_condensation(const analysis_context *c, int count, const int rele
     const int from = c->options->condensed > 0 ? c->options->condensed : CONDENSATION_ELEMENTS;
     *out = NULL;
     return c->options->condition ? STATUS_OK
-                                 : condensation_alloc(c->run, from, count, released, out, f);
+                                 : condensation_alloc(&c->eq, from, count, released, out, f);
 }
 
 status context_factor_condensed(analysis_context *c, condensation *s, fault *f)
 {
     const status outcome = condensation_factor(s, f);
-    c->singular = outcome == STATUS_SINGULAR;
+    c->work->singular = outcome == STATUS_SINGULAR;
     return outcome;
 }
 
@@ -75,16 +75,16 @@ void context_leave_factor(analysis_context *c, factor *fa)
     int compliances = 0;
     for (int i = 0; i < c->scene->analyses; i++)
         compliances += c->scene->analysis[i].kind == SCENE_COMPLIANCE && context_runs(c, i);
-    if (compliances == 0 || c->left != NULL)
+    if (compliances == 0 || c->work->left != NULL)
         factor_free(fa);
     else
-        c->left = fa;
+        c->work->left = fa;
 }
 
 factor *context_take_factor(analysis_context *c)
 {
-    factor *fa = c->left;
-    c->left = NULL;
+    factor *fa = c->work->left;
+    c->work->left = NULL;
     return fa;
 }
 

@@ -7,24 +7,33 @@
 #include "harness/newton/result.h"
 #include "harness/newton/run_state.h"
 
+/* What a solution keeps from one analysis for the next ones. */
+typedef struct context_work {
+    double setup; /* [s] spent on patterns and symbolic factorisation */
+    int singular; /* 1: the last factorisation failed */
+    factor *left; /* of the pattern of the free coordinates, whose numbers nobody needs any more;
+                     NULL: none */
+} context_work;
+
 typedef struct analysis_context {
     const scene *scene;
-    model *model;
+    const model *model;
     run_state *run; /* of that model */
+    equations eq;   /* of that model, under the loading of the analysis: context_of */
     const solve_options *options;
     solve_result *result;       /* step records go here */
     analysis_outcome *outcomes; /* [analyses], those before the present one are complete */
-    double setup;               /* [s] spent on patterns and symbolic factorisation */
-    int singular;               /* 1: the last factorisation failed */
-    factor *left;               /* of the pattern of the free coordinates, whose numbers nobody
-                                   needs any more; NULL: none */
+    context_work *work;
 } analysis_context;
 
 /* Is the analysis asked for, by what is read from it or by the options? */
 int context_runs(const analysis_context *, int analysis);
-/* From here on the axes of the model turn as those of the analysis do, or of the one whose states
- * it is about, and the path parameter is what it has. */
-void context_set_frame(const analysis_context *, int analysis);
+/* That of an analysis, with its loading; loads without a function of time stay in a motion as in
+ * the state that it starts from. */
+analysis_context context_of(const analysis_context *, int analysis);
+/* The same where no load acts and no driver moves: what stays are strains that members have by
+ * themselves. */
+analysis_context context_unloaded(const analysis_context *);
 /* The numeric factors of K, and into the context whether they exist. */
 status context_factor(analysis_context *, factor *, const sparse *K, fault *);
 /* What condenses members of many elements; *out NULL: none is, or the condition of the tangent was

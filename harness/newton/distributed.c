@@ -10,17 +10,17 @@
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
 
-int distributed_spreads(const run_state *run, const scene_load *load)
+int distributed_spreads(const equations *eq, const scene_load *load)
 {
-    const int lumped = load->lumped || run->loading.lumps == LUMPS_LOADS ||
-                       (run->loading.lumps == LUMPS_WEIGHTS && load->kind == SCENE_GRAVITY);
+    const int lumped = load->lumped || eq->loading.lumps == LUMPS_LOADS ||
+                       (eq->loading.lumps == LUMPS_WEIGHTS && load->kind == SCENE_GRAVITY);
     return scene_load_along(load) && !lumped;
 }
 
 int distributed_acts(const distributed *of)
 {
     double part[2];
-    if (of->run->loading.rotates)
+    if (of->eq->loading.rotates)
         return 1;
     for (int i = 0; i < of->m->scene->loads; i++)
         if (applied_part(of->m, of->element, &of->m->scene->load[i], part))
@@ -118,12 +118,12 @@ static int points_of(const distributed *of, const scene_load *load, double scale
     return count;
 }
 
-static int taken(const run_state *run, int element, const scene_load *load, const double part[2])
+static int taken(const equations *eq, int element, const scene_load *load, const double part[2])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const section *c = &m->section[m->kind[m->element[element].kind].section];
     double centre[3] = {0};
-    if (!m->takes || !distributed_spreads(run, load) || scene_load_within(load) ||
+    if (!m->takes || !distributed_spreads(eq, load) || scene_load_within(load) ||
         scene_load_turns(load) || load->follower)
         return 0;
     if (load->kind == SCENE_GRAVITY && c->matrices)
@@ -132,19 +132,19 @@ static int taken(const run_state *run, int element, const scene_load *load, cons
            !applied_inside(part[1]);
 }
 
-int distributed_takes(const run_state *run, int element, const scene_load *load)
+int distributed_takes(const equations *eq, int element, const scene_load *load)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double part[2];
-    return applied_part(m, element, load, part) && taken(run, element, load, part);
+    return applied_part(m, element, load, part) && taken(eq, element, load, part);
 }
 
 /* force[] += one of them times `scale`. */
-static void gather(const run_state *run, int element, const scene_load *load, double scale,
+static void gather(const equations *eq, int element, const scene_load *load, double scale,
                    double force[3 * ELEMENT_ALONG_POINTS])
 {
-    const model *m = run->m;
-    const distributed of = {run, m, element, 0};
+    const model *m = eq->m;
+    const distributed of = {eq, m, element, 0};
     double x[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS], before[9];
     quadrature_points(ELEMENT_ALONG_POINTS, x, weight);
     for (int k = 0; k < ELEMENT_ALONG_POINTS; k++) {
@@ -156,22 +156,22 @@ static void gather(const run_state *run, int element, const scene_load *load, do
     }
 }
 
-void distributed_take(const run_state *run, int element, double path, distributed_taken *out)
+void distributed_take(const equations *eq, int element, double path, distributed_taken *out)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     out->acts = 0;
     for (int i = 0; i < m->scene->loads && m->takes; i++) {
         const scene_load *load = &m->scene->load[i];
         double part[2];
-        if (!applied_part(m, element, load, part) || !taken(run, element, load, part))
+        if (!applied_part(m, element, load, part) || !taken(eq, element, load, part))
             continue;
-        const double scale = applied_factor(run, load, path);
+        const double scale = applied_factor(eq, load, path);
         if (scale == 0)
             continue;
         if (!out->acts)
             memset(out->force, 0, sizeof out->force);
         out->acts = 1;
-        gather(run, element, load, scale, out->force);
+        gather(eq, element, load, scale, out->force);
     }
     out->out = (along_output){.force = out->force, .mixed = out->mixed};
 }
@@ -199,10 +199,10 @@ void distributed_add_taken(const model *m, const along_output *out, const double
             K[i * X + j] += out->H[i * X + j] + of[i * X + j] + both[i * X + j] + both[j * X + i];
 }
 
-int distributed_add_own(const run_state *run, const model_state *s, const node_state x[],
+int distributed_add_own(const equations *eq, const model_state *s, const node_state x[],
                         int element, double path, double forces[], double K[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
     const size_t first = (size_t)element * (size_t)m->strains;
     const element_data *data = m->kind[m->element[element].kind].data;
@@ -210,7 +210,7 @@ int distributed_add_own(const run_state *run, const model_state *s, const node_s
     distributed_taken of;
     double J[S * X], D[S], sigma[S], C[S * S], H[X * X], work[S * X];
     status outcome;
-    distributed_take(run, element, path, &of);
+    distributed_take(eq, element, path, &of);
     if (!of.acts)
         return 0;
     m->type->strain(data, x, &(strain_output){.e = D, .J = J});
@@ -238,13 +238,13 @@ int distributed_add_own(const run_state *run, const model_state *s, const node_s
     return 1;
 }
 
-int distributed_stress(const run_state *run, const model_state *s, const node_state x[],
-                       int element, double path, const stress_output *out, status *outcome)
+int distributed_stress(const equations *eq, const model_state *s, const node_state x[], int element,
+                       double path, const stress_output *out, status *outcome)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const element_data *data = m->kind[m->element[element].kind].data;
     distributed_taken of;
-    distributed_take(run, element, path, &of);
+    distributed_take(eq, element, path, &of);
     if (!of.acts)
         return 0;
     of.out.sigma = out->sigma;
@@ -256,19 +256,19 @@ int distributed_stress(const run_state *run, const model_state *s, const node_st
 }
 
 /* Derivative of the forces by the size of one load. */
-static void add_rate(const run_state *run, const model_state *s, const node_state x[], int element,
+static void add_rate(const equations *eq, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
     const element_data *data = m->kind[m->element[element].kind].data;
     distributed_taken of;
     double rate[3 * ELEMENT_ALONG_POINTS] = {0}, J[S * X], sigma[S], work[X] = {0};
     status outcome;
-    distributed_take(run, element, s->path, &of);
+    distributed_take(eq, element, s->path, &of);
     if (!of.acts)
         memset(of.force, 0, sizeof of.force);
-    gather(run, element, load, scale, rate);
+    gather(eq, element, load, scale, rate);
     of.out.sigma = sigma;
     of.out.rate = rate;
     if (s == m->rest) {
@@ -286,12 +286,11 @@ static void add_rate(const run_state *run, const model_state *s, const node_stat
     distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
 }
 
-static int add_field(const run_state *run, const node_state x[], int element,
-                     const scene_load *load, double scale, const double part[2], double forces[],
-                     double K[])
+static int add_field(const equations *eq, const node_state x[], int element, const scene_load *load,
+                     double scale, const double part[2], double forces[], double K[])
 {
-    const model *m = run->m;
-    const distributed of = {run, m, element, 0};
+    const model *m = eq->m;
+    const distributed of = {eq, m, element, 0};
     field_rows rows[MOST];
     field_load acting[MOST];
     const int count = points_of(&of, load, scale, part, rows, acting);
@@ -299,42 +298,42 @@ static int add_field(const run_state *run, const node_state x[], int element,
     return 1;
 }
 
-int distributed_add_one(const run_state *run, const model_state *s, const node_state x[],
+int distributed_add_one(const equations *eq, const model_state *s, const node_state x[],
                         int element, const scene_load *load, double scale, double forces[],
                         double K[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double part[2];
     if (!applied_part(m, element, load, part) || scale == 0)
         return 0;
-    if (!taken(run, element, load, part))
-        return add_field(run, x, element, load, scale, part, forces, K);
-    add_rate(run, s, x, element, load, scale, forces);
+    if (!taken(eq, element, load, part))
+        return add_field(eq, x, element, load, scale, part, forces, K);
+    add_rate(eq, s, x, element, load, scale, forces);
     return 1;
 }
 
-int distributed_add_field(const run_state *run, const node_state x[], int element, double path,
+int distributed_add_field(const equations *eq, const node_state x[], int element, double path,
                           double forces[], double K[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     int acting = 0;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
         double part[2];
-        if (!distributed_spreads(run, load) || !applied_part(m, element, load, part) ||
-            taken(run, element, load, part))
+        if (!distributed_spreads(eq, load) || !applied_part(m, element, load, part) ||
+            taken(eq, element, load, part))
             continue;
-        const double scale = applied_factor(run, load, path);
-        acting |= scale != 0 && add_field(run, x, element, load, scale, part, forces, K);
+        const double scale = applied_factor(eq, load, path);
+        acting |= scale != 0 && add_field(eq, x, element, load, scale, part, forces, K);
     }
     return acting;
 }
 
-int distributed_add(const run_state *run, const model_state *s, const node_state x[], int element,
+int distributed_add(const equations *eq, const model_state *s, const node_state x[], int element,
                     double path, double forces[], double K[])
 {
-    const int acting = distributed_add_field(run, x, element, path, forces, K);
-    return distributed_add_own(run, s, x, element, path, forces, K) || acting;
+    const int acting = distributed_add_field(eq, x, element, path, forces, K);
+    return distributed_add_own(eq, s, x, element, path, forces, K) || acting;
 }
 
 /* Its vectors, in fixed axes, of the section with the triad R. */
@@ -343,7 +342,7 @@ static void add_load(const distributed *of, const scene_load *load, double x,
 {
     field_load one;
     double at[3], v[3], moment[3], turning[3];
-    load_at(of, load, applied_factor(of->run, load, of->path), x, before, &one);
+    load_at(of, load, applied_factor(of->eq, load, of->path), x, before, &one);
     mat3_mul_vec(R, one.arm, at);
     memcpy(v, one.force, sizeof v);
     memcpy(moment, one.moment, sizeof moment);
@@ -383,7 +382,7 @@ static void add_rotating(const distributed *of, const span_frame *at, span_load 
 {
     const model *m = of->m;
     const section *c = &m->section[m->kind[m->element[of->element].kind].section];
-    const element_rotating_frame frame = run_rotating_frame(of->run, of->path);
+    const element_rotating_frame frame = loading_frame(&of->eq->loading, of->path);
     double arm[3], speed[3], force[3], inside[3], moment[3];
     const double inertia[3] = {c->Iy + c->Iz, c->Iy, c->Iz};
     for (int i = 0; i < 3; i++)
@@ -419,6 +418,6 @@ void distributed_at(void *context, double x, const span_frame *at, span_load *ou
         if (applied_part(of->m, of->element, load, part) && !scene_load_within(load))
             add_load(of, load, x, before, at->R, out);
     }
-    if (of->run->loading.rotates)
+    if (of->eq->loading.rotates)
         add_rotating(of, at, out);
 }

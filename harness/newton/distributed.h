@@ -9,18 +9,18 @@
 
 /* Of one element, at a path parameter. */
 typedef struct distributed {
-    const run_state *run;
+    const equations *eq;
     const model *m;
     int element;
     double path;
 } distributed;
 
 /* Does the load do its work within elements? Else halves of it go to their ends (applied.h). */
-int distributed_spreads(const run_state *, const scene_load *);
+int distributed_spreads(const equations *, const scene_load *);
 
 /* Does the element take it into its own equilibrium (element_type.along)? Dead forces on the whole
  * of it, along its line, in scenes without a motion. */
-int distributed_takes(const run_state *, int element, const scene_load *);
+int distributed_takes(const equations *, int element, const scene_load *);
 /* Those together. */
 typedef struct distributed_taken {
     int acts;
@@ -29,7 +29,7 @@ typedef struct distributed_taken {
     along_output out; /* into the arrays above; its stresses into those of a slot */
 } distributed_taken;
 /* What acts at `path`; out->acts 0: nothing. */
-void distributed_take(const run_state *, int element, double path, distributed_taken *out);
+void distributed_take(const equations *, int element, double path, distributed_taken *out);
 /* forces[14] += what J^T sigma has not got in it, K[14 x 14] -= its derivative, as `out` has it.
  * gap[strains]: D(x) - e. */
 void distributed_add_taken(const model *, const along_output *out, const double J[],
@@ -38,20 +38,20 @@ void distributed_add_taken(const model *, const along_output *out, const double 
 /* forces[7 nodes] += what a load along a member times `scale` does on an element, K[7 nodes x 7
  * nodes] -= its derivative (NULL: not wanted); 0: nothing. Of one that the element takes: the
  * derivative of its forces by the load's size in the state, K untouched. */
-int distributed_add_one(const run_state *, const model_state *, const node_state x[], int element,
+int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
 /* The same of all of them at `path`: of those that the element takes what J^T sigma has not got in
  * it, in a linear solution about `rest` all. `field`: without those that the element takes. */
-int distributed_add(const run_state *, const model_state *, const node_state x[], int element,
+int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
 /* And of those that it takes alone. */
-int distributed_add_own(const run_state *, const model_state *, const node_state x[], int element,
+int distributed_add_own(const equations *, const model_state *, const node_state x[], int element,
                         double path, double forces[], double K[]);
 /* Stresses of a state under what acts at `path` (sigma, C of stress_output); 0: it takes nothing.
  */
-int distributed_stress(const run_state *, const model_state *, const node_state x[], int element,
+int distributed_stress(const equations *, const model_state *, const node_state x[], int element,
                        double path, const stress_output *, status *outcome);
-int distributed_add_field(const run_state *, const node_state x[], int element, double path,
+int distributed_add_field(const equations *, const node_state x[], int element, double path,
                           double forces[], double K[]);
 
 /* Does anything act along it? */

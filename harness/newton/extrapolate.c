@@ -49,22 +49,21 @@ static void keep_continuing(const double value[], guesses *g)
 }
 
 /* Drivers and loads at the states' paths and at the next one. */
-static void keep_smooth(const run_state *run, const model_state *const at[], double path,
-                        guesses *g)
+static void keep_smooth(const equations *eq, const model_state *const at[], double path, guesses *g)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double value[MODEL_EXTRAPOLATED + 1];
     for (int d = 0; d < m->scene->drivers; d++) {
         const scene_driver *driver = &m->scene->driver[d];
         if (driver->value == NULL)
             continue;
         for (int i = 0; i <= g->most; i++)
-            value[i] = loads_driver_value(run, driver, i < g->most ? at[i]->path : path);
+            value[i] = loads_driver_value(eq, driver, i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
     for (int l = 0; l < m->scene->loads; l++) {
         for (int i = 0; i <= g->most; i++)
-            value[i] = applied_factor(run, &m->scene->load[l], i < g->most ? at[i]->path : path);
+            value[i] = applied_factor(eq, &m->scene->load[l], i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
 }
@@ -112,7 +111,7 @@ static int turns_by_itself(const model *m, int vertex)
 }
 
 /* From `least` to `most` states. */
-static void weigh(const run_state *run, int least, int most, const model_state *const at[],
+static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {
     g->most = most;
@@ -122,7 +121,7 @@ static void weigh(const run_state *run, int least, int most, const model_state *
         if (g->good[k])
             lagrange(k, at + most - k, path, g->weight[k]);
     }
-    keep_smooth(run, at, path, g);
+    keep_smooth(eq, at, path, g);
 }
 
 /* sum += weight x, one state after the other so that several coordinates go at once. */
@@ -164,12 +163,12 @@ static double largest_error(int count, const double weight[], const model_state 
     return size > 0 ? largest_of(count, weight, at, from, size, largest) : largest;
 }
 
-void extrapolate_errors(const run_state *run, int most, const model_state *const at[],
+void extrapolate_errors(const equations *eq, int most, const model_state *const at[],
                         double error[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     guesses g;
-    weigh(run, 2, most, at, at[most]->path, &g);
+    weigh(eq, 2, most, at, at[most]->path, &g);
     g.good[1] = 1;
     g.weight[1][0] = 1;
     for (int k = 1; k <= most; k++) {
@@ -183,14 +182,14 @@ void extrapolate_errors(const run_state *run, int most, const model_state *const
     }
 }
 
-int extrapolate_state(const run_state *run, int count, const model_state *const at[], double path,
+int extrapolate_state(const equations *eq, int count, const model_state *const at[], double path,
                       model_state *out)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     guesses g;
     if (count < 2)
         return 0;
-    weigh(run, count, count, at, path, &g);
+    weigh(eq, count, count, at, path, &g);
     if (!g.good[count])
         return 0;
     const double *weight = g.weight[count];

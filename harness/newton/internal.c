@@ -72,10 +72,10 @@ static void take_couple(const mesh_element *el, const node_state x[], double tak
 
 /* What the outside exerts on the first (0) and the last (1) node of an element but for the loads
  * along it, in fixed axes: ends[2][7]; and its nodes. */
-static void ends_of(run_state *run, const internal_state *s, int i, node_state x[],
+static void ends_of(const equations *eq, const internal_state *s, int i, node_state x[],
                     double ends[2][7])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_element *el = &m->element[i];
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
                                                              along[ELEMENT_MAX_COORDINATES] = {0};
@@ -85,34 +85,33 @@ static void ends_of(run_state *run, const internal_state *s, int i, node_state x
     dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                             s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
     double taken[2][3] = {{0}};
-    if (rotating_frame_lumps(run))
+    if (rotating_frame_lumps(eq))
         note_taken(m, force, 1, taken);
-    rotating_frame_add(run, x, i, s->path, force, NULL,
+    rotating_frame_add(eq, x, i, s->path, force, NULL,
                        NULL); /* never fails in a state that is reached */
-    if (rotating_frame_lumps(run))
+    if (rotating_frame_lumps(eq))
         note_taken(m, force, -1, taken);
     for (int l = 0; l < m->scene->loads; l++) {
         const scene_load *load = &m->scene->load[l];
-        if (lies_along(m, i, load) && distributed_spreads(run, load) &&
-            !distributed_takes(run, i, load))
-            distributed_add_one(run, s->s, x, i, load, applied_factor(run, load, s->path), along,
+        if (lies_along(m, i, load) && distributed_spreads(eq, load) &&
+            !distributed_takes(eq, i, load))
+            distributed_add_one(eq, s->s, x, i, load, applied_factor(eq, load, s->path), along,
                                 NULL);
     }
-    distributed_add_own(run, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
+    distributed_add_own(eq, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     for (int end = 0; end < 2; end++) {
         const int k = end ? m->nodes - 1 : 0;
-        const share of = {el->vertex[k], force + NODE_COORDINATES * k};
+        share of = {el->vertex[k], force + NODE_COORDINATES * k};
         for (int l = 0; l < m->scene->loads; l++) {
             const scene_load *load = &m->scene->load[l];
-            if (!lies_along(m, i, load) || distributed_spreads(run, load))
+            if (!lies_along(m, i, load) || distributed_spreads(eq, load))
                 continue;
             const int weighted = applied_with_mass(load);
             double before[3];
             memcpy(before, of.force, sizeof before);
-            applied_element(m, s->s, load, applied_factor(run, load, s->path), i, take_off,
-                            (void *)&of);
+            applied_element(m, s->s, load, applied_factor(eq, load, s->path), i, take_off, &of);
             for (int c = 0; c < 3 && weighted; c++)
                 taken[end][c] += before[c] - of.force[c];
         }
@@ -149,14 +148,15 @@ static void turn_components(double angle, double v[3])
     }
 }
 
-void internal_at_end(run_state *run, const internal_state *s, int member, int end, double out[7])
+void internal_at_end(const equations *eq, const internal_state *s, int member, int end,
+                     double out[7])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const int i = end ? m->first_element[member + 1] - 1 : m->first_element[member],
               k = end ? m->nodes - 1 : 0;
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7];
-    ends_of(run, s, i, x, force);
+    ends_of(eq, s, i, x, force);
     const double angle = axes_turned(m, member, end, &m->element[i]);
     mat3_transpose_mul_vec(x[k].R, force[end], out);
     mat3_transpose_mul_vec(x[k].R, force[end] + 3, out + 3);
@@ -168,13 +168,13 @@ void internal_at_end(run_state *run, const internal_state *s, int member, int en
 }
 
 /* The ends of an element as span.h wants them. */
-static void take_ends(run_state *run, const internal_state *s, int i, span_end end[2])
+static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_element *el = &m->element[i];
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7], moved[ELEMENT_MAX_COORDINATES] = {0};
-    ends_of(run, s, i, x, force);
+    ends_of(eq, s, i, x, force);
     if (s->x != NULL)
         kinematics_local(m, s->s, el, s->x, moved);
     for (int e = 0; e < 2; e++) {
@@ -223,12 +223,12 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-static status recover(run_state *run, const internal_state *s, int i, const span_grid *g,
+static status recover(const equations *eq, const internal_state *s, int i, const span_grid *g,
                       span_fields *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_kind *kind = &m->kind[m->element[i].kind];
-    between loads = {.loads = {run, m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
+    between loads = {.loads = {eq, m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
     element_request request = {
         .section = &m->section[kind->section], .length = kind->length, .options = m->options};
     span_problem problem = {
@@ -249,14 +249,14 @@ static status recover(run_state *run, const internal_state *s, int i, const span
         s->moving->along(s->moving->context, i, loads.density);
     if (loads.acts || loads.nodes > 0)
         problem.load = between_at;
-    take_ends(run, s, i, problem.end);
+    take_ends(eq, s, i, problem.end);
     return span_recover(g, &problem, out, f);
 }
 
-status internal_at(run_state *run, const internal_state *s, const internal_place *at, double out[],
-                   fault *f)
+status internal_at(const equations *eq, const internal_state *s, const internal_place *at,
+                   double out[], fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const int member = at->member;
     double x;
     const int i =
@@ -264,7 +264,7 @@ status internal_at(run_state *run, const internal_state *s, const internal_place
     span_grid g;
     span_fields fields;
     span_grid_make(&g);
-    TRY(recover(run, s, i, &g, &fields, f));
+    TRY(recover(eq, s, i, &g, &fields, f));
     span_at(&g, &fields, x, out);
     const double angle = axes_turned(m, member, at->place, &m->element[i]);
     turn_components(angle, &out[SPAN_N]);
@@ -326,10 +326,10 @@ static void take_largest(const measured *what, double *largest)
     }
 }
 
-status internal_largest(run_state *run, const internal_state *s, int member, internal_measure of,
-                        void *context, double *out, fault *f)
+status internal_largest(const equations *eq, const internal_state *s, int member,
+                        internal_measure of, void *context, double *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     span_grid g;
     if (axes_turned(m, member, 0, &m->element[m->first_element[member]]) != 0 ||
         axes_turned(m, member, 1, &m->element[m->first_element[member + 1] - 1]) != 0)
@@ -340,7 +340,7 @@ status internal_largest(run_state *run, const internal_state *s, int member, int
     *out = -INFINITY;
     for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {
         span_fields fields;
-        TRY(recover(run, s, i, &g, &fields, f));
+        TRY(recover(eq, s, i, &g, &fields, f));
         take_largest(&(measured){&g, &fields, i - m->first_element[member], of, context}, out);
     }
     return STATUS_OK;

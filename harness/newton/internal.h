@@ -34,7 +34,7 @@ typedef struct internal_inertia {
 /* Of what lies towards `to` on what lies towards `from`, in the principal axes of the turned
  * section, moments about its centroid: N, Qy, Qz [N], Mx, My, Mz [N m], bimoment [N m^2] (work:
  * that of the warping amplitude's rate). end: 0 from, 1 to. */
-void internal_at_end(run_state *, const internal_state *, int member, int end, double out[7]);
+void internal_at_end(const equations *, const internal_state *, int member, int end, double out[7]);
 
 /* A place of a member, 0 from .. 1 to of its initial length; before: on the side of `from` of what
  * jumps there. */
@@ -49,13 +49,13 @@ typedef struct internal_place {
  * are interpolated between its nodes: of a linear acceleration the forces are those of what lies
  * beyond, so that values go through from element to element (order 2). Warping inertia acts at
  * nodes. */
-status internal_at(run_state *, const internal_state *, const internal_place *, double out[],
+status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
 /* Largest value of `of` over a member, that of the section at x in [0, 1] of an element, counted
  * along the member, from its resultants [SPAN_VALUES]. */
 typedef double (*internal_measure)(void *context, int element, double x, const double resultants[]);
-status internal_largest(run_state *, const internal_state *, int member, internal_measure of,
+status internal_largest(const equations *, const internal_state *, int member, internal_measure of,
                         void *context, double *out, fault *);
 
 #endif

@@ -80,26 +80,26 @@ static double signed_value(stress_measure what, double value)
     return what == STRESS_NORMAL_MIN ? -value : value;
 }
 
-status internal_stress_at(run_state *run, const internal_state *s, const internal_place *at,
+status internal_stress_at(const equations *eq, const internal_state *s, const internal_place *at,
                           stress_measure what, double *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     member_points of;
     double v[SPAN_VALUES], x;
     TRY(prepare(m, s, at->member, what, &of, f));
-    TRY(internal_at(run, s, at, v, f));
+    TRY(internal_at(eq, s, at, v, f));
     const int element = division_at(&m->division, at->member, at->place, at->before, &x);
     *out = signed_value(what, measured(&of, element, x, v));
     return STATUS_OK;
 }
 
-status internal_stress_largest(run_state *run, const internal_state *s, int member,
+status internal_stress_largest(const equations *eq, const internal_state *s, int member,
                                stress_measure what, double *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     member_points of;
     TRY(prepare(m, s, member, what, &of, f));
-    TRY(internal_largest(run, s, member, measured, &of, out, f));
+    TRY(internal_largest(eq, s, member, measured, &of, out, f));
     *out = signed_value(what, *out);
     return STATUS_OK;
 }

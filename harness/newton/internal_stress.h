@@ -8,10 +8,10 @@
 
 /* At a place of a member, 0 from .. 1 to [Pa].  REFUSED: given constants, which have no points;
  * else as internal_at. */
-status internal_stress_at(run_state *, const internal_state *, const internal_place *,
+status internal_stress_at(const equations *, const internal_state *, const internal_place *,
                           stress_measure, double *out, fault *);
 /* Of all its sections. */
-status internal_stress_largest(run_state *, const internal_state *, int member, stress_measure,
-                               double *out, fault *);
+status internal_stress_largest(const equations *, const internal_state *, int member,
+                               stress_measure, double *out, fault *);
 
 #endif

@@ -13,34 +13,29 @@
 #include "harness/newton/linear_springs.h"
 #include "harness/newton/undeformed.h"
 
-static const mesh_pattern *pattern_of(const model *m, const sparse *a)
+static status stiffness_elements(const equations *eq, sparse *K, fault *f)
 {
-    return assemble_of(m, a);
-}
-
-static status stiffness_elements(run_state *run, sparse *K, fault *f)
-{
-    const model *m = run->m;
+    const model *m = eq->m;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     sparse_zero(K);
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double k[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
-        TRY(undeformed_of(run, i, &l, f));
+        TRY(undeformed_of(eq, i, &l, f));
         memset(k, 0, (size_t)(m->coordinates * m->coordinates) * sizeof *k);
         dense_add_congruence(m->strains, m->coordinates, l.J, l.C, k, work);
         eliminate_matrix(m, m->rest, &m->element[i], NULL, k);
-        assemble_matrix(pattern_of(m, K), i, k, K);
+        assemble_matrix(assemble_of(eq->run->patterns, K), i, k, K);
     }
     return STATUS_OK;
 }
 
-status linear_stiffness(run_state *run, sparse *K, fault *f)
+status linear_stiffness(const equations *eq, sparse *K, fault *f)
 {
-    const model *m = run->m;
-    undeformed_begin(run);
-    const status outcome = stiffness_elements(run, K, f);
-    ahead_end(run);
+    const model *m = eq->m;
+    undeformed_begin(eq);
+    const status outcome = stiffness_elements(eq, K, f);
+    ahead_end(eq);
     if (outcome == STATUS_OK)
         linear_springs_stiffness(m, K);
     return outcome;
@@ -55,13 +50,13 @@ static void linear_strains(const model *m, int i, const undeformed_element *l, c
     dense_mul_vec(m->strains, m->coordinates, l->J, local, e);
 }
 
-status linear_stresses(run_state *run, const double x[], double sigma[], fault *f)
+status linear_stresses(const equations *eq, const double x[], double sigma[], fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double e[ELEMENT_MAX_STRAINS];
-        TRY(undeformed_of(run, i, &l, f));
+        TRY(undeformed_of(eq, i, &l, f));
         linear_strains(m, i, &l, x, e);
         dense_mul_vec(m->strains, m->strains, l.C, e, &sigma[(size_t)i * (size_t)m->strains]);
     }
@@ -77,93 +72,94 @@ double linear_initial(const model *m)
     return largest;
 }
 
-status linear_whole_stresses(run_state *run, const double x[], double sigma[], fault *f)
+status linear_whole_stresses(const equations *eq, const double x[], double sigma[], fault *f)
 {
-    const model *m = run->m;
-    TRY(linear_stresses(run, x, sigma, f));
+    const model *m = eq->m;
+    TRY(linear_stresses(eq, x, sigma, f));
     for (int i = 0; i < m->elements && linear_initial(m) > 0; i++) {
         undeformed_element l;
-        TRY(undeformed_of(run, i, &l, f));
+        TRY(undeformed_of(eq, i, &l, f));
         for (int k = 0; l.initial != NULL && k < m->strains; k++)
             sigma[(size_t)i * (size_t)m->strains + (size_t)k] += l.initial[k];
     }
     return STATUS_OK;
 }
 
-void linear_forces(run_state *run, const double sigma[], double f[])
+void linear_forces(const equations *eq, const double sigma[], double f[])
 {
-    const model *m = run->m;
-    ahead_strains(run, m->rest, AHEAD_J, NULL);
+    const model *m = eq->m;
+    ahead_strains(eq, m->rest, AHEAD_J, NULL);
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
     for (int i = 0; i < m->elements; i++) {
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[MODEL_MAX_COORDINATES] = {0};
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, m->rest, &m->element[i], x);
-        ahead_strain(run, i, x, &(strain_output){.J = J});
-        run->counters.strain_evaluations++;
+        ahead_strain(eq, i, x, &(strain_output){.J = J});
+        eq->run->counters.strain_evaluations++;
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                 &sigma[(size_t)i * (size_t)m->strains], force);
         eliminate_forces(m, m->rest, &m->element[i], force);
         assemble_vector(&m->element[i], force, f);
     }
-    ahead_end(run);
+    ahead_end(eq);
     linear_springs_forces(m, sigma + m->elements * m->strains, f);
 }
 
 /* sum sigma_i H_i and G(sigma) of one element, in element coordinates; force = J^T sigma. */
-static void geometric_of(run_state *run, int i, const double sigma[], double H[], double G[],
+static void geometric_of(const equations *eq, int i, const double sigma[], double H[], double G[],
                          double J[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, el, x);
-    ahead_strain(run, i, x, &(strain_output){.J = J, .s = sigma, .H = H});
+    ahead_strain(eq, i, x, &(strain_output){.J = J, .s = sigma, .H = H});
     if (m->type->geometric != NULL)
         m->type->geometric(data, sigma, G);
     else
         memset(G, 0, (size_t)(m->strains * m->strains) * sizeof *G);
-    run->counters.strain_evaluations++;
-    run->counters.geometric_evaluations++;
+    eq->run->counters.strain_evaluations++;
+    eq->run->counters.geometric_evaluations++;
 }
 
-status linear_geometric_stiffness(run_state *run, const double sigma[], double path, sparse *out,
-                                  fault *f)
+status linear_geometric_stiffness(const equations *eq, const double sigma[], double path,
+                                  sparse *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     if (out->symmetric) {
-        TRY(loads_have_potential(run, m->rest, path, f));
-        TRY(linearise_held_have_potential(run, sigma, path, f));
+        TRY(loads_have_potential(eq, m->rest, path, f));
+        TRY(linearise_held_have_potential(eq, sigma, path, f));
     }
     sparse_zero(out);
-    ahead_strains(run, m->rest, AHEAD_J | AHEAD_H, sigma);
+    ahead_strains(eq, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++) {
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
         double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
             force[ELEMENT_MAX_COORDINATES] = {0};
         const double *s = &sigma[(size_t)i * (size_t)m->strains];
-        geometric_of(run, i, s, H, G, J);
+        geometric_of(eq, i, s, H, G, J);
         dense_add_congruence(m->strains, m->coordinates, J, G, H, work);
         dense_add_transpose_mul(m->coordinates, m->strains, 1, J, s, force);
         eliminate_matrix(m, m->rest, &m->element[i], force, H);
-        assemble_matrix(pattern_of(m, out), i, H, out);
+        assemble_matrix(assemble_of(eq->run->patterns, out), i, H, out);
     }
-    ahead_end(run);
-    loads_subtract_stiffness(run, m->rest, path, out);
+    ahead_end(eq);
+    loads_subtract_stiffness(eq, m->rest, path, out);
     linear_springs_geometric_stiffness(m, sigma + m->elements * m->strains, out);
     return STATUS_OK;
 }
 
 /* Sums of the absolute terms of J x and, of S times them, of the stresses of one element. */
-static void linear_terms(run_state *run, int i, const double x[], double strain[], double stress[])
+static void linear_terms(const equations *eq, int i, const double x[], double strain[],
+                         double stress[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     undeformed_element l;
     double local[ELEMENT_MAX_COORDINATES];
-    undeformed_of(run, i, &l, NULL);
+    undeformed_of(eq, i, &l, NULL);
     kinematics_local(m, m->rest, &m->element[i], x, local);
     for (int k = 0; k < m->strains; k++) {
         strain[k] = 0;
@@ -179,16 +175,16 @@ static void linear_terms(run_state *run, int i, const double x[], double strain[
 
 /* Strains are off by the rounding of their terms, S by that of its entries: errors of all elements
  * alike, so they add up. */
-double linear_strain_rounding(run_state *run, const double x[])
+double linear_strain_rounding(const equations *eq, const double x[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double e[ELEMENT_MAX_STRAINS], terms[ELEMENT_MAX_STRAINS], ignored[ELEMENT_MAX_STRAINS];
-        undeformed_of(run, i, &l, NULL);
+        undeformed_of(eq, i, &l, NULL);
         linear_strains(m, i, &l, x, e);
-        linear_terms(run, i, x, terms, ignored);
+        linear_terms(eq, i, x, terms, ignored);
         for (int k = 0; k < m->strains; k++) {
             double sigma = 0, sigma_terms = 0;
             for (int j = 0; j < m->strains; j++) {
@@ -201,14 +197,14 @@ double linear_strain_rounding(run_state *run, const double x[])
     return sum + linear_springs_rounding(m, x);
 }
 
-double linear_strain_energy2(run_state *run, const double x[])
+double linear_strain_energy2(const equations *eq, const double x[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double sum = 0;
     for (int i = 0; i < m->elements; i++) {
         undeformed_element l;
         double e[ELEMENT_MAX_STRAINS];
-        undeformed_of(run, i, &l, NULL);
+        undeformed_of(eq, i, &l, NULL);
         linear_strains(m, i, &l, x, e);
         sum += dense_quadratic(m->strains, l.C, e);
     }
@@ -216,15 +212,15 @@ double linear_strain_energy2(run_state *run, const double x[])
 }
 
 /* x^T (sum sigma_i H_i + J^T G(sigma) J) x of one element. */
-static double geometric_energy2(run_state *run, int i, const double sigma[], const double x[])
+static double geometric_energy2(const equations *eq, int i, const double sigma[], const double x[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
         G[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
                                                              local[ELEMENT_MAX_COORDINATES],
                                                              e[ELEMENT_MAX_STRAINS];
-    geometric_of(run, i, sigma, H, G, J);
+    geometric_of(eq, i, sigma, H, G, J);
     kinematics_local(m, m->rest, &m->element[i], x, local);
     dense_mul_vec(m->strains, m->coordinates, J, local, e);
     const double inside = dense_quadratic(m->strains, G, e);
@@ -240,39 +236,39 @@ static double geometric_energy2(run_state *run, int i, const double sigma[], con
     return inside + dense_quadratic(el->columns, H, own);
 }
 
-double linear_geometric_energy2(run_state *run, const double sigma[], const double x[])
+double linear_geometric_energy2(const equations *eq, const double sigma[], const double x[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double sum = 0;
-    ahead_strains(run, m->rest, AHEAD_J | AHEAD_H, sigma);
+    ahead_strains(eq, m->rest, AHEAD_J | AHEAD_H, sigma);
     for (int i = 0; i < m->elements; i++)
-        sum += geometric_energy2(run, i, &sigma[(size_t)i * (size_t)m->strains], x);
-    ahead_end(run);
+        sum += geometric_energy2(eq, i, &sigma[(size_t)i * (size_t)m->strains], x);
+    ahead_end(eq);
     return sum + linear_springs_geometric_energy2(m, sigma + m->elements * m->strains, x);
 }
 
 /* The form is linear in the stresses: what is missing there is its own rounding. The stresses' is
  * that of the terms they are made of, in whatever direction it falls: it has the size of a stress
  * `other` of all kinds at once. */
-double linear_geometric_rounding(run_state *run, const double load_x[], const double sigma[],
+double linear_geometric_rounding(const equations *eq, const double load_x[], const double sigma[],
                                  const double x[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double square = 0;
     for (int i = 0; i < m->elements; i++) {
         const double *s = &sigma[(size_t)i * (size_t)m->strains];
         double terms[ELEMENT_MAX_STRAINS], other[ELEMENT_MAX_STRAINS], both[ELEMENT_MAX_STRAINS],
             largest = 0;
-        linear_terms(run, i, load_x, both, terms);
+        linear_terms(eq, i, load_x, both, terms);
         for (int k = 0; k < m->strains; k++)
             largest = fmax(largest, terms[k]);
         for (int k = 0; k < m->strains; k++) {
             other[k] = largest * sin(1 + 2.3 * k);
             both[k] = s[k] + other[k];
         }
-        const double of_other = geometric_energy2(run, i, other, x),
-                     of_both = geometric_energy2(run, i, both, x);
-        const double missing = fabs(of_both - of_other - geometric_energy2(run, i, s, x)) +
+        const double of_other = geometric_energy2(eq, i, other, x),
+                     of_both = geometric_energy2(eq, i, both, x);
+        const double missing = fabs(of_both - of_other - geometric_energy2(eq, i, s, x)) +
                                DBL_EPSILON * fabs(of_other);
         square += missing * missing;
     }

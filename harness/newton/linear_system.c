@@ -16,7 +16,7 @@
 static status allocate(const analysis_context *c, linear_system *out, fault *f)
 {
     const sparse *pattern;
-    TRY(assemble_pattern(c->model, 0, &pattern, f));
+    TRY(assemble_pattern(c->model, c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &out->K, f));
     return factor_alloc(pattern, &out->factor, f);
 }
@@ -26,9 +26,9 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     const double start = clock_processor_seconds();
     memset(out, 0, sizeof *out);
     const status allocated = allocate(c, out, f);
-    c->setup += clock_processor_seconds() - start;
+    c->work->setup += clock_processor_seconds() - start;
     TRY(allocated);
-    TRY(linear_stiffness(c->run, &out->K, f));
+    TRY(linear_stiffness(&c->eq, &out->K, f));
     TRY(context_factor(c, out->factor, &out->K, f));
     counters *n = &c->run->counters;
     const factor_counts counts = factor_count(out->factor);
@@ -59,8 +59,8 @@ static status residual_of(analysis_context *c, const double load[], const double
                           double sigma[], double r[], fault *f)
 {
     const model_size size = model_sizes(c->model);
-    TRY(linear_whole_stresses(c->run, x, sigma, f));
-    linear_forces(c->run, sigma, r);
+    TRY(linear_whole_stresses(&c->eq, x, sigma, f));
+    linear_forces(&c->eq, sigma, r);
     for (int i = 0; i < size.free + size.driven; i++)
         r[i] = load[i] - r[i];
     return STATUS_OK;
@@ -83,7 +83,7 @@ static status workspace_alloc(analysis_context *c, double path, workspace *w, fa
     w->weight = w->r + all;
     w->shaken = w->weight + all;
     metric_of(c->model, w->weight);
-    loads_reference(c->run, path, w->load);
+    loads_reference(&c->eq, path, w->load);
     return STATUS_OK;
 }
 
@@ -149,7 +149,7 @@ static status solve(analysis_context *c, linear_system *s, double path, workspac
     const model_size size = model_sizes(c->model);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
     TRY(workspace_alloc(c, path, w, f));
-    loads_drive(c->run, kinematics_rest(c->model), path, x);
+    loads_drive(&c->eq, kinematics_rest(c->model), path, x);
     return refine(c, s, w, x, f);
 }
 

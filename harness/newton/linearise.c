@@ -17,39 +17,39 @@
 #include "harness/newton/loads.h"
 
 /* e, sigma of an element from D(x): displacement-only Newton. */
-static status compatible_element(run_state *run, model_state *s, int i)
+static status compatible_element(const equations *eq, model_state *s, int i)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_element *el = &m->element[i];
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
     double *e = &s->e[(size_t)i * (size_t)m->strains],
            *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
-    ahead_strain(run, i, x, &(strain_output){.e = e});
-    run->counters.strain_evaluations++;
-    run->counters.stress_evaluations++;
+    ahead_strain(eq, i, x, &(strain_output){.e = e});
+    eq->run->counters.strain_evaluations++;
+    eq->run->counters.stress_evaluations++;
     status outcome;
     if (m->takes &&
-        distributed_stress(run, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
+        distributed_stress(eq, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
         return outcome;
-    return ahead_stress(run, i, e, &s->inner[(size_t)i * (size_t)m->inner],
+    return ahead_stress(eq, i, e, &s->inner[(size_t)i * (size_t)m->inner],
                         &(stress_output){.sigma = sigma});
 }
 
-status linearise_make_compatible(run_state *run, model_state *s, fault *f)
+status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     status outcome = STATUS_OK;
-    ahead_strains(run, s, AHEAD_E, NULL);
-    ahead_stresses(run, NULL, s->inner);
+    ahead_strains(eq, s, AHEAD_E, NULL);
+    ahead_stresses(eq, NULL, s->inner);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
-        outcome = compatible_element(run, s, i);
+        outcome = compatible_element(eq, s, i);
         if (outcome != STATUS_OK)
             fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
                       scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
                       m->type->name);
     }
-    ahead_end(run);
+    ahead_end(eq);
     return outcome;
 }
 
@@ -63,18 +63,18 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
 
 /* force and K (which has H) of an element that was evaluated, less centrifugal forces; present:
  * conjugate to the stresses of the state, which H belongs to. */
-static status add_material(run_state *run, const linear_memory *memory, const model_state *s,
+static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
                            element_part *part)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const int i = of->index;
     const model_slot w = linearise_slot(m, memory, i);
     const size_t size = (size_t)m->coordinates * sizeof *present;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(part->force, 0, size);
-    if (run->loading.rotates)
-        TRY(rotating_frame_add(run, of->x, i, path, part->force, tangent ? part->K : NULL,
+    if (eq->loading.rotates)
+        TRY(rotating_frame_add(eq, of->x, i, path, part->force, tangent ? part->K : NULL,
                                &part->why));
     memcpy(present, part->force, size);
     dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, part->force);
@@ -87,13 +87,13 @@ static status add_material(run_state *run, const linear_memory *memory, const mo
 }
 
 /* What acts along the element. */
-static void subtract_loads(const run_state *run, const linear_memory *memory, chunk_element *of,
+static void subtract_loads(const equations *eq, const linear_memory *memory, chunk_element *of,
                            int tangent, double path, element_part *part)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const model_slot w = linearise_slot(m, memory, of->index);
     double forces[ELEMENT_MAX_COORDINATES] = {0}, *K = tangent ? part->K : NULL;
-    const int acts = distributed_add_field(run, of->x, of->index, path, forces, K);
+    const int acts = distributed_add_field(eq, of->x, of->index, path, forces, K);
     if (of->along.acts)
         distributed_add_taken(m, &of->along.out, w.J, w.incompatibility, forces, K);
     else if (!acts)
@@ -106,10 +106,11 @@ static void subtract_loads(const run_state *run, const linear_memory *memory, ch
 
 /* Internal forces of an element that was evaluated, less centrifugal ones and loads along it, and,
  * where wanted, their tangent; both in model coordinates. */
-static status element_equations(run_state *run, const linear_memory *memory, const model_state *s,
-                                chunk_element *of, int tangent, double path, element_part *part)
+static status element_equations(const equations *eq, const linear_memory *memory,
+                                const model_state *s, chunk_element *of, int tangent, double path,
+                                element_part *part)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_element *el = &m->element[of->index];
     const model_slot w = linearise_slot(m, memory, of->index);
     if (of->outcome != STATUS_OK)
@@ -117,8 +118,8 @@ static status element_equations(run_state *run, const linear_memory *memory, con
                          of->index, scene_called(m->scene, SCENE_MEMBERS, el->member).text,
                          m->type->name);
     if (!of->complete)
-        TRY(add_material(run, memory, s, of, tangent, path, of->present, part));
-    subtract_loads(run, memory, of, tangent, path, part);
+        TRY(add_material(eq, memory, s, of, tangent, path, of->present, part));
+    subtract_loads(eq, memory, of, tangent, path, part);
     if (tangent)
         eliminate_matrix(m, s, el, of->present, part->K);
     eliminate_forces(m, s, el, part->force);
@@ -160,7 +161,7 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
 /* What the threads of a team share: elements in pieces of `window`, whose parts are added up in
  * order. */
 typedef struct shared_loop {
-    run_state *run;
+    const equations *eq;
     const linear_memory *memory;
     const model *m;
     const model_state *s;
@@ -184,10 +185,10 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
             element[k].force = part[index[k] - first].force;
             element[k].K = loop->tangent ? part[index[k] - first].K : NULL;
         }
-        chunk_evaluate(loop->run, loop->memory, loop->s, loop->lin->path, count, element);
+        chunk_evaluate(loop->eq, loop->memory, loop->s, loop->lin->path, count, element);
         for (int k = 0; k < count; k++) {
             element_part *p = &part[index[k] - first];
-            p->outcome = element_equations(loop->run, loop->memory, loop->s, &element[k],
+            p->outcome = element_equations(loop->eq, loop->memory, loop->s, &element[k],
                                            loop->tangent, loop->lin->path, p);
         }
     }
@@ -206,43 +207,44 @@ static void fill_piece(void *context, int piece, int slot)
                 loop->part + (size_t)slot * (size_t)loop->window);
 }
 
-/* Parts that are kept at a time, in run->part; 0: one at a time, as there is no memory or no need.
+/* Parts that are kept at a time, in eq->run->part; 0: one at a time, as there is no memory or no
+ * need.
  */
-static int window_of(run_state *run)
+static int window_of(const equations *eq)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW,
-              slots = run->team != NULL ? TEAM_SLOTS : 1;
-    if (run->team == NULL && chunk_size(m) == 1)
+              slots = eq->run->team != NULL ? TEAM_SLOTS : 1;
+    if (eq->run->team == NULL && chunk_size(m) == 1)
         return 0;
-    if (run->part == NULL)
-        run->part = malloc((size_t)(wanted * slots) * sizeof *run->part);
-    return run->part != NULL ? wanted : 0;
+    if (eq->run->part == NULL)
+        eq->run->part = malloc((size_t)(wanted * slots) * sizeof *eq->run->part);
+    return eq->run->part != NULL ? wanted : 0;
 }
 
 /* The element's equations into those of the model, but for K. */
-static void add_part(run_state *run, const mesh_element *el, element_part *part,
+static void add_part(const equations *eq, const mesh_element *el, element_part *part,
                      model_linearisation *lin)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     if (lin->drive != NULL)
         add_driven(m, el, lin->drive, part->K, part->force);
     add_columns(m, el, part->K, lin);
-    phases_lap(&run->phases, PHASE_ELEMENTS);
+    phases_lap(&eq->run->phases, PHASE_ELEMENTS);
     for (int k = 0; k < el->columns; k++)
         part->force[k] = -part->force[k];
     assemble_vector(el, part->force, lin->residual);
     lin->incompatibility = fmax(lin->incompatibility, part->incompatibility);
 }
 
-static void add_discrete(run_state *run, const model_state *s, model_linearisation *lin)
+static void add_discrete(const equations *eq, const model_state *s, model_linearisation *lin)
 {
-    const element_rotating_frame frame = run_rotating_frame(run, lin->path);
-    const model *m = run->m;
+    const element_rotating_frame frame = loading_frame(&eq->loading, lin->path);
+    const model *m = eq->m;
     for (int i = 0; i < m->discretes; i++) {
         element_part part = {.incompatibility = 0};
         discrete_equations(m, s, &m->discrete[i], &frame, part.force, part.K);
-        add_part(run, &m->discrete[i].el, &part, lin);
+        add_part(eq, &m->discrete[i].el, &part, lin);
         if (lin->K != NULL)
             assemble_discrete(&m->discrete[i].el, part.K, lin->K);
     }
@@ -252,42 +254,42 @@ static void add_discrete(run_state *run, const model_state *s, model_linearisati
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
-    run_state *run = loop->run;
+    const equations *eq = loop->eq;
     element_part *part = loop->part + (size_t)slot * (size_t)loop->window;
     for (int i = piece * loop->window; i < end_of(loop, piece); i++, part++) {
-        run->counters.strain_evaluations++;
-        run->counters.stress_evaluations++;
+        eq->run->counters.strain_evaluations++;
+        eq->run->counters.stress_evaluations++;
         loop->outcome = part->outcome;
         if (part->outcome != STATUS_OK) {
             fault_set(loop->f, part->outcome, "%s", part->why.text);
             return 0;
         }
-        add_part(run, &loop->m->element[i], part, loop->lin);
+        add_part(eq, &loop->m->element[i], part, loop->lin);
         if (loop->pattern != NULL)
             assemble_matrix(loop->pattern, i, part->K, loop->lin->K);
-        phases_lap(&run->phases, PHASE_ASSEMBLY);
+        phases_lap(&eq->run->phases, PHASE_ASSEMBLY);
     }
     return 1;
 }
 
-static status linearise_elements(run_state *run, const linear_memory *memory, const model_state *s,
-                                 model_linearisation *lin, fault *f)
+static status linearise_elements(const equations *eq, const linear_memory *memory,
+                                 const model_state *s, model_linearisation *lin, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     element_part own;
-    const int window = window_of(run);
-    shared_loop loop = {.run = run,
+    const int window = window_of(eq);
+    shared_loop loop = {.eq = eq,
                         .memory = memory,
                         .m = m,
                         .s = s,
                         .lin = lin,
-                        .pattern = lin->K == NULL ? NULL : assemble_of(m, lin->K),
+                        .pattern = lin->K == NULL ? NULL : assemble_of(eq->run->patterns, lin->K),
                         .tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0,
                         .window = window > 0 ? window : 1,
-                        .part = window > 0 ? run->part : &own,
+                        .part = window > 0 ? eq->run->part : &own,
                         .f = f};
     /* inertia counts its evaluations */
-    team *together = window > 0 && !run->loading.rotates ? run->team : NULL;
+    team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
     memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -298,23 +300,23 @@ static status linearise_elements(run_state *run, const linear_memory *memory, co
     team_relay(together, (m->elements + loop.window - 1) / loop.window, fill_piece, take_piece,
                &loop);
     TRY(loop.outcome);
-    add_discrete(run, s, lin);
-    loads_add_at_vertices(run, s, lin->path, lin->residual);
+    add_discrete(eq, s, lin);
+    loads_add_at_vertices(eq, s, lin->path, lin->residual);
     if (lin->K != NULL) {
-        loads_subtract_at_vertices(run, s, lin->path, lin->K);
-        linearise_add_held_moments(run, s, lin->path, lin->K);
+        loads_subtract_at_vertices(eq, s, lin->path, lin->K);
+        linearise_add_held_moments(eq, s, lin->path, lin->K);
     }
-    phases_lap(&run->phases, PHASE_ASSEMBLY);
+    phases_lap(&eq->run->phases, PHASE_ASSEMBLY);
     return STATUS_OK;
 }
 
-status linearise_state(run_state *run, const linear_memory *memory, const model_state *s,
+status linearise_state(const equations *eq, const linear_memory *memory, const model_state *s,
                        model_linearisation *lin, fault *f)
 {
     const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
-    ahead_strains(run, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
-    ahead_stresses(run, s->e, s->inner);
-    const status outcome = linearise_elements(run, memory, s, lin, f);
-    ahead_end(run);
+    ahead_strains(eq, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
+    ahead_stresses(eq, s->e, s->inner);
+    const status outcome = linearise_elements(eq, memory, s, lin, f);
+    ahead_end(eq);
     return outcome;
 }

@@ -23,16 +23,16 @@ typedef struct model_linearisation {
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
 /* Into the memory goes what advance_state takes up. */
-status linearise_state(run_state *, const linear_memory *, const model_state *,
+status linearise_state(const equations *, const linear_memory *, const model_state *,
                        model_linearisation *, fault *);
 /* Forgets the independent strains and stresses: e = D(x), sigma = P'(e). */
-status linearise_make_compatible(run_state *, model_state *, fault *);
+status linearise_make_compatible(const equations *, model_state *, fault *);
 /* Force and spatial moment that act from outside on a node's frame (loads and reactions) in the
  * state: F[6] [N, N m]. sigma: as internal.h has it. */
-void linearise_node_force(run_state *, const model_state *, const double sigma[], int node,
+void linearise_node_force(const equations *, const model_state *, const double sigma[], int node,
                           double F[6]);
 /* out[free + driven] += forces that the stresses of these elements take, and all springs. */
-void linearise_add_internal(const run_state *, const model_state *, int elements,
+void linearise_add_internal(const equations *, const model_state *, int elements,
                             const int element[], double out[]);
 
 #endif

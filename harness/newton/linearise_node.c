@@ -12,11 +12,11 @@
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"
 
-void linearise_node_force(run_state *run, const model_state *s, const double sigma[], int node,
+void linearise_node_force(const equations *eq, const model_state *s, const double sigma[], int node,
                           double F[6])
 {
-    const element_rotating_frame frame = run_rotating_frame(run, s->path);
-    const model *m = run->m;
+    const element_rotating_frame frame = loading_frame(&eq->loading, s->path);
+    const model *m = eq->m;
     const double *stress = sigma != NULL ? sigma : s->sigma;
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->elements; i++) {
@@ -31,7 +31,7 @@ void linearise_node_force(run_state *run, const model_state *s, const double sig
             m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
             dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
                                     &stress[(size_t)i * (size_t)m->strains], force);
-            rotating_frame_add(run, x, i, s->path, force, NULL,
+            rotating_frame_add(eq, x, i, s->path, force, NULL,
                                NULL); /* never fails in a state that has been reached */
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + NODE_COORDINATES * k, moment);
@@ -50,41 +50,42 @@ void linearise_node_force(run_state *run, const model_state *s, const double sig
 /* Of what the moments at a node are made of; less is rounding. */
 static const double least_moment = 1e-12;
 
-double linearise_held_moment(run_state *run, const model_state *s, const double sigma[],
+double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                              double path, int node, int axis)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double F[6], load[6];
-    linearise_node_force(run, s, sigma, node, F);
-    loads_at_node(run, s, path, node, load);
+    linearise_node_force(eq, s, sigma, node, F);
+    loads_at_node(eq, s, path, node, load);
     const double moment = F[3 + axis] - load[3 + axis],
                  size = vec3_norm(F + 3) + vec3_norm(load + 3) +
                         m->size * (vec3_norm(F) + vec3_norm(load));
     return fabs(moment) > least_moment * size ? moment : 0;
 }
 
-void linearise_add_held_moments(run_state *run, const model_state *s, double path, sparse *K)
+void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int node = 0; node < m->scene->nodes; node++) {
         const int h = coordinates_held_turn(m, node);
         if (h == NONE)
             continue;
         const int *coordinate = m->vertex[node].coordinate + SCENE_RX, i = coordinate[(h + 1) % 3],
                   j = coordinate[(h + 2) % 3];
-        const double half = linearise_held_moment(run, s, NULL, path, node, h) / 2;
+        const double half = linearise_held_moment(eq, s, NULL, path, node, h) / 2;
         assemble_subtract(K, i, j, -half);
         assemble_subtract(K, j, i, half);
     }
 }
 
-status linearise_held_have_potential(run_state *run, const double sigma[], double path, fault *f)
+status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
+                                     fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     static const char *const turn[] = {"rx", "ry", "rz"};
     for (int node = 0; node < m->scene->nodes; node++) {
         const int h = coordinates_held_turn(m, node);
-        if (h != NONE && linearise_held_moment(run, m->rest, sigma, path, node, h) != 0)
+        if (h != NONE && linearise_held_moment(eq, m->rest, sigma, path, node, h) != 0)
             return fault_set(f, STATUS_REFUSED,
                              "the moment that holds %s of %s, which turns freely about two axes "
                              "across it, has no potential: hold one of them, or follow a path",
@@ -93,11 +94,11 @@ status linearise_held_have_potential(run_state *run, const double sigma[], doubl
     return STATUS_OK;
 }
 
-void linearise_add_internal(const run_state *run, const model_state *s, int elements,
+void linearise_add_internal(const equations *eq, const model_state *s, int elements,
                             const int element[], double out[])
 {
-    const element_rotating_frame frame = run_rotating_frame(run, s->path);
-    const model *m = run->m;
+    const element_rotating_frame frame = loading_frame(&eq->loading, s->path);
+    const model *m = eq->m;
     for (int k = 0; k < elements; k++) {
         const mesh_element *el = &m->element[element[k]];
         node_state x[ELEMENT_MAX_NODES];

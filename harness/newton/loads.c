@@ -33,44 +33,43 @@ static int lumps_of(const model *m, int analysis)
     return lumps;
 }
 
-void loads_of(run_state *run, int analysis)
+loading loading_of(const model *m, int analysis)
 {
-    const model *m = run->m;
-    const scene_analysis *a = &m->scene->analysis[analysis];
-    run->loading.unloaded = 0;
-    run->loading.in_time = a->kind == SCENE_MOTION;
-    run->loading.lumps = lumps_of(m, analysis);
-    run->loading.held_path = 1;
+    const scene *s = m->scene;
+    const scene_analysis *own = &s->analysis[analysis],
+                         *a = own->follows == SCENE_NONE || own->kind == SCENE_MOTION
+                                  ? own
+                                  : &s->analysis[own->follows];
+    const scene_rotating_frame *frame = scene_rotating_frame_of(a);
+    loading l = {.in_time = own->kind == SCENE_MOTION, .held_path = 1};
+    l.lumps = lumps_of(m, analysis);
+    l.rotation_follows_path = a->kind == SCENE_ROTATION;
+    if (frame == NULL)
+        return l;
+    memcpy(l.frame.omega, frame->omega, sizeof l.frame.omega);
+    memcpy(l.frame.centre, frame->centre, sizeof l.frame.centre);
+    l.rotates = frame->omega[0] != 0 || frame->omega[1] != 0 || frame->omega[2] != 0;
+    return l;
 }
 
-void loads_hold(run_state *run, double path)
-{
-    run->loading.held_path = path;
-}
-
-void loads_none(run_state *run)
-{
-    run->loading.unloaded = 1;
-}
-
-double loads_driver_value(const run_state *run, const scene_driver *d, double path)
+double loads_driver_value(const equations *eq, const scene_driver *d, double path)
 {
     double at[3];
-    loads_driver_rates(run, d, path, at);
+    loads_driver_rates(eq, d, path, at);
     return at[0];
 }
 
-void loads_driver_rates(const run_state *run, const scene_driver *d, double path, double out[3])
+void loads_driver_rates(const equations *eq, const scene_driver *d, double path, double out[3])
 {
     out[0] = out[1] = out[2] = 0;
-    if (run->loading.unloaded)
+    if (eq->loading.unloaded)
         return;
-    if (!run->loading.in_time)
+    if (!eq->loading.in_time)
         out[0] = along_path_value(d, path);
     else if (d->function.pieces > 0)
         function_at(&d->function, path, out);
     else
-        out[0] = along_path_value(d, run->loading.held_path);
+        out[0] = along_path_value(d, eq->loading.held_path);
 }
 
 /* What one load puts on vertices is added up. */
@@ -104,65 +103,64 @@ static void add_at_vertices(const model *m, const model_state *s, const scene_lo
     applied_each(m, s, load, scale, add_applied, &sum);
 }
 
-static void add_within(const run_state *run, const model_state *s, const scene_load *load,
+static void add_within(const equations *eq, const model_state *s, const scene_load *load,
                        double scale, double out[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++) {
         node_state x[ELEMENT_MAX_NODES];
         double forces[MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, &m->element[i], x);
-        if (!distributed_add_one(run, s, x, i, load, scale, forces, NULL))
+        if (!distributed_add_one(eq, s, x, i, load, scale, forces, NULL))
             continue;
         eliminate_forces(m, s, &m->element[i], forces);
         assemble_vector(&m->element[i], forces, out);
     }
 }
 
-void loads_add_one(const run_state *run, const model_state *s, const scene_load *load, double scale,
+void loads_add_one(const equations *eq, const model_state *s, const scene_load *load, double scale,
                    double out[])
 {
-    const model *m = run->m;
-    if (distributed_spreads(run, load))
-        add_within(run, s, load, scale, out);
+    const model *m = eq->m;
+    if (distributed_spreads(eq, load))
+        add_within(eq, s, load, scale, out);
     else
         add_at_vertices(m, s, load, scale, out);
 }
 
-void loads_add_at_vertices(const run_state *run, const model_state *s, double path, double out[])
+void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (!distributed_spreads(run, load))
-            add_at_vertices(m, s, load, applied_factor(run, load, path), out);
+        if (!distributed_spreads(eq, load))
+            add_at_vertices(m, s, load, applied_factor(eq, load, path), out);
     }
 }
 
-void loads_add(const run_state *run, const model_state *s, double path, double out[])
+void loads_add(const equations *eq, const model_state *s, double path, double out[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(run, s, &m->scene->load[i], applied_factor(run, &m->scene->load[i], path),
-                      out);
+        loads_add_one(eq, s, &m->scene->load[i], applied_factor(eq, &m->scene->load[i], path), out);
 }
 
-void loads_rate(const run_state *run, const model_state *s, double path, double out[])
+void loads_rate(const equations *eq, const model_state *s, double path, double out[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(run, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
+        loads_add_one(eq, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
 }
 
-void loads_stiffness_at_vertices(const run_state *run, const model_state *s, double path,
+void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
                                  loads_entry take, void *context)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (!distributed_spreads(run, load))
-            applied_stiffness(m, s, load, applied_factor(run, load, path), take, context);
+        if (!distributed_spreads(eq, load))
+            applied_stiffness(m, s, load, applied_factor(eq, load, path), take, context);
     }
 }
 
@@ -171,26 +169,26 @@ static void into_sparse(void *K, int row, int column, double value)
     assemble_subtract(K, row, column, value);
 }
 
-void loads_subtract_at_vertices(const run_state *run, const model_state *s, double path, sparse *K)
+void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K)
 {
-    loads_stiffness_at_vertices(run, s, path, into_sparse, K);
+    loads_stiffness_at_vertices(eq, s, path, into_sparse, K);
 }
 
-void loads_subtract_stiffness(const run_state *run, const model_state *s, double path, sparse *K)
+void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K)
 {
-    const model *m = run->m;
-    loads_subtract_at_vertices(run, s, path, K);
+    const model *m = eq->m;
+    loads_subtract_at_vertices(eq, s, path, K);
     for (int i = 0; i < m->elements; i++) {
         node_state x[ELEMENT_MAX_NODES];
         double forces[ELEMENT_MAX_COORDINATES] = {0},
                part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, &m->element[i], x);
-        if (!distributed_add(run, s, x, i, path, forces, part))
+        if (!distributed_add(eq, s, x, i, path, forces, part))
             continue;
         for (int k = 0; k < m->coordinates; k++)
             forces[k] = -forces[k];
         eliminate_matrix(m, s, &m->element[i], forces, part);
-        assemble_matrix(assemble_of(m, K), i, part, K);
+        assemble_matrix(assemble_of(eq->run->patterns, K), i, part, K);
     }
 }
 
@@ -227,15 +225,15 @@ static double skew_of(const entries_of_load *e)
     return largest;
 }
 
-status loads_have_potential(const run_state *run, const model_state *s, double path, fault *f)
+status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
         entries_of_load e = {.free = m->free};
         if (load->kind != SCENE_MOMENT)
             continue;
-        applied_stiffness(m, s, load, applied_factor(run, load, path), into_list, &e);
+        applied_stiffness(m, s, load, applied_factor(eq, load, path), into_list, &e);
         if (skew_of(&e) > potential * vec3_norm(load->vector))
             return fault_set(
                 f, STATUS_REFUSED,
@@ -268,7 +266,7 @@ void loads_release_moment(const model *m, const model_state *s, int node, const 
 
 /* What acts on the frame of one node is added up. */
 typedef struct sum_at_node {
-    const run_state *run;
+    const equations *eq;
     const model *m;
     const model_state *s;
     int node;
@@ -304,7 +302,7 @@ static void add_element_at_node(sum_at_node *sum, int element, double path)
     if (!meets)
         return;
     kinematics_gather(m, sum->s, el, x);
-    if (!distributed_add(sum->run, sum->s, x, element, path, forces, NULL))
+    if (!distributed_add(sum->eq, sum->s, x, element, path, forces, NULL))
         return;
     for (int k = 0; k < m->nodes; k++) {
         if (m->vertex[el->vertex[k]].body != sum->node)
@@ -315,34 +313,34 @@ static void add_element_at_node(sum_at_node *sum, int element, double path)
     }
 }
 
-void loads_at_node(const run_state *run, const model_state *s, double path, int node, double F[6])
+void loads_at_node(const equations *eq, const model_state *s, double path, int node, double F[6])
 {
-    const model *m = run->m;
-    sum_at_node sum = {run, m, s, node, F};
+    const model *m = eq->m;
+    sum_at_node sum = {eq, m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
     for (int i = 0; i < m->scene->loads; i++) {
         const scene_load *load = &m->scene->load[i];
-        if (!distributed_spreads(run, load))
-            applied_each(m, s, load, applied_factor(run, load, path), add_at_node, &sum);
+        if (!distributed_spreads(eq, load))
+            applied_each(m, s, load, applied_factor(eq, load, path), add_at_node, &sum);
     }
     for (int i = 0; i < m->elements; i++)
         add_element_at_node(&sum, i, path);
 }
 
-void loads_drive(const run_state *run, const model_state *s, double path, double dx[])
+void loads_drive(const equations *eq, const model_state *s, double path, double dx[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] =
-                loads_driver_value(run, &m->scene->driver[d], path) - s->driver[d];
+                loads_driver_value(eq, &m->scene->driver[d], path) - s->driver[d];
     for (int i = 0; i < m->scene->nodes; i++) {
         const mesh_vertex *v = &m->vertex[i];
         if (v->vector_driver[0] == NONE || v->body != i)
             continue;
         double target[3], q[4], turn[3];
         for (int k = 0; k < 3; k++)
-            target[k] = loads_driver_value(run, &m->scene->driver[v->vector_driver[k]], path);
+            target[k] = loads_driver_value(eq, &m->scene->driver[v->vector_driver[k]], path);
         rotation_exp(target, q);
         rotation_between(&s->q[4 * i], q, turn);
         for (int k = 0; k < 3; k++)
@@ -350,10 +348,10 @@ void loads_drive(const run_state *run, const model_state *s, double path, double
     }
 }
 
-int loads_conditions(const run_state *run, const model_state *s, double path,
+int loads_conditions(const equations *eq, const model_state *s, double path,
                      model_condition out[MODEL_MAX_CONDITIONS])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     int count = 0;
     for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
         const scene_driver *u = &m->scene->driver[d];
@@ -362,27 +360,27 @@ int loads_conditions(const run_state *run, const model_state *s, double path,
         out[count].unknown = m->driver_coordinate[d];
         out[count].coordinate = m->driver_coordinate[u->condition_driver];
         out[count++].increment =
-            loads_driver_value(run, &m->scene->driver[u->condition_driver], path) -
+            loads_driver_value(eq, &m->scene->driver[u->condition_driver], path) -
             s->driver[u->condition_driver];
     }
     return count;
 }
 
-void loads_reference(const run_state *run, double path, double f[])
+void loads_reference(const equations *eq, double path, double f[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
-    loads_add(run, m->rest, path, f);
+    loads_add(eq, m->rest, path, f);
 }
 
-int loads_begin(const run_state *run)
+int loads_begin(const equations *eq)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     int begin = 0;
     for (int i = 0; i < m->scene->loads; i++)
-        begin |= applied_factor(run, &m->scene->load[i], 0) != 0;
+        begin |= applied_factor(eq, &m->scene->load[i], 0) != 0;
     for (int d = 0; d < m->scene->drivers; d++)
         begin |= m->scene->driver[d].value != NULL &&
-                 loads_driver_value(run, &m->scene->driver[d], 0) != 0;
+                 loads_driver_value(eq, &m->scene->driver[d], 0) != 0;
     return begin;
 }

@@ -31,7 +31,7 @@ static status allocate_tangent(newton *n, int condense, fault *f)
         TRY(context_condensation(n->c, 0, NULL, &n->condensed, f));
     if (n->condensed != NULL)
         return condensation_as_factor(n->condensed, &n->factor, f);
-    TRY(assemble_pattern_of_states(n->c->model, 0, &pattern, f));
+    TRY(assemble_pattern_of_states(n->c->model, n->c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, &n->K, f));
     return factor_alloc(pattern, &n->factor, f);
 }
@@ -64,7 +64,7 @@ status newton_alloc(analysis_context *c, int condense, newton *n, fault *f)
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     const status outcome = allocate(n, condense, f);
-    c->setup += clock_processor_seconds() - start;
+    c->work->setup += clock_processor_seconds() - start;
     return outcome;
 }
 
@@ -73,7 +73,7 @@ status newton_keep_driven(newton *n, fault *f)
     const sparse *pattern;
     if (n->whole.value != NULL)
         return STATUS_OK;
-    TRY(assemble_pattern_of_states(n->c->model, 1, &pattern, f));
+    TRY(assemble_pattern_of_states(n->c->model, n->c->run->patterns, 1, &pattern, f));
     return sparse_alloc_like(pattern, &n->whole, f);
 }
 
@@ -146,7 +146,7 @@ static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
         lin->K = &n->whole;
     if (n->condensed != NULL)
         lin->K = NULL;
-    TRY(linearise_state(n->c->run, &n->c->run->memory, n->state, lin, f));
+    TRY(linearise_state(&n->c->eq, &n->c->run->memory, n->state, lin, f));
     if (n->whole.value != NULL)
         sparse_copy_leading(&n->whole, &n->K);
     if (n->condensed == NULL)
@@ -190,16 +190,16 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     parts.K = NULL;
     parts.drive = NULL;
     parts.conditions = 0;
-    TRY(linearise_state(n->c->run, &n->c->run->memory, n->state, &parts,
+    TRY(linearise_state(&n->c->eq, &n->c->run->memory, n->state, &parts,
                         f)); /* what advance_state needs */
     lin->incompatibility = parts.incompatibility;
-    TRY(uncondensed_system(n->c->run, n->state, lin->path, n->dx, lin->conditions, lin->condition,
+    TRY(uncondensed_system(&n->c->eq, n->state, lin->path, n->dx, lin->conditions, lin->condition,
                            n->dense, n->unknown, n->residual, f));
     phases_lap(&n->c->run->phases, PHASE_ASSEMBLY);
     const int singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, (int)size, 1, n->dense, (int)size,
                                        n->pivot, n->unknown, (int)size) != 0;
     phases_lap(&n->c->run->phases, PHASE_FACTORISATION);
-    n->c->singular = singular;
+    n->c->work->singular = singular;
     if (singular)
         return fault_set(f, STATUS_SINGULAR, "the uncondensed system is singular");
     memcpy(n->dx, n->unknown, (size_t)n->free * sizeof *n->dx);
@@ -213,12 +213,12 @@ static status direction(newton *n, double path, step_record *record, fault *f)
     counters *count = &n->c->run->counters;
     n->energy = NAN;
     memset(n->dx, 0, (size_t)n->all * sizeof *n->dx);
-    loads_drive(n->c->run, n->state, path, n->dx);
+    loads_drive(&n->c->eq, n->state, path, n->dx);
     if (n->c->options->newton == NEWTON_DISPLACEMENT) {
-        TRY(linearise_make_compatible(n->c->run, n->state, f));
+        TRY(linearise_make_compatible(&n->c->eq, n->state, f));
     }
     model_condition condition[MODEL_MAX_CONDITIONS];
-    const int conditions = loads_conditions(n->c->run, n->state, path, condition);
+    const int conditions = loads_conditions(&n->c->eq, n->state, path, condition);
     model_linearisation lin = {.path = path,
                                .drive = n->dx,
                                .K = &n->K,
@@ -252,7 +252,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
 void newton_advance(newton *n, double path, newton_correction *out)
 {
     phases_start(&n->c->run->phases);
-    out->size = advance_state(n->c->run, &n->c->run->memory, n->state, n->dx, path, &out->stress);
+    out->size = advance_state(&n->c->eq, &n->c->run->memory, n->state, n->dx, path, &out->stress);
     phases_stop(&n->c->run->phases);
     out->at = path;
     out->energy = n->energy;

@@ -38,10 +38,10 @@ void predictor_forget(predictor *t)
     t->count = 0;
 }
 
-status predictor_add(const run_state *run, const model_state *s, int iterations, predictor *t,
+status predictor_add(const equations *eq, const model_state *s, int iterations, predictor *t,
                      fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     t->iterations = iterations;
     if (t->count == t->most + 1) {
         model_state *oldest = t->at[0];
@@ -54,7 +54,7 @@ status predictor_add(const run_state *run, const model_state *s, int iterations,
     kinematics_state_copy(m, s, t->at[t->count]);
     for (int k = 1; k <= MODEL_EXTRAPOLATED; k++)
         t->error[k] = INFINITY;
-    extrapolate_errors(run, t->count, last(t, t->count, t->count), t->error);
+    extrapolate_errors(eq, t->count, last(t, t->count, t->count), t->error);
     t->count++;
     return STATUS_OK;
 }
@@ -74,9 +74,9 @@ static int states_of_least_error(const predictor *t)
     return best + 1 == t->count && best < t->most ? best + 1 : best;
 }
 
-void predictor_guess(const run_state *run, const predictor *t, double path, model_state *s)
+void predictor_guess(const equations *eq, const predictor *t, double path, model_state *s)
 {
     for (int k = t->count >= 2 ? states_of_least_error(t) : 0; k >= 2; k--)
-        if (extrapolate_state(run, k, last(t, t->count, k), path, s))
+        if (extrapolate_state(eq, k, last(t, t->count, k), path, s))
             return;
 }

@@ -15,9 +15,9 @@ typedef struct predictor {
 
 status predictor_alloc(const model *, predictor *, fault *); /* holds the undeformed state */
 void predictor_free(predictor *);
-status predictor_add(const run_state *, const model_state *, int iterations, predictor *, fault *);
+status predictor_add(const equations *, const model_state *, int iterations, predictor *, fault *);
 void predictor_forget(predictor *);
 /* Moves s, the last state, to a guess of the one at `path`, or leaves it as it is. */
-void predictor_guess(const run_state *, const predictor *, double path, model_state *s);
+void predictor_guess(const equations *, const predictor *, double path, model_state *s);
 
 #endif

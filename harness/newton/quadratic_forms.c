@@ -8,9 +8,10 @@
 #include "harness/newton/linear.h"
 #include "harness/newton/rotating_frame.h"
 
-status quadratic_forms_alloc(run_state *run, const sparse *pattern, quadratic_forms *p, fault *f)
+status quadratic_forms_alloc(const equations *eq, const sparse *pattern, quadratic_forms *p,
+                             fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const model_size size = model_sizes(m);
     const size_t all = (size_t)(size.free + size.driven) + 1,
                  stresses = (size_t)model_stresses(m) + 1;
@@ -18,7 +19,7 @@ status quadratic_forms_alloc(run_state *run, const sparse *pattern, quadratic_fo
                    **const of_stresses[] = {&p->sigma, &p->stress};
     int good = 1;
     memset(p, 0, sizeof *p);
-    p->run = run;
+    p->eq = eq;
     p->free = size.free;
     for (int i = 0; i < 4; i++)
         good &= (*of_coordinates[i] = calloc(all, sizeof(double))) != NULL;
@@ -37,11 +38,12 @@ void quadratic_forms_free(quadratic_forms *p)
     memset(p, 0, sizeof *p);
 }
 
-status quadratic_forms_load(quadratic_forms *p, double path, int whole, fault *f)
+status quadratic_forms_load(const equations *eq, quadratic_forms *p, double path, int whole,
+                            fault *f)
 {
-    rotating_frame_load_stiffness(p->run, kinematics_rest(p->run->m), path, &p->loads);
-    return whole ? linear_whole_stresses(p->run, p->load_x, p->sigma, f)
-                 : linear_stresses(p->run, p->load_x, p->sigma, f);
+    rotating_frame_load_stiffness(eq, kinematics_rest(eq->m), path, &p->loads);
+    return whole ? linear_whole_stresses(eq, p->load_x, p->sigma, f)
+                 : linear_stresses(eq, p->load_x, p->sigma, f);
 }
 
 /* With the driven coordinates. */
@@ -53,30 +55,30 @@ static const double *all_of(quadratic_forms *p, const double x[])
 
 double quadratic_forms_stiffness(quadratic_forms *p, const double x[])
 {
-    return linear_strain_energy2(p->run, all_of(p, x));
+    return linear_strain_energy2(p->eq, all_of(p, x));
 }
 
 double quadratic_forms_stiffness_rounding(quadratic_forms *p, const double x[])
 {
-    return linear_strain_rounding(p->run, all_of(p, x));
+    return linear_strain_rounding(p->eq, all_of(p, x));
 }
 
 double quadratic_forms_geometric(quadratic_forms *p, const double x[])
 {
     sparse_mul(&p->loads, x, p->product);
-    return linear_geometric_energy2(p->run, p->sigma, all_of(p, x)) +
+    return linear_geometric_energy2(p->eq, p->sigma, all_of(p, x)) +
            dense_dot(p->free, x, p->product);
 }
 
 double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
 {
-    return linear_geometric_rounding(p->run, p->load_x, p->sigma, all_of(p, x));
+    return linear_geometric_rounding(p->eq, p->load_x, p->sigma, all_of(p, x));
 }
 
 /* The undeformed elements have been evaluated when K was assembled: they do not fail here. */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
-    linear_stresses(p->run, all_of(p, x), p->stress, NULL);
-    linear_forces(p->run, p->stress, p->force);
+    linear_stresses(p->eq, all_of(p, x), p->stress, NULL);
+    linear_forces(p->eq, p->stress, p->force);
     memcpy(y, p->force, (size_t)p->free * sizeof *y);
 }

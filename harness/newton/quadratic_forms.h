@@ -6,7 +6,7 @@
 #include "harness/newton/run_state.h"
 
 typedef struct quadratic_forms {
-    run_state *run;
+    const equations *eq;
     int free;
     double *load_x;    /* [free + driven] displacements by the loads, zero: no prestress ... */
     double *sigma;     /* ... and their stresses [elements x strains] */
@@ -15,11 +15,13 @@ typedef struct quadratic_forms {
     double *stress, *product; /* [elements x strains], [free] */
 } quadratic_forms;
 
-status quadratic_forms_alloc(run_state *run, const sparse *pattern, quadratic_forms *p, fault *f);
+status quadratic_forms_alloc(const equations *eq, const sparse *pattern, quadratic_forms *p,
+                             fault *f);
 void quadratic_forms_free(quadratic_forms *p);
 /* The loads at `path` and their stresses, once load_x is known; whole: with those of initial
  * strains. */
-status quadratic_forms_load(quadratic_forms *p, double path, int whole, fault *f);
+status quadratic_forms_load(const equations *, quadratic_forms *p, double path, int whole,
+                            fault *f);
 
 /* Of x[free]: x^T K x, x^T G x, and what rounding may change in them. */
 double quadratic_forms_stiffness(quadratic_forms *p, const double x[]);

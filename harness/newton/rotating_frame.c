@@ -10,50 +10,41 @@
 #include "harness/model/discrete.h"
 #include "harness/newton/equations_impl.h"
 
-void rotating_frame_set(run_state *run, const double omega[3], const double centre[3],
-                        int follows_path)
+int rotating_frame_lumps(const equations *eq)
 {
-    memcpy(run->loading.frame.omega, omega, sizeof run->loading.frame.omega);
-    memcpy(run->loading.frame.centre, centre, sizeof run->loading.frame.centre);
-    run->loading.rotation_follows_path = follows_path;
-    run->loading.rotates = omega[0] != 0 || omega[1] != 0 || omega[2] != 0;
+    return eq->m->scene->lumped || eq->loading.lumps != LUMPS_NOTHING;
 }
 
-int rotating_frame_lumps(const run_state *run)
-{
-    return run->m->scene->lumped || run->loading.lumps != LUMPS_NOTHING;
-}
-
-static status inertia_at(run_state *run, const node_state x[], int i, double path,
+static status inertia_at(const equations *eq, const node_state x[], int i, double path,
                          inertia_output *out, fault *f)
 {
-    const model *m = run->m;
-    const element_rotating_frame frame = run_rotating_frame(run, path);
+    const model *m = eq->m;
+    const element_rotating_frame frame = loading_frame(&eq->loading, path);
     const mesh_kind *kind = &m->kind[m->element[i].kind];
-    const element_rotating_frame *turning = run->loading.rotates ? &frame : NULL;
+    const element_rotating_frame *turning = eq->loading.rotates ? &frame : NULL;
     status outcome;
-    if (rotating_frame_lumps(run)) {
+    if (rotating_frame_lumps(eq)) {
         const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
         outcome = lumped_element(&whole, m->nodes, m->element[i].share, x, turning, out);
     } else {
         outcome = m->type->inertia(kind->data, x, turning, out);
     }
-    run->counters.inertia_evaluations++;
+    eq->run->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
                          scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text);
     return STATUS_OK;
 }
 
-status rotating_frame_add(run_state *run, const node_state x[], int i, double path, double force[],
-                          double K[], fault *f)
+status rotating_frame_add(const equations *eq, const node_state x[], int i, double path,
+                          double force[], double K[], fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double centrifugal[ELEMENT_MAX_COORDINATES],
         N[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    if (!run->loading.rotates)
+    if (!eq->loading.rotates)
         return STATUS_OK;
-    TRY(inertia_at(run, x, i, path,
+    TRY(inertia_at(eq, x, i, path,
                    &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= centrifugal[k];
@@ -63,13 +54,13 @@ status rotating_frame_add(run_state *run, const node_state x[], int i, double pa
     return STATUS_OK;
 }
 
-status rotating_frame_inertia(run_state *run, const model_state *state, double path, sparse *M,
+status rotating_frame_inertia(const equations *eq, const model_state *state, double path, sparse *M,
                               sparse *G, fault *f)
 {
-    const element_rotating_frame frame = run_rotating_frame(run, path);
-    const model *m = run->m;
+    const element_rotating_frame frame = loading_frame(&eq->loading, path);
+    const model *m = eq->m;
     const model_state *s = state != NULL ? state : m->rest;
-    const mesh_pattern *p = assemble_of(m, M);
+    const mesh_pattern *p = assemble_of(eq->run->patterns, M);
     double mass[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
         gyroscopic[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
     sparse_zero(M);
@@ -78,7 +69,7 @@ status rotating_frame_inertia(run_state *run, const model_state *state, double p
     for (int i = 0; i < m->elements; i++) {
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, &m->element[i], x);
-        TRY(inertia_at(run, x, i, path,
+        TRY(inertia_at(eq, x, i, path,
                        &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f));
         eliminate_matrix(m, s, &m->element[i], NULL, mass);
         assemble_matrix(p, i, mass, M);
@@ -138,9 +129,10 @@ static void turn_inner(const mesh_element *el, const double B[], double out[])
     dense_add_transpose_mul(FIELD_INNER, FIELD_INNER, FIELD_INNER, T, half, out);
 }
 
-int rotating_frame_inner_matrix(const model *m, sparse *out)
+int rotating_frame_inner_matrix(const equations *eq, sparse *out)
 {
-    const mesh_pattern *p = assemble_of(m, out);
+    const model *m = eq->m;
+    const mesh_pattern *p = assemble_of(eq->run->patterns, out);
     int any = 0;
     sparse_zero(out);
     for (int e = 0; e < m->elements; e++) {
@@ -156,9 +148,9 @@ int rotating_frame_inner_matrix(const model *m, sparse *out)
     return any;
 }
 
-void rotating_frame_load_stiffness(const run_state *run, const model_state *s, double path,
+void rotating_frame_load_stiffness(const equations *eq, const model_state *s, double path,
                                    sparse *out)
 {
     sparse_zero(out);
-    loads_subtract_stiffness(run, s, path, out);
+    loads_subtract_stiffness(eq, s, path, out);
 }

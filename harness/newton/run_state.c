@@ -28,7 +28,7 @@ status run_state_begin(run_state *run, const model *m, int threads, fault *f)
 {
     const int most = model_sizes(m).elements / ELEMENTS_OF_A_THREAD;
     memset(run, 0, sizeof *run);
-    run->m = m;
+    TRY(assemble_patterns_alloc(&run->patterns, f));
     TRY(linear_memory_alloc(m, &run->memory, f));
     return team_alloc(threads < most ? threads : most, &run->team, f);
 }
@@ -40,14 +40,15 @@ void run_state_end(run_state *run)
     free(run->ahead);
     free(run->part);
     team_free(run->team);
+    assemble_patterns_free(run->patterns);
     linear_memory_free(&run->memory);
     memset(run, 0, sizeof *run);
 }
 
-element_rotating_frame run_rotating_frame(const run_state *run, double path)
+element_rotating_frame loading_frame(const loading *l, double path)
 {
-    element_rotating_frame frame = run->loading.frame;
-    if (run->loading.rotation_follows_path)
+    element_rotating_frame frame = l->frame;
+    if (l->rotation_follows_path)
         for (int i = 0; i < 3; i++)
             frame.omega[i] *= path;
     return frame;

@@ -1,8 +1,9 @@
-/* What a run changes besides its states; the model stays. Nothing of it outlives a solution. */
+/* The equations of a model under a loading, and what a run changes besides its states: the model
+ * and the loading stay. Nothing of it outlives a solution. */
 #ifndef BEAMWORK_RUN_STATE_H
 #define BEAMWORK_RUN_STATE_H
 
-#include "harness/model/model.h"
+#include "harness/model/assemble.h"
 #include "harness/numerics/phases.h"
 #include "harness/numerics/team.h"
 
@@ -36,7 +37,7 @@ typedef struct linear_memory {
 /* What of the loads along members goes to the ends of elements. */
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
-/* What the path parameter means, what acts, and how the axes turn. */
+/* What the path parameter means, what acts, and how the axes turn: of one analysis. */
 typedef struct loading {
     int in_time;      /* the path parameter is the time: loads and drivers are functions of that */
     double held_path; /* path parameter at which those stay in time that have no such function */
@@ -58,8 +59,7 @@ struct run_ahead;
 struct element_part;
 
 typedef struct run_state {
-    const model *m;
-    loading loading;
+    assemble_patterns *patterns; /* of the matrices of the model, made when they are asked for */
     counters counters;
     phases phases;
     team *team;                /* of the loop over elements; NULL: one thread */
@@ -71,14 +71,20 @@ typedef struct run_state {
     linear_memory memory; /* of those who linearise one state at a time */
 } run_state;
 
+typedef struct equations {
+    const model *m;
+    loading loading;
+    run_state *run;
+} equations;
+
 status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);
 
-/* Of a model, nothing done yet. threads share the loop over elements; 0, 1: one. Sums keep their
+/* For a model, nothing done yet. threads share the loop over elements; 0, 1: one. Sums keep their
  * order: results do not depend on it. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
 /* How the frame turns at that path parameter. */
-element_rotating_frame run_rotating_frame(const run_state *, double path);
+element_rotating_frame loading_frame(const loading *, double path);
 
 #endif

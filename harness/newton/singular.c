@@ -81,10 +81,16 @@ static int has_no_number(const sparse *K)
 
 /* Condition of the stiffness of a model at rest, INFINITY where it cannot be factored; *lost: LOST
  * where it has no digits to spare, NO_NUMBER where entries are none. */
-static double condition_at_rest(const analysis_context *c, model *m, run_state *run, int *lost)
+static double condition_at_rest(const analysis_context *c, const equations *eq, int *lost)
 {
-    const counters work = run->counters;
-    analysis_context one = {.scene = c->scene, .model = m, .run = run, .options = c->options};
+    const counters work = eq->run->counters;
+    context_work apart = {0};
+    analysis_context one = {.scene = c->scene,
+                            .model = eq->m,
+                            .run = eq->run,
+                            .eq = *eq,
+                            .options = c->options,
+                            .work = &apart};
     linear_system s;
     double condition = 1;
     const status outcome = linear_system_alloc(&one, &s, NULL);
@@ -93,11 +99,11 @@ static double condition_at_rest(const analysis_context *c, model *m, run_state *
     else if (outcome == STATUS_SINGULAR)
         condition = INFINITY;
     *lost = outcome == STATUS_SINGULAR ||
-            (outcome == STATUS_OK && !(condition * spread(run->m, &s.K) <= no_digits));
+            (outcome == STATUS_OK && !(condition * spread(eq->m, &s.K) <= no_digits));
     if (outcome != STATUS_OK && has_no_number(&s.K))
         *lost = NO_NUMBER;
     linear_system_free(&s);
-    run->counters = work;
+    eq->run->counters = work;
     return condition;
 }
 
@@ -111,7 +117,7 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     *lost = 0;
     if (model_coarse(c->model, &coarse, NULL) == STATUS_OK &&
         run_state_begin(&run, coarse, 1, NULL) == STATUS_OK) {
-        condition = condition_at_rest(c, coarse, &run, lost);
+        condition = condition_at_rest(c, &(equations){.m = coarse, .run = &run}, lost);
         *elements = model_sizes(coarse).elements;
     }
     run_state_end(&run);
@@ -148,7 +154,7 @@ void singular_explain(analysis_context *c, fault *f)
     }
     if (singular_mechanism(c, STATUS_OK, f) != STATUS_OK)
         return;
-    condition_at_rest(c, c->model, c->run, &lost);
+    condition_at_rest(c, &c->eq, &lost);
     if (lost == NO_NUMBER)
         fault_set(f, STATUS_SINGULAR,
                   "the formulation returned what is no number: look at its energy, stresses or "

@@ -54,15 +54,15 @@ double stiffness_parts_material_rounding(const model *m, const linear_memory *me
     return sum + discrete_material_rounding(m, s, x);
 }
 
-status stiffness_parts_geometric(run_state *run, const linear_memory *memory, const model_state *s,
-                                 sparse *G, fault *f)
+status stiffness_parts_geometric(const equations *eq, const linear_memory *memory,
+                                 const model_state *s, sparse *G, fault *f)
 {
-    const element_rotating_frame frame = run_rotating_frame(run, s->path);
-    const model *m = run->m;
-    const mesh_pattern *p = assemble_of(m, G);
+    const element_rotating_frame frame = loading_frame(&eq->loading, s->path);
+    const model *m = eq->m;
+    const mesh_pattern *p = assemble_of(eq->run->patterns, G);
     status outcome = STATUS_OK;
     sparse_zero(G);
-    ahead_strains(run, s, AHEAD_H, s->sigma);
+    ahead_strains(eq, s, AHEAD_H, s->sigma);
     for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
         const mesh_element *el = &m->element[i];
         const model_slot w = linearise_slot(m, memory, i);
@@ -71,19 +71,19 @@ status stiffness_parts_geometric(run_state *run, const linear_memory *memory, co
         double H[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
             present[ELEMENT_MAX_COORDINATES] = {0};
         kinematics_gather(m, s, el, x);
-        ahead_strain(run, i, x, &(strain_output){.s = sigma, .H = H});
-        run->counters.strain_evaluations++;
-        if (run->loading.rotates) {
-            outcome = rotating_frame_add(run, x, i, s->path, present, H, f);
+        ahead_strain(eq, i, x, &(strain_output){.s = sigma, .H = H});
+        eq->run->counters.strain_evaluations++;
+        if (eq->loading.rotates) {
+            outcome = rotating_frame_add(eq, x, i, s->path, present, H, f);
         }
         dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, present);
         eliminate_matrix(m, s, el, present, H);
         assemble_matrix(p, i, H, G);
     }
-    ahead_end(run);
+    ahead_end(eq);
     TRY(outcome);
     discrete_geometric(m, s, &frame, G);
-    loads_subtract_stiffness(run, s, s->path, G);
-    linearise_add_held_moments(run, s, s->path, G);
+    loads_subtract_stiffness(eq, s, s->path, G);
+    linearise_add_held_moments(eq, s, s->path, G);
     return STATUS_OK;
 }

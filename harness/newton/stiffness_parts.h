@@ -13,7 +13,7 @@ void stiffness_parts_material_product(const model *, const linear_memory *, cons
 /* What rounding may change in x^T of the stiff part. */
 double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
                                          const double x[]);
-status stiffness_parts_geometric(run_state *, const linear_memory *, const model_state *, sparse *G,
-                                 fault *);
+status stiffness_parts_geometric(const equations *, const linear_memory *, const model_state *,
+                                 sparse *G, fault *);
 
 #endif

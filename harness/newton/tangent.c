@@ -49,11 +49,11 @@ static status allocate(const analysis_context *c, const scene_compliance *a,
         TRY(condensation_alloc_like(members, b->count, b->coordinate, &t->condensed, f));
     else
         TRY(context_condensation(c, b->count, b->coordinate, &t->condensed, f));
-    TRY(assemble_pattern_of_states(c->model, with_driven, &whole, f));
+    TRY(assemble_pattern_of_states(c->model, c->run->patterns, with_driven, &whole, f));
     TRY(sparse_alloc_like(whole, &t->geometric, f));
     if (t->condensed != NULL)
         return condensation_as_factor(t->condensed, &t->own, f);
-    TRY(assemble_pattern_of_states(c->model, 0, &inside, f));
+    TRY(assemble_pattern_of_states(c->model, c->run->patterns, 0, &inside, f));
     TRY(sparse_alloc_like(whole, &t->K, f));
     if (with_driven)
         TRY(sparse_alloc_like(inside, &t->inside, f));
@@ -68,7 +68,7 @@ status tangent_alloc(analysis_context *c, const scene_compliance *a, const conde
     const double start = clock_processor_seconds();
     memset(t, 0, sizeof *t);
     const status outcome = allocate(c, a, members, t, f);
-    c->setup += clock_processor_seconds() - start;
+    c->work->setup += clock_processor_seconds() - start;
     return outcome;
 }
 
@@ -92,7 +92,7 @@ static status factor_inside(analysis_context *c, tangent *t, fault *f)
     if (t->own == NULL) {
         const double start = clock_processor_seconds();
         const status allocated = factor_alloc(&t->inside, &t->own, f);
-        c->setup += clock_processor_seconds() - start;
+        c->work->setup += clock_processor_seconds() - start;
         TRY(allocated);
     }
     t->factor = t->own;
@@ -127,7 +127,7 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
     t->state = s;
     t->refined = t->condensed != NULL || asks_refinement(t);
     if (t->refined) {
-        TRY(stiffness_parts_geometric(c->run, &c->run->memory, s, &t->geometric, f));
+        TRY(stiffness_parts_geometric(&c->eq, &c->run->memory, s, &t->geometric, f));
         loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
     }
     if (t->condensed == NULL)
@@ -143,7 +143,7 @@ status tangent_at(analysis_context *c, const scene_compliance *a, const model_st
     const int condensed = t->condensed != NULL;
     model_linearisation lin = {
         .path = kinematics_state_path(s), .K = condensed ? NULL : &t->K, .residual = t->residual};
-    TRY(linearise_state(c->run, &c->run->memory, s, &lin, f));
+    TRY(linearise_state(&c->eq, &c->run->memory, s, &lin, f));
     if (condensed)
         TRY(condensation_at(t->condensed, s, lin.path, f));
     loads_release_moment(c->model, s, a->node, reaction + 3,
@@ -201,23 +201,23 @@ static double motion_of(const tangent *t, const int moving[], int component, con
     return sum;
 }
 
-static status refine(run_state *run, tangent *t, const bordered *s, const int moving[],
+static status refine(const equations *eq, tangent *t, const bordered *s, const int moving[],
                      int component, double x[], fault *f)
 {
     load_of(t, moving, component, s->load);
     memcpy(s->x, x, (size_t)t->all * sizeof *x);
-    TRY(bordered_refine(run, t, s, f));
+    TRY(bordered_refine(eq, t, s, f));
     memcpy(x, s->x, (size_t)t->all * sizeof *x);
     return STATUS_OK;
 }
 
 /* Columns of C for unit loads on the components that are wanted and can move; with what
  * tangent_compliance frees. */
-static status respond_all(run_state *run, tangent *t, bordered *s, unsigned wanted,
+static status respond_all(const equations *eq, tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
     int moving[TANGENT_COMPONENTS], component[TANGENT_COMPONENTS], count = 0;
-    TRY(bordered_alloc(t, &run->counters, s, f));
+    TRY(bordered_alloc(t, &eq->run->counters, s, f));
     for (int k = 0; k < t->coordinates; k++)
         moving[k] = moves(t, k);
     for (int j = 0; j < TANGENT_COMPONENTS; j++)
@@ -225,11 +225,11 @@ static status respond_all(run_state *run, tangent *t, bordered *s, unsigned want
             load_of(t, moving, j, s->solution + count * t->all);
             component[count++] = j;
         }
-    bordered_solve(t, &run->counters, s, count, s->solution);
+    bordered_solve(t, &eq->run->counters, s, count, s->solution);
     for (int c = 0; c < count; c++) {
         double *x = s->solution + c * t->all;
         if (t->refined)
-            TRY(refine(run, t, s, moving, component[c], x, f));
+            TRY(refine(eq, t, s, moving, component[c], x, f));
         for (int i = 0; i < TANGENT_COMPONENTS; i++)
             if (components >> i & 1u)
                 C[6 * i + component[c]] = motion_of(t, moving, i, x);
@@ -242,7 +242,7 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsi
 {
     bordered s = {0};
     memset(C, 0, 36 * sizeof *C);
-    const status outcome = respond_all(c->run, t, &s, wanted, components, C, f);
+    const status outcome = respond_all(&c->eq, t, &s, wanted, components, C, f);
     bordered_free(&s);
     return outcome;
 }

@@ -43,10 +43,10 @@ static void put(const model *m, uncondensed *s, int row, int column, double valu
         s->b[row] -= value * s->drive[column];
 }
 
-static status add_element(run_state *run, const model_state *state, int i, double path,
+static status add_element(const equations *eq, const model_state *state, int i, double path,
                           uncondensed *s, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     enum { E = ELEMENT_MAX_STRAINS, X = MODEL_MAX_COORDINATES };
     const mesh_element *el = &m->element[i];
     const element_data *data = m->kind[el->kind].data;
@@ -60,17 +60,17 @@ static status add_element(run_state *run, const model_state *state, int i, doubl
     m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
     const stress_output stresses = {.sigma = P, .C = C};
     status outcome;
-    if (!m->takes || !distributed_stress(run, state, x, i, path, &stresses, &outcome))
+    if (!m->takes || !distributed_stress(eq, state, x, i, path, &stresses, &outcome))
         outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
                                   &(stress_output){.sigma = P, .C = C});
-    run->counters.strain_evaluations++;
-    run->counters.stress_evaluations++;
+    eq->run->counters.strain_evaluations++;
+    eq->run->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
                          scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
     dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
-    TRY(rotating_frame_add(run, x, i, path, force, H, f));
-    distributed_add(run, state, x, i, path, along, H);
+    TRY(rotating_frame_add(eq, x, i, path, force, H, f));
+    distributed_add(eq, state, x, i, path, along, H);
     for (int k = 0; k < m->coordinates; k++)
         force[k] -= along[k];
     eliminate_matrix(m, state, el, force, H);
@@ -114,11 +114,11 @@ static void put_load(void *context, int row, int column, double value)
     put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
 }
 
-static void add_discrete(const run_state *run, const model_state *state, const mesh_discrete *d,
+static void add_discrete(const equations *eq, const model_state *state, const mesh_discrete *d,
                          double path, uncondensed *s)
 {
-    const element_rotating_frame frame = run_rotating_frame(run, path);
-    const model *m = run->m;
+    const element_rotating_frame frame = loading_frame(&eq->loading, path);
+    const model *m = eq->m;
     const int n = d->el.columns;
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     discrete_equations(m, state, d, &frame, force, K);
@@ -131,25 +131,25 @@ static void add_discrete(const run_state *run, const model_state *state, const m
     }
 }
 
-status uncondensed_system(run_state *run, const model_state *state, double path,
+status uncondensed_system(const equations *eq, const model_state *state, double path,
                           const double drive[], int conditions, const model_condition condition[],
                           double A[], double b[], double load[], fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     uncondensed s = {uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
-    loads_add_at_vertices(run, state, path, load);
+    loads_add_at_vertices(eq, state, path, load);
     memcpy(b, load, (size_t)m->free * sizeof *b);
     memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
-    loads_add(run, state, path, load);
+    loads_add(eq, state, path, load);
     for (int i = 0; i < m->elements; i++) {
-        TRY(add_element(run, state, i, path, &s, f));
+        TRY(add_element(eq, state, i, path, &s, f));
     }
-    loads_stiffness_at_vertices(run, state, path, put_load, &(load_part){m, &s});
+    loads_stiffness_at_vertices(eq, state, path, put_load, &(load_part){m, &s});
     for (int i = 0; i < m->discretes; i++) {
-        add_discrete(run, state, &m->discrete[i], path, &s);
+        add_discrete(eq, state, &m->discrete[i], path, &s);
     }
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;

@@ -9,7 +9,7 @@
  * conditions), unknowns in the order free coordinates, strains, stresses, drivers of conditions;
  * load[free + driven] is work space. */
 int uncondensed_size(const model *);
-status uncondensed_system(run_state *, const model_state *, double path, const double drive[],
+status uncondensed_system(const equations *, const model_state *, double path, const double drive[],
                           int conditions, const model_condition condition[], double A[], double b[],
                           double load[], fault *);
 

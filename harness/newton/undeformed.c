@@ -19,10 +19,10 @@ static size_t size_of(const model *m)
     return (size_t)m->strains * (size_t)(m->coordinates + m->strains + 1);
 }
 
-static status begin(run_state *run, fault *f)
+static status begin(const equations *eq, fault *f)
 {
-    const model *m = run->m;
-    run_undeformed *u = &run->undeformed;
+    const model *m = eq->m;
+    run_undeformed *u = &eq->run->undeformed;
     if (u->of != NULL)
         return STATUS_OK;
     u->room = m->elements < LARGE ? m->elements : FIRST_ROOM;
@@ -42,11 +42,11 @@ static status begin(run_state *run, fault *f)
 
 /* Is element i as the one whose forms were kept last? Its triads are those of chords between places
  * that are rounded. */
-static int alike(const run_state *run, int i)
+static int alike(const equations *eq, int i)
 {
-    const model *m = run->m;
-    const mesh_element *el = &m->element[i], *last = &m->element[run->undeformed.last];
-    if (run->undeformed.count == 0 || m->elements < LARGE || el->kind != last->kind)
+    const model *m = eq->m;
+    const mesh_element *el = &m->element[i], *last = &m->element[eq->run->undeformed.last];
+    if (eq->run->undeformed.count == 0 || m->elements < LARGE || el->kind != last->kind)
         return 0;
     const double same = 1e-12 + 8 * DBL_EPSILON * vec3_norm(m->vertex[el->vertex[0]].position) /
                                     m->kind[el->kind].length;
@@ -76,28 +76,28 @@ static status evaluate_strained(const model *m, int i, const double e[], const d
     return STATUS_OK;
 }
 
-static status evaluate(run_state *run, int i, double J[], double C[], double initial[])
+static status evaluate(const equations *eq, int i, double J[], double C[], double initial[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double e[ELEMENT_MAX_STRAINS] = {0}, none[1] = {0};
     const double *inner = m->inner > 0 ? &m->rest->inner[(size_t)i * (size_t)m->inner] : none;
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, m->rest, &m->element[i], x);
-    run->counters.strain_evaluations++;
-    run->counters.stress_evaluations++;
-    ahead_strain(run, i, x, &(strain_output){.e = e, .J = J});
+    eq->run->counters.strain_evaluations++;
+    eq->run->counters.stress_evaluations++;
+    ahead_strain(eq, i, x, &(strain_output){.e = e, .J = J});
     if (is_strained(m, i))
         return evaluate_strained(m, i, e, inner, C, initial);
-    return ahead_stress(run, i, e, inner, &(stress_output){.C = C});
+    return ahead_stress(eq, i, e, inner, &(stress_output){.C = C});
 }
 
 /* Room for one more. */
-static status grow(run_state *run, fault *f)
+static status grow(const equations *eq, fault *f)
 {
-    run_undeformed *u = &run->undeformed;
+    run_undeformed *u = &eq->run->undeformed;
     if (u->count < u->room)
         return STATUS_OK;
-    double *more = realloc(u->value, 2 * (size_t)u->room * size_of(run->m) * sizeof *more);
+    double *more = realloc(u->value, 2 * (size_t)u->room * size_of(eq->m) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the undeformed elements");
     u->value = more;
@@ -105,14 +105,14 @@ static status grow(run_state *run, fault *f)
     return STATUS_OK;
 }
 
-static status make(run_state *run, int i, fault *f)
+static status make(const equations *eq, int i, fault *f)
 {
-    const model *m = run->m;
-    run_undeformed *u = &run->undeformed;
-    if (!alike(run, i)) {
-        TRY(grow(run, f));
+    const model *m = eq->m;
+    run_undeformed *u = &eq->run->undeformed;
+    if (!alike(eq, i)) {
+        TRY(grow(eq, f));
         double *J = u->value + (size_t)u->count * size_of(m), *C = J + m->strains * m->coordinates;
-        const status outcome = evaluate(run, i, J, C, C + m->strains * m->strains);
+        const status outcome = evaluate(eq, i, J, C, C + m->strains * m->strains);
         if (outcome != STATUS_OK)
             return fault_set(
                 f, outcome,
@@ -125,24 +125,24 @@ static status make(run_state *run, int i, fault *f)
     return STATUS_OK;
 }
 
-status undeformed_of(run_state *run, int i, undeformed_element *out, fault *f)
+status undeformed_of(const equations *eq, int i, undeformed_element *out, fault *f)
 {
-    const model *m = run->m;
-    run_undeformed *u = &run->undeformed;
-    TRY(begin(run, f));
+    const model *m = eq->m;
+    run_undeformed *u = &eq->run->undeformed;
+    TRY(begin(eq, f));
     if (u->of[i] == NONE)
-        TRY(make(run, i, f));
+        TRY(make(eq, i, f));
     out->J = u->value + (size_t)u->of[i] * size_of(m);
     out->C = out->J + m->strains * m->coordinates;
     out->initial = is_strained(m, i) ? out->C + m->strains * m->strains : NULL;
     return STATUS_OK;
 }
 
-void undeformed_begin(run_state *run)
+void undeformed_begin(const equations *eq)
 {
-    const model *m = run->m;
-    if (run->undeformed.of != NULL)
+    const model *m = eq->m;
+    if (eq->run->undeformed.of != NULL)
         return;
-    ahead_strains(run, m->rest, AHEAD_E | AHEAD_J, NULL);
-    ahead_stresses(run, NULL, m->rest->inner);
+    ahead_strains(eq, m->rest, AHEAD_E | AHEAD_J, NULL);
+    ahead_stresses(eq, NULL, m->rest->inner);
 }

@@ -14,9 +14,9 @@ typedef struct undeformed_element {
 
 /* In large models elements of one kind that follow each other with the same orientation, as far as
  * rounding of their places lets it be told, are one. FAULT: out of memory. */
-status undeformed_of(run_state *, int element, undeformed_element *, fault *);
+status undeformed_of(const equations *, int element, undeformed_element *, fault *);
 /* What no element has yet is evaluated for all together, where the formulation can, until
  * ahead_end. */
-void undeformed_begin(run_state *);
+void undeformed_begin(const equations *);
 
 #endif

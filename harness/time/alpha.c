@@ -63,7 +63,7 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
                  later = h * (1 - s->gamma / (2 * s->beta));
     for (size_t i = 0; i < s->strains; i++)
         to->strain[i] = kept * from->strain[i] + later * from->strain2[i];
-    damping_follow(s->stage.c->run, g, to->strain, kinematics_strains(from->state));
+    damping_follow(&s->stage.c->eq, g, to->strain, kinematics_strains(from->state));
 }
 
 /* Rates at the end, and what was lost by those of the mean: where something has no inertia, rates
@@ -82,7 +82,7 @@ static void damp(alpha *s, const instant *from, double h, instant *to)
         to->strain2[i] =
             part * (gained - h * from->strain[i]) - (0.5 - s->beta) / s->beta * from->strain2[i];
     }
-    to->dissipated += h * damping_power(s->stage.c->run, s->mean);
+    to->dissipated += h * damping_power(&s->stage.c->eq, s->mean);
 }
 
 /* Rotations beyond a radian in one step are not followed. */
@@ -119,7 +119,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
                      .v = to->v,
                      .a = to->a};
     relate(s, from, h, &r);
-    drive_at(s->stage.c->run, from->state, time, s->inc, to->v, to->a);
+    drive_at(&s->stage.c->eq, from->state, time, s->inc, to->v, to->a);
     kinematics_state_copy(m, from->state, to->state);
     relate_strains(s, from, h, to);
     instant_recall(from, &s->stage.arrival);

@@ -20,13 +20,13 @@ typedef struct ends {
     double whole, rate[2], second[2];
 } ends;
 
-status between_alloc(const run_state *run, between *b, fault *f)
+status between_alloc(const equations *eq, between *b, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const model_size size = model_sizes(m);
     const size_t all = (size_t)(size.free + size.driven) + 1;
     memset(b, 0, sizeof *b);
-    b->run = run;
+    b->eq = eq;
     b->m = m;
     b->part = calloc(PARTS * all, sizeof *b->part);
     b->room = calloc(3 * all, sizeof *b->room);
@@ -216,7 +216,7 @@ void between_places(const between *b, double time, instant *at)
             turn_rates(b, i, inc, rate, second, at);
     if (b->degree == BETWEEN_CUBIC)
         blend((size_t)all, s, b->from->a, b->to->a, at->a);
-    drive_at(b->run, b->from->state, time, inc, at->v, at->a);
+    drive_at(b->eq, b->from->state, time, inc, at->v, at->a);
     memcpy(at->algorithm, at->a, (size_t)all * sizeof *at->a);
     increment_apply(m, b->from->state, inc, time, at->state);
     at->time = time;

@@ -14,7 +14,7 @@ typedef enum between_degree {
 } between_degree;
 
 typedef struct between {
-    const run_state *run;
+    const equations *eq;
     const model *m;
     const instant *from, *to;
     between_degree degree;
@@ -22,7 +22,7 @@ typedef struct between {
     double *room; /* [3 x (free + driven)] */
 } between;
 
-status between_alloc(const run_state *, between *, fault *);
+status between_alloc(const equations *, between *, fault *);
 void between_free(between *);
 /* Of the step; both instants stay as they are as long as it is read. */
 void between_take(between *, between_degree, const instant *from, const instant *to);

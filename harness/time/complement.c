@@ -10,7 +10,7 @@
 enum { MOST = ELEMENT_MAX_STRAINS };
 
 struct complement {
-    run_state *run;
+    const equations *eq;
     const model *m;
     double *before; /* [elements x strains], from which stresses were advanced */
     double settled; /* the correction after which all elements agreed; 0: not in this step */
@@ -40,9 +40,9 @@ static int wanted(const model *m)
     return 0;
 }
 
-status complement_alloc(run_state *run, complement **out, fault *f)
+status complement_alloc(const equations *eq, complement **out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const size_t strains = (size_t)m->elements * (size_t)m->strains;
     complement *c = NULL;
     *out = NULL;
@@ -51,7 +51,7 @@ status complement_alloc(run_state *run, complement **out, fault *f)
     c = malloc(sizeof *c + strains * sizeof *c->before);
     if (c == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the strains of a step");
-    c->run = run;
+    c->eq = eq;
     c->m = m;
     c->before = (double *)(c + 1);
     c->settled = 0;
@@ -72,7 +72,7 @@ void complement_keep(complement *c, const model_state *s)
 
 /* An element on its way. */
 typedef struct way {
-    run_state *run;
+    const equations *eq;
     const model *m;
     int element;
     double near;                                 /* stresses agree [N] */
@@ -102,7 +102,7 @@ static double gap_of(int n, const double goal[], const double sigma[], double ga
 
 static int evaluate(way *w)
 {
-    w->run->counters.stress_evaluations++;
+    w->eq->run->counters.stress_evaluations++;
     return w->m->type->stress(w->m->kind[w->m->element[w->element].kind].data, w->e, NULL,
                               &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
@@ -181,9 +181,9 @@ static const double *goal_of(const complement *c, const model_state *s, int elem
     const model *m = c->m;
     const size_t first = (size_t)element * (size_t)m->strains;
     double C[MOST * MOST], de[MOST], more[MOST];
-    if (c->run->damping == NULL || m->scene->member[m->element[element].member].damping == 0)
+    if (c->eq->run->damping == NULL || m->scene->member[m->element[element].member].damping == 0)
         return s->sigma + first;
-    c->run->counters.stress_evaluations++;
+    c->eq->run->counters.stress_evaluations++;
     if (m->type->stress(m->kind[m->element[element].kind].data, c->before + first, NULL,
                         &(stress_output){.sigma = room, .C = C}) != STATUS_OK)
         return NULL;
@@ -198,7 +198,7 @@ static const double *goal_of(const complement *c, const model_state *s, int elem
 static void find(const complement *c, int element, const double sigma[], double e[])
 {
     const size_t n = (size_t)c->m->strains;
-    way w = {.run = c->run, .m = c->m, .element = element, .near = near_of(c->m->strains, sigma)};
+    way w = {.eq = c->eq, .m = c->m, .element = element, .near = near_of(c->m->strains, sigma)};
     memcpy(w.e, e, n * sizeof *e);
     if (arrive(&w, sigma)) {
         memcpy(e, w.e, n * sizeof *e);
@@ -224,7 +224,7 @@ static void settled(const complement *c, const model_state *s, int count, const 
         e[k] = &s->e[(size_t)index[k] * (size_t)m->strains];
         out[k] = (stress_output){.sigma = sigma[k]};
     }
-    c->run->counters.stress_evaluations += count;
+    c->eq->run->counters.stress_evaluations += count;
     if (count > 1)
         m->type->stress_many(count, data, e, inner, out, outcome);
     else

@@ -15,7 +15,7 @@ typedef struct complement complement; /* of one state */
 /* NULL where there is nothing to do: stresses of all kinds of elements are linear in their strains;
  * they depend on unknowns of the element besides; or the type is asked for all elements at once
  * (another process), which would have to be asked again and again. */
-status complement_alloc(run_state *, complement **out, fault *);
+status complement_alloc(const equations *, complement **out, fault *);
 void complement_free(complement *);
 
 /* Before advance_state. NULL: nothing. */

@@ -134,7 +134,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     instant_remember(&s->arrival, to);
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
-    drive_at(s->of.c->run, from->state, record->path, NULL, to->v, to->a);
+    drive_at(&s->of.c->eq, from->state, record->path, NULL, to->v, to->a);
     conserving_damped(s, from, h, to);
     to->time = record->path;
     to->work += conserving_impulses(s, from, h, to);
@@ -194,7 +194,7 @@ static status allocate(conserving *s, fault *f)
                       (size_t)(9 * s->of.masses->masses) + elastic,
                   sizeof *s->W);
     if (s->of.c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(s->of.c->run, &s->complement, f));
+        TRY(complement_alloc(&s->of.c->eq, &s->complement, f));
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
     if (s->step == NULL || s->W == NULL || s->evaluation == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
@@ -213,7 +213,7 @@ static status allocate(conserving *s, fault *f)
         s->elastic = s->massless + (size_t)(9 * s->of.masses->masses);
     TRY(conserving_massless(s, f));
     metric_of(m, s->weight);
-    TRY(assemble_pattern_in_time(s->of.c->model, &pattern, f));
+    TRY(assemble_pattern_in_time(s->of.c->model, s->of.c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
 }

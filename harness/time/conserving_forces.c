@@ -119,7 +119,8 @@ static void to_coordinates(const conserving *s, const instant *from, const model
 }
 
 /* The equations of what was evaluated; its incompatibility. */
-static double equations(conserving *s, const instant *from, const model_state *now, evaluation *v)
+static double equations_of(conserving *s, const instant *from, const model_state *now,
+                           evaluation *v)
 {
     const deformable *of = &v->of;
     const int n = of->coordinates, strains = of->strains;
@@ -152,12 +153,11 @@ static double equations(conserving *s, const instant *from, const model_state *n
 
 static void add(conserving *s, evaluation *v)
 {
-    const model *m = s->of.c->model;
     const mesh_element *el = v->of.el;
     if (v->of.spring != NULL)
         assemble_discrete(el, v->K, &s->S);
     else
-        assemble_matrix(assemble_of(m, &s->S), v->of.index, v->K, &s->S);
+        assemble_matrix(assemble_of(s->of.c->run->patterns, &s->S), v->of.index, v->K, &s->S);
     for (int k = 0; k < el->columns; k++)
         v->force[k] = -v->force[k];
     assemble_vector(el, v->force, s->residual);
@@ -178,7 +178,8 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
         }
         deformable_evaluate(s, from, now, count, s->evaluation);
         for (int k = 0; k < count; k++) {
-            *incompatibility = fmax(*incompatibility, equations(s, from, now, &s->evaluation[k]));
+            *incompatibility =
+                fmax(*incompatibility, equations_of(s, from, now, &s->evaluation[k]));
             add(s, &s->evaluation[k]);
         }
         first += count;

@@ -95,6 +95,6 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
     loaded of = {s, from->state, now, out};
     for (int i = 0; i < m->scene->loads; i++)
         applied_each(m, now, &m->scene->load[i],
-                     applied_factor(s->of.c->run, &m->scene->load[i], from->time + h / 2), take,
+                     applied_factor(&s->of.c->eq, &m->scene->load[i], from->time + h / 2), take,
                      &of);
 }

@@ -76,7 +76,7 @@ void conserving_predict(conserving *s, const instant *from, double h)
     const model *m = s->of.c->model;
     for (int c = 0; c < s->free; c++)
         s->step[c] = h * from->v[c];
-    drive_at(s->of.c->run, from->state, from->time + h, s->step, NULL, NULL);
+    drive_at(&s->of.c->eq, from->state, from->time + h, s->step, NULL, NULL);
     memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx); /* drivers may move several nodes */
     for (int i = m->first_release; i < m->vertices; i++) {
         const int *at = m->vertex[i].coordinate + SCENE_RX;

@@ -17,10 +17,10 @@ static const double *inner_of(const model *m, const model_state *s, int i)
 }
 
 /* Of elements of one kind. */
-static status stress_of(run_state *run, int count, const int index[], const double *const e[],
+static status stress_of(const equations *eq, int count, const int index[], const double *const e[],
                         const model_state *s, stress_output out[], fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const element_data *data[CHUNK_MOST];
     const double *inner[CHUNK_MOST];
     status outcome[CHUNK_MOST];
@@ -28,7 +28,7 @@ static status stress_of(run_state *run, int count, const int index[], const doub
         data[k] = m->kind[m->element[index[k]].kind].data;
         inner[k] = inner_of(m, s, index[k]);
     }
-    run->counters.stress_evaluations += count;
+    eq->run->counters.stress_evaluations += count;
     if (count > 1 && m->type->stress_many != NULL)
         m->type->stress_many(count, data, e, inner, out, outcome);
     else
@@ -80,7 +80,7 @@ status conserving_begin(conserving *s, const instant *from, fault *f)
                 .sigma = s->elastic != NULL ? s->elastic + (size_t)((i + k) * m->strains) : NULL,
                 .C = deformable_at(s, from, from->state, i + k).C_before};
         }
-        TRY(stress_of(s->of.c->run, count, index, e, from->state, out, f));
+        TRY(stress_of(&s->of.c->eq, count, index, e, from->state, out, f));
         i += count;
     }
     for (int i = m->elements; i < deformable_count(s); i++)
@@ -122,7 +122,7 @@ static status stress_together(conserving *s, const instant *from, model_state *n
                                  .C = of[k].C,
                                  .memory = m->memory > 0 ? of[k].memory : NULL};
     }
-    TRY(stress_of(s->of.c->run, count, index, e, now, out, f));
+    TRY(stress_of(&s->of.c->eq, count, index, e, now, out, f));
     for (int k = 0; k < count; k++) {
         for (int c = 0; c < m->strains * m->strains; c++)
             of[k].W[c] = (of[k].C_before[c] + of[k].C[c]) / 2;

@@ -17,9 +17,9 @@ int damping_acts(const scene *s)
     return 0;
 }
 
-status damping_begin(run_state *run, run_damping *d, fault *f)
+status damping_begin(const equations *eq, run_damping *d, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const size_t n = (size_t)m->strains, all = (size_t)m->elements * n;
     memset(d, 0, sizeof *d);
     if (!damping_acts(m->scene))
@@ -38,38 +38,38 @@ status damping_begin(run_state *run, run_damping *d, fault *f)
             return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
                              m->type->name);
     }
-    run->damping = d;
-    damping_follow(run, 0, d->none, d->none);
+    eq->run->damping = d;
+    damping_follow(eq, 0, d->none, d->none);
     return STATUS_OK;
 }
 
-void damping_end(run_state *run, run_damping *d)
+void damping_end(const equations *eq, run_damping *d)
 {
-    run->damping = NULL;
+    eq->run->damping = NULL;
     free(d->stiffness);
     free(d->none);
 }
 
-void damping_follow(run_state *run, double g, const double known[], const double from[])
+void damping_follow(const equations *eq, double g, const double known[], const double from[])
 {
-    if (run->damping == NULL)
+    if (eq->run->damping == NULL)
         return;
-    run->damping->g = g;
-    run->damping->known = known;
-    run->damping->from = from;
+    eq->run->damping->g = g;
+    eq->run->damping->known = known;
+    eq->run->damping->from = from;
 }
 
-status damping_matrix(run_state *run, const model_state *s, sparse *C, fault *f)
+status damping_matrix(const equations *eq, const model_state *s, sparse *C, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
-    const mesh_pattern *p = assemble_of(m, C);
-    run_damping *const before = run->damping;
+    const mesh_pattern *p = assemble_of(eq->run->patterns, C);
+    run_damping *const before = eq->run->damping;
     run_damping d;
     sparse_zero(C);
-    run->damping = NULL;
-    const status begun = damping_begin(run, &d, f);
-    for (int i = 0; begun == STATUS_OK && run->damping != NULL && i < m->elements; i++) {
+    eq->run->damping = NULL;
+    const status begun = damping_begin(eq, &d, f);
+    for (int i = 0; begun == STATUS_OK && eq->run->damping != NULL && i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
         const double eta = m->scene->member[el->member].damping;
         const size_t n = (size_t)m->strains;
@@ -85,8 +85,8 @@ status damping_matrix(run_state *run, const model_state *s, sparse *C, fault *f)
         eliminate_matrix(m, s, el, NULL, A);
         assemble_matrix(p, i, A, C);
     }
-    damping_end(run, &d);
-    run->damping = before;
+    damping_end(eq, &d);
+    eq->run->damping = before;
     return begun;
 }
 
@@ -127,26 +127,26 @@ status damping_rates(const model *m, const model_state *s, const double v[], dou
     return STATUS_OK;
 }
 
-status damping_now(run_state *run, instant *now, fault *f)
+status damping_now(const equations *eq, instant *now, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     if (now->strain == NULL)
         return STATUS_OK;
     TRY(damping_rates(m, now->state, now->v, now->strain, f));
     memset(now->strain2, 0, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
-    damping_follow(run, 0, now->strain, kinematics_strains(now->state));
+    damping_follow(eq, 0, now->strain, kinematics_strains(now->state));
     return STATUS_OK;
 }
 
-double damping_power(const run_state *run, const double rate[])
+double damping_power(const equations *eq, const double rate[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const size_t n = (size_t)m->strains;
     double sum = 0;
     for (int i = 0; i < m->elements; i++)
         sum += m->scene->member[m->element[i].member].damping *
                dense_quadratic(m->strains,
-                               run->damping->stiffness + (size_t)m->element[i].kind * n * n,
+                               eq->run->damping->stiffness + (size_t)m->element[i].kind * n * n,
                                rate + (size_t)i * n);
     return sum;
 }

@@ -11,19 +11,19 @@
 int damping_acts(const scene *);
 /* S0 of all kinds, and from here on its share of the run's stresses, with rates that stay zero
  * until they are set. Nothing where no member is damped. */
-status damping_begin(run_state *, run_damping *, fault *);
-void damping_end(run_state *, run_damping *);
+status damping_begin(const equations *, run_damping *, fault *);
+void damping_end(const equations *, run_damping *);
 
 /* C of small motions about a state, on a pattern of assemble.h. */
-status damping_matrix(run_state *, const model_state *, sparse *C, fault *);
+status damping_matrix(const equations *, const model_state *, sparse *C, fault *);
 
 /* Rates of the strains now: known + g (e - from); all [elements x strains]. */
-void damping_follow(run_state *, double g, const double known[], const double from[]);
+void damping_follow(const equations *, double g, const double known[], const double from[]);
 /* e' = J x' at rates v[free + driven] -> rate[elements x strains]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
 /* Rates of the strains by those of the coordinates, which stay; nothing where nothing is damped. */
-status damping_now(run_state *, instant *, fault *);
+status damping_now(const equations *, instant *, fault *);
 /* Power that rates of strains lose [W]. */
-double damping_power(const run_state *, const double rate[]);
+double damping_power(const equations *, const double rate[]);
 
 #endif

@@ -20,15 +20,15 @@ status drive_check(const model *m, fault *f)
 }
 
 /* A rotation by its vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'. */
-static void drive_vector(const run_state *run, const model_state *from, int index, double time,
+static void drive_vector(const equations *eq, const model_state *from, int index, double time,
                          double inc[], double v[], double a[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const mesh_vertex *frame = &m->vertex[index];
     double t[3], rate[3], second[3], Jr[9], D[9], W[3], Wd[3], more[3], q[4], to[4], back[4];
     for (int k = 0; k < 3; k++) {
         double at[3];
-        loads_driver_rates(run, &m->scene->driver[frame->vector_driver[k]], time, at);
+        loads_driver_rates(eq, &m->scene->driver[frame->vector_driver[k]], time, at);
         t[k] = at[0];
         rate[k] = at[1];
         second[k] = at[2];
@@ -53,10 +53,10 @@ static void drive_vector(const run_state *run, const model_state *from, int inde
     }
 }
 
-void drive_at(const run_state *run, const model_state *from, double time, double inc[], double v[],
+void drive_at(const equations *eq, const model_state *from, double time, double inc[], double v[],
               double a[])
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int c = m->free; c < m->free + m->driven; c++) {
         if (inc != NULL)
             inc[c] = 0;
@@ -70,7 +70,7 @@ void drive_at(const run_state *run, const model_state *from, double time, double
         double at[3];
         if (c < m->free)
             continue;
-        loads_driver_rates(run, &m->scene->driver[d], time, at);
+        loads_driver_rates(eq, &m->scene->driver[d], time, at);
         if (inc != NULL)
             inc[c] = at[0] - from->driver[d];
         if (v != NULL)
@@ -80,5 +80,5 @@ void drive_at(const run_state *run, const model_state *from, double time, double
     }
     for (int i = 0; i < m->scene->nodes; i++)
         if (m->vertex[i].vector_driver[0] != NONE && m->vertex[i].body == i)
-            drive_vector(run, from, i, time, inc, v, a);
+            drive_vector(eq, from, i, time, inc, v, a);
 }

@@ -8,7 +8,7 @@
 status drive_check(const model *, fault *);
 /* Entries [free, free + driven) of inc (from the state), v and a at `time`; each NULL: not wanted.
  */
-void drive_at(const run_state *, const model_state *from, double time, double inc[], double v[],
+void drive_at(const equations *, const model_state *from, double time, double inc[], double v[],
               double a[]);
 
 #endif

@@ -21,13 +21,13 @@ static double error_of(const explicit_scheme *s)
 
 static int advance(explicit_scheme *s, const instant *from, double h)
 {
-    const gsl_odeiv2_system equations = {
+    const gsl_odeiv2_system of_motion = {
         .function = explicit_rates, .dimension = 2 * (size_t)s->free + 1, .params = s};
     memset(s->y, 0, (size_t)s->free * sizeof *s->y);
     memcpy(s->y + s->free, from->v, (size_t)s->free * sizeof *s->y);
     s->y[2 * s->free] = from->work;
     return gsl_odeiv2_step_apply(s->stepper, from->time, h, s->y, s->error, NULL, s->dydt,
-                                 &equations);
+                                 &of_motion);
 }
 
 static status step(scheme *base, const instant *from, double h, instant *to, double *error,

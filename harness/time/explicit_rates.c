@@ -66,8 +66,8 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
                         &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)m->strains});
         TRY(settle(s, i, f));
     }
-    TRY(linearise_make_compatible(s->of.c->run, s->at->state, f));
-    TRY(linearise_state(s->of.c->run, &s->of.c->run->memory, s->at->state, &lin, f));
+    TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));
+    TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));
     memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
     inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
     return explicit_accelerate(m, s->of.masses, s->at->state, s->at->v, s->residual, s->at->a, f);
@@ -95,7 +95,7 @@ int explicit_rates(double t, const double y[], double dydt[], void *context)
     }
     memcpy(s->inc, y, (size_t)s->free * sizeof *s->inc);
     memcpy(s->at->v, y + s->free, (size_t)s->free * sizeof *s->at->v);
-    drive_at(s->of.c->run, s->from->state, time, s->inc, s->at->v, s->at->a);
+    drive_at(&s->of.c->eq, s->from->state, time, s->inc, s->at->v, s->at->a);
     increment_apply(m, s->from->state, s->inc, time, s->at->state);
     s->outcome = accelerations(s, time, &s->why);
     if (s->outcome != STATUS_OK)

@@ -4,7 +4,7 @@
 
 status frames_alloc(frames *p, int count, fault *f)
 {
-    TRY(between_alloc(p->run, &p->inside, f));
+    TRY(between_alloc(p->eq, &p->inside, f));
     TRY(instant_alloc(p->m, &p->at, f));
     return outcome_stations(p->to, count, f);
 }

@@ -6,7 +6,7 @@
 #include "harness/time/between.h"
 
 typedef struct frames {
-    const run_state *run;
+    const equations *eq;
     const model *m;
     outcome_path *to;
     double begin, end; /* [s] of the motion */

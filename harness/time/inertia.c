@@ -190,11 +190,13 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
             assemble_subtract(S, of.index[i], of.index[j], -K[of.count * i + j]);
 }
 
-void inertia_add_tangent(const model *m, const carried *all, const model_state *s, const double v[],
-                         const double a[], const inertia_relation *with, sparse *S)
+void inertia_add_tangent(const equations *eq, const carried *all, const model_state *s,
+                         const double v[], const double a[], const inertia_relation *with,
+                         sparse *S)
 {
+    const model *m = eq->m;
     if (all->spread)
-        spread_add_tangent(m, s, v, a, with, S);
+        spread_add_tangent(eq, s, v, a, with, S);
     for (int k = 0; k < all->masses; k++) {
         const int vertex = all->mass[k].frame;
         const int *at = m->vertex[vertex].coordinate;

@@ -4,6 +4,7 @@
 #ifndef BEAMWORK_INERTIA_H
 #define BEAMWORK_INERTIA_H
 
+#include "harness/newton/run_state.h"
 #include "harness/time/carried.h"
 #include "harness/time/charts.h"
 #include "harness/time/forms.h"
@@ -19,7 +20,7 @@ void inertia_subtract(const model *, const carried *, const model_state *, const
 
 /* S += derivative of the forces of inertia by the coordinates; of rotations in the exponential
  * chart, like every other part of a tangent. */
-void inertia_add_tangent(const model *, const carried *, const model_state *, const double v[],
+void inertia_add_tangent(const equations *, const carried *, const model_state *, const double v[],
                          const double a[], const inertia_relation *, sparse *S);
 
 /* Of one frame: derivatives of its force and moment [6 x 6, row-major]. */

@@ -150,8 +150,8 @@ static status begin(stage *s, const scene_motion *how, instant *now, instant *ro
 {
     const model *m = s->c->model;
     int massless;
-    TRY(damping_now(s->c->run, now, f));
-    drive_at(s->c->run, now->state, now->time, inc, now->v, now->a);
+    TRY(damping_now(&s->c->eq, now, f));
+    drive_at(&s->c->eq, now->state, now->time, inc, now->v, now->a);
     TRY(check_drivers(m, inc, f));
     TRY(massless_count(m, s->masses, now->state, &massless, f));
     if (massless == 0)
@@ -199,7 +199,7 @@ status launch_turning(analysis_context *c, const carried *masses, const scene_mo
 {
     const model *m = c->model;
     scene_start field = {.velocity = {0}};
-    drive_at(c->run, now->state, now->time, NULL, now->v, now->a);
+    drive_at(&c->eq, now->state, now->time, NULL, now->v, now->a);
     if (vec3_norm(frame->omega) > 0) {
         memcpy(field.spin, frame->omega, sizeof field.spin);
         memcpy(field.centre, frame->centre, sizeof field.centre);

@@ -279,7 +279,7 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
     if (w->from != NULL)
         return go_on(w, f);
     if (follows == SCENE_NONE) /* members may have strains by themselves */
-        return linearise_make_compatible(w->c->run, w->now.state, f);
+        return linearise_make_compatible(&w->c->eq, w->now.state, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
     if (before->status != STATUS_OK || path->reached < path->stations)
@@ -304,8 +304,8 @@ static status solve(motion *w, fault *f)
     TRY(checks_of(w->c, w->analysis, f));
     TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
                                       : carried_alloc(m, &w->masses, f));
-    TRY(damping_begin(w->c->run, &w->damping, f));
-    TRY(work_alloc(w->c->run, &w->masses, &w->work, f));
+    TRY(damping_begin(&w->c->eq, &w->damping, f));
+    TRY(work_alloc(&w->c->eq, &w->masses, &w->work, f));
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     w->rounding = balance_rounding(m);
     TRY(integrator_alloc(&request, &w->scheme, f));
@@ -327,7 +327,7 @@ static status solve(motion *w, fault *f)
                        .out = w->out};
     TRY(peaks_alloc(&w->peaks, f));
     TRY(begin(w, &frame, f));
-    w->frames = (frames){.run = w->c->run,
+    w->frames = (frames){.eq = &w->c->eq,
                          .m = m,
                          .to = &w->out->frames,
                          .begin = w->now.time,
@@ -358,7 +358,7 @@ static void release(motion *w)
     integrator_free(w->scheme);
     carried_free(&w->masses);
     work_free(&w->work);
-    damping_end(w->c->run, &w->damping);
+    damping_end(&w->c->eq, &w->damping);
 }
 
 /* Once, with a guess of its extent; *again: it was less, and there is a better guess. */

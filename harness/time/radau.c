@@ -37,7 +37,7 @@ static void advance(const solution *of, const step_record *record, newton_correc
         increment_add(m, one->state, r->dx, one->inc);
         complement_keep(one->complement, one->state);
         out->size = larger(
-            out->size, advance_state(r->of.c->run, &one->memory, one->state, r->dx, time, &stress));
+            out->size, advance_state(&r->of.c->eq, &one->memory, one->state, r->dx, time, &stress));
         out->stress.largest = fmax(out->stress.largest, stress.largest);
         out->stress.change = fmax(out->stress.change, stress.change);
     }
@@ -89,7 +89,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
         const double t = r->node[i] * h, time = radau_time(r, from, h, i, record);
         for (int c = 0; c < r->free; c++)
             one->inc[c] = t * from->v[c] + t * t / 2 * from->a[c];
-        drive_at(r->of.c->run, from->state, time, one->inc, one->v, one->a);
+        drive_at(&r->of.c->eq, from->state, time, one->inc, one->v, one->a);
         kinematics_state_copy(m, from->state, one->state);
         increment_apply(m, from->state, one->inc, time, one->state);
     }
@@ -118,7 +118,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     radau *r = (radau *)base;
     *error = 0;
     if (r->of.c->run->damping != NULL) /* stages add theirs by themselves */
-        damping_follow(r->of.c->run, 0, r->of.c->run->damping->none, r->of.c->run->damping->none);
+        damping_follow(&r->of.c->eq, 0, r->of.c->run->damping->none, r->of.c->run->damping->none);
     return solve(r, from, h, to, error, record, f);
 }
 
@@ -153,7 +153,7 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     one->v = one->rate + all;
     one->a = one->v + all;
     if (r->of.c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(r->of.c->run, &one->complement, f));
+        TRY(complement_alloc(&r->of.c->eq, &one->complement, f));
     return kinematics_state_alloc(m, &one->state, f);
 }
 
@@ -169,9 +169,9 @@ static status allocate(radau *r, fault *f)
     metric_of(r->of.c->model, r->weight);
     for (int i = 0; i < STAGES; i++)
         TRY(allocate_stage(r, &r->stage[i], f));
-    TRY(assemble_pattern_in_time(r->of.c->model, &pattern, f));
+    TRY(assemble_pattern_in_time(r->of.c->model, r->of.c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &r->K, f));
-    TRY(stages_alloc(r->of.c->run, r->of.masses, pattern, &r->S, f));
+    TRY(stages_alloc(&r->of.c->eq, r->of.masses, pattern, &r->S, f));
     TRY(factor_alloc(&r->S.whole, &r->factor, f));
     return factor_alloc(pattern, &r->single, f);
 }

@@ -114,7 +114,7 @@ double radau_dissipated(const radau *r, const instant *from, double h, double ro
         for (int j = 0; j < STAGES; j++)
             weight[j] = r->B[STAGES * i + j] / h;
         sum_strains(r, from, weight, room);
-        sum += h * r->weights[i] * damping_power(r->of.c->run, room);
+        sum += h * r->weights[i] * damping_power(&r->of.c->eq, room);
     }
     return sum;
 }
@@ -128,5 +128,5 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
     for (int j = 0; j < STAGES; j++)
         weight[j] = -e[j] / h;
     sum_strains(r, from, weight, room);
-    damping_follow(r->of.c->run, g, room, from->state->e);
+    damping_follow(&r->of.c->eq, g, room, from->state->e);
 }

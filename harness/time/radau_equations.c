@@ -103,8 +103,8 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
                                    .K = fresh ? &r->K : NULL,
                                    .residual = r->dx};
         if (r->of.c->options->newton == NEWTON_DISPLACEMENT)
-            TRY(linearise_make_compatible(r->of.c->run, one->state, f));
-        TRY(linearise_state(r->of.c->run, &one->memory, one->state, &lin, f));
+            TRY(linearise_make_compatible(&r->of.c->eq, one->state, f));
+        TRY(linearise_state(&r->of.c->eq, &one->memory, one->state, &lin, f));
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);
         r->of.c->run->counters.inertia_evaluations +=
             r->of.masses->spread ? m->elements * (1 + fresh) : 0;

@@ -21,13 +21,13 @@ status radau_error(radau *r, const instant *from, double h, instant *room, doubl
         }
         room->a[c] = -(rates + g * positions);
     }
-    drive_at(r->of.c->run, from->state, from->time, NULL, NULL, room->a);
+    drive_at(&r->of.c->eq, from->state, from->time, NULL, NULL, room->a);
     memset(still, 0, (size_t)r->all * sizeof *still);
     const inertia_relation with = {g * g, 0, still};
     radau_damp_error(r, from, h, e, g, room->strain);
-    TRY(linearise_state(r->of.c->run, &r->of.c->run->memory, from->state, &lin, f));
+    TRY(linearise_state(&r->of.c->eq, &r->of.c->run->memory, from->state, &lin, f));
     inertia_subtract(m, r->of.masses, from->state, from->v, room->a, r->dx);
-    inertia_add_tangent(m, r->of.masses, from->state, from->v, from->a, &with, &r->K);
+    inertia_add_tangent(&r->of.c->eq, r->of.masses, from->state, from->v, from->a, &with, &r->K);
     TRY(context_factor(r->of.c, r->single, &r->K, f));
     factor_solve(r->single, r->dx);
     double square = 0;

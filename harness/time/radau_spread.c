@@ -46,7 +46,7 @@ static void add_element(radau *r, int element, double h, int i)
         if (i == k)
             spread_times(m, &p, p.place, place, K);
         spread_rows(&p, K);
-        stages_add_element(&r->S, i, k, assemble_of(m, &r->K), element, K);
+        stages_add_element(&r->S, i, k, assemble_of(r->of.c->run->patterns, &r->K), element, K);
     }
 }
 

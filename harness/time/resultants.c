@@ -35,7 +35,7 @@ static double measured(void *context, int element, double x, const double result
     return what->sign != 0 ? what->sign * value : fabs(value);
 }
 
-static status internal_of(run_state *run, const scene_internal *what, const internal_state *s,
+static status internal_of(const equations *eq, const scene_internal *what, const internal_state *s,
                           double *out, fault *f)
 {
     double all[SPAN_VALUES];
@@ -43,31 +43,30 @@ static status internal_of(run_state *run, const scene_internal *what, const inte
         static const double sign[] = {
             [SCENE_ALONG_MAX] = 1, [SCENE_ALONG_MIN] = -1, [SCENE_ALONG_LARGEST] = 0};
         chosen of = {what->resultant, sign[what->along]};
-        TRY(internal_largest(run, s, what->member, measured, &of, out, f));
+        TRY(internal_largest(eq, s, what->member, measured, &of, out, f));
         *out *= of.sign < 0 ? -1 : 1;
         return STATUS_OK;
     }
     if ((what->place == 0 || what->place == 1) && what->resultant <= SCENE_BIMOMENT)
-        internal_at_end(run, s, what->member, what->place == 1, all);
+        internal_at_end(eq, s, what->member, what->place == 1, all);
     else
-        TRY(internal_at(run, s, &(internal_place){what->member, what->place, what->before}, all,
-                        f));
+        TRY(internal_at(eq, s, &(internal_place){what->member, what->place, what->before}, all, f));
     *out = all[value_of[what->resultant]];
     return STATUS_OK;
 }
 
-status resultants_in_section(run_state *run, const scene_quantity *q, const internal_state *s,
+status resultants_in_section(const equations *eq, const scene_quantity *q, const internal_state *s,
                              double *out, fault *f)
 {
     static const stress_measure measure[] = {[SCENE_VON_MISES] = STRESS_VON_MISES,
                                              [SCENE_NORMAL_MAX] = STRESS_NORMAL_MAX,
                                              [SCENE_NORMAL_MIN] = STRESS_NORMAL_MIN};
     if (q->what.kind == SCENE_INTERNAL)
-        return internal_of(run, scene_internal_of(q), s, out, f);
+        return internal_of(eq, scene_internal_of(q), s, out, f);
     const scene_stress *what = scene_stress_of(q);
     if (what->whole)
-        return internal_stress_largest(run, s, what->member, measure[what->measure], out, f);
-    return internal_stress_at(run, s, &(internal_place){what->member, what->place, what->before},
+        return internal_stress_largest(eq, s, what->member, measure[what->measure], out, f);
+    return internal_stress_at(eq, s, &(internal_place){what->member, what->place, what->before},
                               measure[what->measure], out, f);
 }
 
@@ -89,28 +88,28 @@ static void inertia_along(const void *context, int element, double density[ELEME
     shares_along(of->m, of->s, &of->motion, element, density);
 }
 
-static status reaction_of(run_state *run, const scene_component *what, const model_state *s,
+static status reaction_of(const equations *eq, const scene_component *what, const model_state *s,
                           const shares_motion *motion, double *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double F[6], L[6];
-    linearise_node_force(run, s, NULL, what->node, F);
-    loads_at_node(run, s, kinematics_state_path(s), what->node, L);
+    linearise_node_force(eq, s, NULL, what->node, F);
+    loads_at_node(eq, s, kinematics_state_path(s), what->node, L);
     if (motion->v != NULL)
         TRY(shares_node(m, s, motion, what->node, F, f));
     *out = F[what->component] - L[what->component];
     return STATUS_OK;
 }
 
-status resultants_of(run_state *run, const scene_quantity *q, const model_state *s,
+status resultants_of(const equations *eq, const scene_quantity *q, const model_state *s,
                      const double v[], const double a[], double *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     const moving_state of = {m, s, {v, a, model_spreads(m, q->analysis)}};
     const internal_inertia inertia = {inertia_at_ends, inertia_along, &of};
     if (q->what.kind == SCENE_REACTION)
-        return reaction_of(run, scene_component_of(q), s, &of.motion, out, f);
+        return reaction_of(eq, scene_component_of(q), s, &of.motion, out, f);
     const internal_state at = {
         .s = s, .path = kinematics_state_path(s), .moving = v != NULL ? &inertia : NULL};
-    return resultants_in_section(run, q, &at, out, f);
+    return resultants_in_section(eq, q, &at, out, f);
 }

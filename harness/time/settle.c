@@ -36,8 +36,8 @@ static status forces(stage *s, instant *now, sparse *K, fault *f)
     const model *m = s->c->model;
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
-        TRY(linearise_make_compatible(s->c->run, now->state, f));
-    TRY(linearise_state(s->c->run, &s->c->run->memory, now->state, &lin, f));
+        TRY(linearise_make_compatible(&s->c->eq, now->state, f));
+    TRY(linearise_state(&s->c->eq, &s->c->run->memory, now->state, &lin, f));
     inertia_subtract(m, s->masses, now->state, now->v, now->a, s->residual);
     return STATUS_OK;
 }
@@ -65,7 +65,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
         one->b *= firm;
     }
     const inertia_relation with = {one->b, 0, one->zero};
-    inertia_add_tangent(m, s->masses, now->state, now->v, now->a, &with, &s->S);
+    inertia_add_tangent(&s->c->eq, s->masses, now->state, now->v, now->a, &with, &s->S);
     TRY(massless_forces(m, s->masses, now->state, s->residual, f));
     TRY(stage_direction(s, 1, f));
     TRY(massless_motion(m, s->masses, now->state, s->dx, f));
@@ -73,7 +73,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
         one->moved[c] += s->dx[c];
     out->at = now->time;
     out->size =
-        advance_state(s->c->run, &s->c->run->memory, now->state, s->dx, now->time, &out->stress);
+        advance_state(&s->c->eq, &s->c->run->memory, now->state, s->dx, now->time, &out->stress);
     return STATUS_OK;
 }
 
@@ -121,7 +121,7 @@ static status give_way(stage *s, const double zero[], double h, double softness,
 {
     const model *m = s->c->model;
     memcpy(now->strain2, now->state->e, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
-    damping_follow(s->c->run, 1 / (softness * h), now->strain, now->strain2);
+    damping_follow(&s->c->eq, 1 / (softness * h), now->strain, now->strain2);
     return balance(s, zero, now, moved, f);
 }
 
@@ -134,7 +134,7 @@ static status creep(stage *s, const double zero[], double h, instant *now, doubl
     const double telling = 1e-6, nothing = 1e-9;
     const model *m = s->c->model;
     model_state *before = NULL;
-    TRY(linearise_make_compatible(s->c->run, now->state, f));
+    TRY(linearise_make_compatible(&s->c->eq, now->state, f));
     status outcome = kinematics_state_alloc(m, &before, f);
     if (outcome == STATUS_OK) {
         kinematics_state_copy(m, now->state, before);
@@ -145,12 +145,12 @@ static status creep(stage *s, const double zero[], double h, instant *now, doubl
         for (int c = 0; c < s->free; c++)
             now->v[c] += of[c] ? moved[c] / (telling * h) : 0;
         kinematics_state_copy(m, before, now->state);
-        outcome = damping_now(s->c->run, now, f);
+        outcome = damping_now(&s->c->eq, now, f);
     }
     kinematics_state_free(before);
     TRY(outcome);
     TRY(give_way(s, zero, h, nothing, now, moved, f));
-    return damping_now(s->c->run, now, f);
+    return damping_now(&s->c->eq, now, f);
 }
 
 static status find_balance(stage *s, const double zero[], double h, instant *now, fault *f)

@@ -324,10 +324,11 @@ static void motions_of(const model *m, const mesh_element *el, const inertia_rel
     }
 }
 
-void spread_add_tangent(const model *m, const model_state *s, const double v[], const double a[],
-                        const inertia_relation *with, sparse *S)
+void spread_add_tangent(const equations *eq, const model_state *s, const double v[],
+                        const double a[], const inertia_relation *with, sparse *S)
 {
-    const mesh_pattern *pattern = assemble_of(m, S);
+    const model *m = eq->m;
+    const mesh_pattern *pattern = assemble_of(eq->run->patterns, S);
     for (int i = 0; i < m->elements; i++) {
         const mesh_element *el = &m->element[i];
         spread_parts p;

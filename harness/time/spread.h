@@ -5,6 +5,7 @@
 #ifndef BEAMWORK_SPREAD_H
 #define BEAMWORK_SPREAD_H
 
+#include "harness/newton/run_state.h"
 #include "harness/time/charts.h"
 
 struct mesh_element;
@@ -15,7 +16,7 @@ void spread_force(const model *, int element, const model_state *, const double 
 /* As inertia_subtract, inertia_add_tangent and inertia_of have it of masses at frames. */
 void spread_subtract(const model *, const model_state *, const double v[], const double a[],
                      double out[]);
-void spread_add_tangent(const model *, const model_state *, const double v[], const double a[],
+void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
                         const inertia_relation *, sparse *S);
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
                         double momentum[3], double angular[3]);

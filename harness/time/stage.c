@@ -29,8 +29,8 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     if (s->residual == NULL || s->dx == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     if (c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(c->run, &s->complement, f));
-    TRY(assemble_pattern_in_time(c->model, &pattern, f));
+        TRY(complement_alloc(&c->eq, &s->complement, f));
+    TRY(assemble_pattern_in_time(c->model, c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
 }
@@ -80,13 +80,13 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r, 
                                .residual = s->residual};
     const inertia_relation with = {r->b, r->g, r->inc};
     if (s->c->options->newton == NEWTON_DISPLACEMENT)
-        TRY(linearise_make_compatible(s->c->run, now, f));
-    TRY(linearise_state(s->c->run, &s->c->run->memory, now, &lin, f));
+        TRY(linearise_make_compatible(&s->c->eq, now, f));
+    TRY(linearise_state(&s->c->eq, &s->c->run->memory, now, &lin, f));
     inertia_subtract(m, s->masses, now, r->v, r->a, s->residual);
     s->c->run->counters.inertia_evaluations +=
         s->masses->spread ? model_sizes(m).elements * (1 + fresh) : 0;
     if (fresh)
-        inertia_add_tangent(m, s->masses, now, r->v, r->a, &with, &s->S);
+        inertia_add_tangent(&s->c->eq, s->masses, now, r->v, r->a, &with, &s->S);
     record->incompatibility = lin.incompatibility;
     return stage_direction(s, fresh, f);
 }
@@ -112,7 +112,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     complement_keep(s->complement, one->now);
     out->at = one->time;
     out->size =
-        advance_state(s->c->run, &s->c->run->memory, one->now, s->dx, one->time, &out->stress);
+        advance_state(&s->c->eq, &s->c->run->memory, one->now, s->dx, one->time, &out->stress);
     rates_of(s, one->r);
     return STATUS_OK;
 }

@@ -26,11 +26,11 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
 }
 
 /* Columns of stage k after each other; returns the entries. NULL row: they are counted. */
-static int fill(const run_state *run, const sparse *single, const int frame_of[],
+static int fill(const equations *eq, const sparse *single, const int frame_of[],
                 const carried *masses, stages_matrix *out, int *row)
 {
-    const model *m = run->m;
-    const int n = out->n, full = m->releases > 0 || run->damping != NULL ||
+    const model *m = eq->m;
+    const int n = out->n, full = m->releases > 0 || eq->run->damping != NULL ||
                                  masses->spread; /* they couple nodes */
     const double *warping = masses->warping;
     int count = 0;
@@ -56,10 +56,10 @@ static int fill(const run_state *run, const sparse *single, const int frame_of[]
     return count;
 }
 
-static status make(const run_state *run, const carried *masses, const sparse *single,
-                   int frame_of[], stages_matrix *out, fault *f)
+static status make(const equations *eq, const carried *masses, const sparse *single, int frame_of[],
+                   stages_matrix *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     for (int c = 0; c < m->free; c++)
         frame_of[c] = NONE;
     for (int k = 0; k < masses->masses; k++)
@@ -68,7 +68,7 @@ static status make(const run_state *run, const carried *masses, const sparse *si
             if (c != NONE && c < m->free)
                 frame_of[c] = masses->mass[k].frame;
         }
-    const size_t count = (size_t)fill(run, single, frame_of, masses, out, NULL),
+    const size_t count = (size_t)fill(eq, single, frame_of, masses, out, NULL),
                  columns = STAGES * (size_t)out->n;
     out->whole.n = STAGES * out->n;
     out->whole.column = malloc((columns + 1) * sizeof *out->whole.column);
@@ -78,19 +78,19 @@ static status make(const run_state *run, const carried *masses, const sparse *si
     if (out->whole.column == NULL || out->whole.row == NULL || out->whole.value == NULL ||
         out->diagonal == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the stages of a step");
-    fill(run, single, frame_of, masses, out, out->whole.row);
+    fill(eq, single, frame_of, masses, out, out->whole.row);
     return STATUS_OK;
 }
 
-status stages_alloc(const run_state *run, const carried *masses, const sparse *single,
+status stages_alloc(const equations *eq, const carried *masses, const sparse *single,
                     stages_matrix *out, fault *f)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     memset(out, 0, sizeof *out);
     out->n = m->free;
     int *frame_of = malloc(((size_t)m->free + 1) * sizeof *frame_of);
     const status outcome = frame_of != NULL
-                               ? make(run, masses, single, frame_of, out, f)
+                               ? make(eq, masses, single, frame_of, out, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for stages");
     free(frame_of);
     return outcome;

@@ -14,7 +14,7 @@ static const double same_instant = 1e-9;
 status stations_alloc(stations *s, fault *f)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
-    TRY(between_alloc(s->c->run, &s->inside, f));
+    TRY(between_alloc(&s->c->eq, &s->inside, f));
     TRY(instant_alloc(s->c->model, &s->at, f));
     TRY(outcome_stations(&s->out->path, path->stations, f));
     s->out->instant = calloc((size_t)path->stations + 1, sizeof *s->out->instant);

@@ -27,7 +27,7 @@ static void begin(const watches *s, watched *one, const scene_quantity *q)
 status watches_alloc(watches *s, fault *f)
 {
     const scene *what = s->c->scene;
-    TRY(between_alloc(s->c->run, &s->inside, f));
+    TRY(between_alloc(&s->c->eq, &s->inside, f));
     TRY(instant_alloc(s->c->model, &s->at, f));
     s->one = calloc((size_t)what->quantities + 1, sizeof *s->one);
     s->out->passing = calloc((size_t)what->quantities + 1, sizeof *s->out->passing);

@@ -21,10 +21,10 @@ static int is_driven(const model *m, const mesh_element *el)
     return 0;
 }
 
-status work_alloc(run_state *run, const carried *masses, work *w, fault *f)
+status work_alloc(const equations *eq, const carried *masses, work *w, fault *f)
 {
-    const model *m = run->m;
-    *w = (work){.run = run,
+    const model *m = eq->m;
+    *w = (work){.eq = eq,
                 .m = m,
                 .masses = masses,
                 .force = calloc(2 * (size_t)(m->free + m->driven) + 1, sizeof *w->force),
@@ -74,7 +74,7 @@ static void hold(work *w, const model_state *s, const double v[], const double a
     inertia_subtract(m, w->masses, s, v, a, w->holding);
     for (int c = 0; c < all; c++)
         w->holding[c] = -w->holding[c];
-    linearise_add_internal(w->run, s, w->elements, w->element, w->holding);
+    linearise_add_internal(w->eq, s, w->elements, w->element, w->holding);
     memcpy(w->force + m->free, w->holding + m->free, (size_t)m->driven * sizeof *w->force);
 }
 
@@ -84,8 +84,8 @@ double work_power(work *w, const model_state *s, const double v[], const double 
     const model *m = w->m;
     memset(w->force, 0, (size_t)(m->free + m->driven) * sizeof *w->force);
     for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(w->run, s, &m->scene->load[i],
-                      applied_factor(w->run, &m->scene->load[i], time), w->force);
+        loads_add_one(w->eq, s, &m->scene->load[i], applied_factor(w->eq, &m->scene->load[i], time),
+                      w->force);
     if (m->driven > 0)
         hold(w, s, v, a);
     return product(w, s, along);

@@ -6,14 +6,14 @@
 #include "harness/time/instant.h"
 
 typedef struct work {
-    run_state *run;
+    const equations *eq;
     const model *m;
     const carried *masses;
     double *force, *holding; /* [free + driven] room */
     int elements, *element;  /* that driven coordinates move */
 } work;
 
-status work_alloc(run_state *, const carried *, work *, fault *);
+status work_alloc(const equations *, const carried *, work *, fault *);
 void work_free(work *);
 
 /* Power [W] at rates v (or work [J] along increments, rotations by vectors in the frames' axes):

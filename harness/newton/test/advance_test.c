@@ -45,10 +45,11 @@ static double size_of(model *m, int coordinate, double step)
     run_state run;
     model_linearisation lin = {.residual = residual};
     run_state_begin(&run, m, 1, NULL);
+    equations eq = {.m = m, .run = &run};
     if (kinematics_state_alloc(m, &s, &f) == STATUS_OK &&
-        linearise_state(&run, &run.memory, s, &lin, &f) == STATUS_OK) {
+        linearise_state(&eq, &run.memory, s, &lin, &f) == STATUS_OK) {
         dx[coordinate] = step;
-        out = advance_state(&run, &run.memory, s, dx, 0, NULL);
+        out = advance_state(&eq, &run.memory, s, dx, 0, NULL);
     }
     run_state_end(&run);
     kinematics_state_free(s);

@@ -57,8 +57,9 @@ static void sums_of(const scene_load *load, const char *name, double force[3], d
     run_state run;
     model_linearisation lin = {.path = 1, .residual = residual};
     run_state_begin(&run, m, 1, NULL);
-    gsl_test(linearise_state(&run, &run.memory, kinematics_rest(m), &lin, &f) != STATUS_OK,
-             "%s: %s", name, f.text);
+    equations eq = {.m = m, .run = &run};
+    gsl_test(linearise_state(&eq, &run.memory, kinematics_rest(m), &lin, &f) != STATUS_OK, "%s: %s",
+             name, f.text);
     run_state_end(&run);
     for (int i = 0; i < 3; i++)
         force[i] = moment[i] = 0;

@@ -107,9 +107,10 @@ static void named(const element_type *type)
         run_state run;
         model_linearisation lin = {.residual = residual};
         run_state_begin(&run, m, 1, NULL);
+        equations eq = {.m = m, .run = &run};
         asked = 0;
         const status outcome =
-            residual != NULL ? linearise_state(&run, &run.memory, state, &lin, &f) : STATUS_FAULT;
+            residual != NULL ? linearise_state(&eq, &run.memory, state, &lin, &f) : STATUS_FAULT;
         gsl_test(outcome != (asked > 0 ? STATUS_SINGULAR : STATUS_OK),
                  "%s: an element that cannot be evaluated", type->name);
         gsl_test(asked > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",

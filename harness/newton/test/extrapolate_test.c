@@ -65,6 +65,7 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     model_state *s, *exact;
     fault f = {""};
     run_state_begin(&run, m, 1, NULL);
+    equations eq = {.m = m, .run = &run};
     gsl_test(predictor_alloc(m, &t, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &s, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &exact, &f) != STATUS_OK,
@@ -72,9 +73,9 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     for (int i = 0; i < count; i++) {
         fill(m, degree, fabs(path[i] - kink), s);
         s->path = path[i];
-        gsl_test(predictor_add(&run, s, 3, &t, &f) != STATUS_OK, "a state: %s", f.text);
+        gsl_test(predictor_add(&eq, s, 3, &t, &f) != STATUS_OK, "a state: %s", f.text);
     }
-    predictor_guess(&run, &t, to, s);
+    predictor_guess(&eq, &t, to, s);
     run_state_end(&run);
     fill(m, degree, fabs(to - kink), exact);
     const double error = apart(m, s, exact);

@@ -16,13 +16,14 @@ static void stiffness(int body)
     fault f = {""};
     const sparse *pattern;
     sparse K;
+    run_state run;
     turned_body_prepare(body, SCENE_FORCE, &s);
-    gsl_test(assemble_pattern_of_states(s.m, 0, &pattern, &f) != STATUS_OK ||
+    run_state_begin(&run, s.m, 1, NULL);
+    const equations eq = {.m = s.m, .run = &run};
+    gsl_test(assemble_pattern_of_states(s.m, run.patterns, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
-    run_state run;
-    run_state_begin(&run, s.m, 1, NULL);
-    rotating_frame_load_stiffness(&run, s.turned, 1, &K);
+    rotating_frame_load_stiffness(&eq, s.turned, 1, &K);
     run_state_end(&run);
     double largest = 0;
     for (int j = 0; j < s.n; j++)
@@ -51,17 +52,18 @@ static void stiffness_of_angles(int body, scene_load_kind kind, int follower, co
     fault f = {""};
     const sparse *pattern;
     sparse K;
+    run_state run;
     turned_body_prepare(body, kind, &s);
     s.scene.load[0].follower = follower;
     memcpy(s.scene.load[0].at, at, sizeof s.scene.load[0].at);
-    gsl_test(assemble_pattern_of_states(s.m, 0, &pattern, &f) != STATUS_OK ||
+    run_state_begin(&run, s.m, 1, NULL);
+    const equations eq = {.m = s.m, .run = &run};
+    gsl_test(assemble_pattern_of_states(s.m, run.patterns, 0, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
     gsl_test((follower || kind == SCENE_MOMENT) && K.symmetric, "%s: an unsymmetric pattern",
              turned_body_name[body]);
-    run_state run;
-    run_state_begin(&run, s.m, 1, NULL);
-    rotating_frame_load_stiffness(&run, s.turned, 1, &K);
+    rotating_frame_load_stiffness(&eq, s.turned, 1, &K);
     run_state_end(&run);
     for (int j = 0; j < s.n; j++) {
         double load[2][MOST];

@@ -36,10 +36,13 @@ static void forces_along(int what, const char *name, double path, int follows, i
     run_state run;
     model_linearisation lin = {.path = path, .residual = residual};
     run_state_begin(&run, m, 1, NULL);
+    equations eq = {.m = m, .run = &run};
     if (what == SPIN)
-        rotating_frame_set(&run, z, origin, follows);
-    gsl_test(linearise_state(&run, &run.memory, kinematics_rest(m), &lin, &f) != STATUS_OK,
-             "%s: %s", name, f.text);
+        eq.loading = (loading){.rotates = 1,
+                               .rotation_follows_path = follows,
+                               .frame = {{z[0], z[1], z[2]}, {origin[0], origin[1], origin[2]}}};
+    gsl_test(linearise_state(&eq, &run.memory, kinematics_rest(m), &lin, &f) != STATUS_OK, "%s: %s",
+             name, f.text);
     run_state_end(&run);
     for (int k = 0; k < nodes; k++)
         out[k] = residual[kinematics_coordinate(m, k, what == LINE ? SCENE_UY : SCENE_UX)];

@@ -38,7 +38,8 @@ static void conjugate(int body, scene_load_kind kind)
     vec3_cross(arm, s.scene.load[0].vector, moment);
     run_state run;
     run_state_begin(&run, s.m, 1, NULL);
-    loads_at_node(&run, s.turned, kinematics_state_path(s.turned), 1, F);
+    equations eq = {.m = s.m, .run = &run};
+    loads_at_node(&eq, s.turned, kinematics_state_path(s.turned), 1, F);
     run_state_end(&run);
     for (int i = 0; i < 3; i++) {
         const double v = s.scene.load[0].vector[i], force = kind == SCENE_FORCE ? v : 0,
@@ -73,12 +74,13 @@ static void rates(void)
     turned_body_prepare(FREE_TURNS, SCENE_FORCE, &s);
     turned_body_loads(&s, unit);
     run_state_begin(&run, s.m, 1, NULL);
-    loads_rate(&run, s.turned, 0.3, out);
+    equations eq = {.m = s.m, .run = &run};
+    loads_rate(&eq, s.turned, 0.3, out);
     for (int k = 0; k < s.n; k++)
         gsl_test_abs(out[k], unit[k], 1e-11, "proportional load: its rate is itself");
     follow_stations(&s.scene.load[0], path, value);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        loads_rate(&run, s.turned, row[i].path, out);
+        loads_rate(&eq, s.turned, row[i].path, out);
         for (int k = 0; k < s.n; k++)
             gsl_test(!(fabs(out[k] - row[i].rate * unit[k]) <= 1e-11),
                      "rate at path %g: %g of the load, not %g", row[i].path, out[k] / unit[k],
@@ -104,9 +106,10 @@ static void factors(void)
         run_state run;
         model_linearisation lin = {.path = row[i][0], .residual = residual};
         run_state_begin(&run, s.m, 1, NULL);
-        linearise_state(&run, &run.memory, s.turned, &lin, &f);
-        advance_state(&run, &run.memory, s.turned, dx, row[i][0], NULL);
-        loads_at_node(&run, s.turned, kinematics_state_path(s.turned), 1, F);
+        equations eq = {.m = s.m, .run = &run};
+        linearise_state(&eq, &run.memory, s.turned, &lin, &f);
+        advance_state(&eq, &run.memory, s.turned, dx, row[i][0], NULL);
+        loads_at_node(&eq, s.turned, kinematics_state_path(s.turned), 1, F);
         run_state_end(&run);
         gsl_test_abs(F[0], row[i][1] * s.scene.load[0].vector[0], 1e-14, "factor at path %g",
                      row[i][0]);
@@ -140,7 +143,8 @@ static void reference(void)
         return;
     run_state run;
     run_state_begin(&run, m, 1, NULL);
-    loads_reference(&run, at, out);
+    equations eq = {.m = m, .run = &run};
+    loads_reference(&eq, at, out);
     run_state_end(&run);
     for (int i = 0; i < 2; i++)
         gsl_test_abs(out[kinematics_coordinate(m, tip, SCENE_UX + i)], expected[i], 1e-14,

@@ -83,6 +83,7 @@ typedef struct subject {
     scene scene;
     model *m;
     run_state run;
+    equations eq;
     model_state *s, *moved;
     sparse K;
     int n;
@@ -96,14 +97,16 @@ static int prepare(subject *t, const char *formulation_name)
     fault f = {""};
     const int parsed = formulation_parse(formulation_name, &chosen, &f) == STATUS_OK;
     const model_request what = {&t->scene, chosen.type, chosen.option, 1, 0};
-    const int good = parsed && scene_validate(&t->scene, &f) == STATUS_OK &&
-                     model_alloc(&what, &t->m, &f) == STATUS_OK &&
-                     run_state_begin(&t->run, t->m, 1, &f) == STATUS_OK &&
-                     kinematics_state_alloc(t->m, &t->s, &f) == STATUS_OK &&
-                     kinematics_state_alloc(t->m, &t->moved, &f) == STATUS_OK &&
-                     assemble_pattern_of_states(t->m, 0, &pattern, &f) == STATUS_OK &&
-                     sparse_alloc_like(pattern, &t->K, &f) == STATUS_OK;
+    const int good =
+        parsed && scene_validate(&t->scene, &f) == STATUS_OK &&
+        model_alloc(&what, &t->m, &f) == STATUS_OK &&
+        run_state_begin(&t->run, t->m, 1, &f) == STATUS_OK &&
+        kinematics_state_alloc(t->m, &t->s, &f) == STATUS_OK &&
+        kinematics_state_alloc(t->m, &t->moved, &f) == STATUS_OK &&
+        assemble_pattern_of_states(t->m, t->run.patterns, 0, &pattern, &f) == STATUS_OK &&
+        sparse_alloc_like(pattern, &t->K, &f) == STATUS_OK;
     gsl_test(!good, "%s: %s", formulation_name, f.text);
+    t->eq = (equations){.m = t->m, .run = &t->run};
     t->n = good ? model_sizes(t->m).free : 0;
     gsl_test(t->n > MOST || t->n < 12, "%d coordinates", t->n);
     return good;
@@ -123,7 +126,7 @@ static void linearised(subject *t, const model_state *s, double path)
 {
     fault f = {""};
     model_linearisation lin = {.path = path, .K = &t->K, .residual = t->residual};
-    gsl_test(linearise_state(&t->run, &t->run.memory, s, &lin, &f) != STATUS_OK, "linearised: %s",
+    gsl_test(linearise_state(&t->eq, &t->run.memory, s, &lin, &f) != STATUS_OK, "linearised: %s",
              f.text);
     memset(t->A, 0, sizeof t->A);
     for (int j = 0; j < t->n; j++)
@@ -144,7 +147,7 @@ static int solve(subject *t, double path, const char *what)
         size = 0;
         for (int k = 0; k < t->n; k++)
             size = fmax(size, fabs(t->residual[k]));
-        advance_state(&t->run, &t->run.memory, t->s, t->residual, path, NULL);
+        advance_state(&t->eq, &t->run.memory, t->s, t->residual, path, NULL);
     }
     gsl_test(!(size <= 1e-11), "%s: no equilibrium at %g", what, path);
     gsl_test(!(size <= 100 * before * before + 1e-13), "%s: corrections %.1e after %.1e", what,
@@ -159,17 +162,17 @@ static void residual_at(subject *t, int k, double h, double out[])
     model_linearisation lin = {.path = 1, .residual = out};
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
-    linearise_state(&t->run, &t->run.memory, t->moved, &lin, &f); /* what advance_state works on */
-    advance_state(&t->run, &t->run.memory, t->moved, dx, 1, NULL);
-    linearise_make_compatible(&t->run, t->moved, &f);
-    linearise_state(&t->run, &t->run.memory, t->moved, &lin, &f);
+    linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f); /* what advance_state works on */
+    advance_state(&t->eq, &t->run.memory, t->moved, dx, 1, NULL);
+    linearise_make_compatible(&t->eq, t->moved, &f);
+    linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
 }
 
 static void derivative(subject *t, const char *what)
 {
     static const double h = 1e-4;
     double worst = 0, largest = 0;
-    linearise_make_compatible(&t->run, t->s, NULL);
+    linearise_make_compatible(&t->eq, t->s, NULL);
     linearised(t, t->s, 1);
     for (int j = 0; j < t->n; j++) {
         double far[2][MOST], near[2][MOST];

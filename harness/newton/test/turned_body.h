@@ -58,10 +58,11 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
     run_state run;
     model_linearisation lin = {.path = 1, .residual = residual};
     run_state_begin(&run, s->m, 1, NULL);
+    equations eq = {.m = s->m, .run = &run};
     kinematics_state_copy(s->m, from, to);
-    gsl_test(linearise_state(&run, &run.memory, to, &lin, &f) != STATUS_OK, "linearised: %s",
+    gsl_test(linearise_state(&eq, &run.memory, to, &lin, &f) != STATUS_OK, "linearised: %s",
              f.text);
-    advance_state(&run, &run.memory, to, dx, 1, NULL);
+    advance_state(&eq, &run.memory, to, dx, 1, NULL);
     run_state_end(&run);
 }
 
@@ -102,8 +103,9 @@ static inline void turned_body_loads(const turned_body *s, double out[])
     model_linearisation with = {.path = 1, .residual = out},
                         none = {.path = 0, .residual = without};
     run_state_begin(&run, s->m, 1, NULL);
-    linearise_state(&run, &run.memory, s->turned, &with, &f);
-    linearise_state(&run, &run.memory, s->turned, &none, &f);
+    equations eq = {.m = s->m, .run = &run};
+    linearise_state(&eq, &run.memory, s->turned, &with, &f);
+    linearise_state(&eq, &run.memory, s->turned, &none, &f);
     run_state_end(&run);
     for (int k = 0; k < s->n; k++)
         out[k] -= without[k];

@@ -62,10 +62,11 @@ static void run(const moving_one *o, between_degree degree)
     uint64_t seed = 31;
     double inc[MOST];
     run_state_begin(&loaded, o->m, 1, NULL);
+    const equations eq = {.m = o->m, .run = &loaded};
     gsl_test(instant_alloc(o->m, &from, &f) != STATUS_OK ||
                  instant_alloc(o->m, &to, &f) != STATUS_OK ||
                  instant_alloc(o->m, &at, &f) != STATUS_OK ||
-                 between_alloc(&loaded, &inside, &f) != STATUS_OK,
+                 between_alloc(&eq, &inside, &f) != STATUS_OK,
              "%s", f.text);
     kinematics_state_copy(o->m, o->now, from.state);
     some(o->all, 0.4, &seed, inc);

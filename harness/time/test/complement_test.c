@@ -58,21 +58,21 @@ static void load(const model *m, int i, double angle, double sigma[], double e[]
     dense_mul_vec(m->strains, m->strains, C, e, sigma);
 }
 
-static long looks(const run_state *run, complement *c, model_state *s, int iteration,
+static long looks(const equations *eq, complement *c, model_state *s, int iteration,
                   double correction)
 {
-    const long before = run->counters.stress_evaluations;
+    const long before = eq->run->counters.stress_evaluations;
     complement_strains(c, s, iteration, correction);
-    return run->counters.stress_evaluations - before;
+    return eq->run->counters.stress_evaluations - before;
 }
 
 /* All elements agree: looked at again after larger corrections and in a new step alone. */
-static void again(const run_state *run, complement *c, model_state *s)
+static void again(const equations *eq, complement *c, model_state *s)
 {
-    gsl_test(looks(run, c, s, 2, 0.5) != ELEMENTS, "some did not agree before: all are looked at");
-    gsl_test(looks(run, c, s, 3, 0.1) != 0, "a smaller correction is not looked at");
-    gsl_test(looks(run, c, s, 4, 0.6) != ELEMENTS, "a larger one is");
-    gsl_test(looks(run, c, s, 1, 0.1) != ELEMENTS, "and the first of a step");
+    gsl_test(looks(eq, c, s, 2, 0.5) != ELEMENTS, "some did not agree before: all are looked at");
+    gsl_test(looks(eq, c, s, 3, 0.1) != 0, "a smaller correction is not looked at");
+    gsl_test(looks(eq, c, s, 4, 0.6) != ELEMENTS, "a larger one is");
+    gsl_test(looks(eq, c, s, 1, 0.1) != ELEMENTS, "and the first of a step");
 }
 
 static void take(const element_type *type, double angle)
@@ -82,11 +82,12 @@ static void take(const element_type *type, double angle)
     model *m = leaf(type, &s);
     run_state run;
     run_state_begin(&run, m, 1, &f);
+    equations eq = {.m = m, .run = &run};
     model_state *state;
     complement *c;
     const size_t n = (size_t)m->strains;
     gsl_test(kinematics_state_alloc(m, &state, &f) != STATUS_OK ||
-                 complement_alloc(&run, &c, &f) != STATUS_OK || c == NULL,
+                 complement_alloc(&eq, &c, &f) != STATUS_OK || c == NULL,
              "%s has stresses that are not linear", type->name);
     complement_keep(c, state);
     for (int i = 0; i < ELEMENTS; i++)
@@ -114,7 +115,7 @@ static void take(const element_type *type, double angle)
                  "%s, %g rad: bent as much (%g, %g)", type->name, angle, e[4] / first[4],
                  e[5] / first[5]);
     }
-    again(&run, c, state);
+    again(&eq, c, state);
     complement_free(c);
     kinematics_state_free(state);
     run_state_end(&run);
@@ -130,10 +131,11 @@ static void keep(void)
     model *m = leaf(&element_beamw_consistent, &s);
     run_state run;
     run_state_begin(&run, m, 1, &f);
+    equations eq = {.m = m, .run = &run};
     model_state *state;
     complement *c;
     if (kinematics_state_alloc(m, &state, &f) == STATUS_OK &&
-        complement_alloc(&run, &c, &f) == STATUS_OK) {
+        complement_alloc(&eq, &c, &f) == STATUS_OK) {
         const size_t n = (size_t)(ELEMENTS * m->strains);
         double before[ELEMENTS * MOST];
         complement_keep(c, state);
@@ -158,8 +160,9 @@ static void leave(const element_type *type, const char *why)
     model *m = leaf(type, &s);
     run_state run;
     run_state_begin(&run, m, 1, &f);
+    equations eq = {.m = m, .run = &run};
     complement *c;
-    gsl_test(complement_alloc(&run, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
+    gsl_test(complement_alloc(&eq, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
     complement_keep(c, NULL);
     complement_strains(c, NULL, 1, 1);
     complement_free(c);

@@ -102,7 +102,7 @@ static double out_of_balance(flying *f)
     const size_t all = (size_t)(f->m->free + f->m->driven) + 1;
     double *residual = calloc(all, sizeof *residual), most = 0;
     model_linearisation lin = {.path = f->now.time, .residual = residual};
-    const status outcome = linearise_state(&f->run, &f->run.memory, f->now.state, &lin, &f->why);
+    const status outcome = linearise_state(&f->c.eq, &f->run.memory, f->now.state, &lin, &f->why);
     inertia_subtract(f->m, &f->masses, f->now.state, f->now.v, f->now.a, residual);
     massless_forces(f->m, &f->masses, f->now.state, residual, &f->why);
     for (int c = 0; c < f->m->free; c++)

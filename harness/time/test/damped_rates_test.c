@@ -58,10 +58,10 @@ int main(void)
     const double wrong = apart(n, rate, later), followed = apart(n, f.now.strain, later);
     gsl_test(!(wrong < 1e-4), "rates of strains by differences: %g apart", wrong);
     gsl_test(!(followed < 1e-4), "carried along: %g apart", followed);
-    const double lost = f.now.dissipated, power = damping_power(&f.run, rate);
+    const double lost = f.now.dissipated, power = damping_power(&f.c.eq, rate);
     flying_step(&f, d);
     damping_rates(f.m, f.now.state, f.now.v, rate, &f.why);
-    const double mean = (power + damping_power(&f.run, rate)) / 2;
+    const double mean = (power + damping_power(&f.c.eq, rate)) / 2;
     gsl_test(!(fabs((f.now.dissipated - lost) / (d * mean) - 1) < 1e-3),
              "a step loses %g J, its power is %g W", f.now.dissipated - lost, mean);
     free(rate);

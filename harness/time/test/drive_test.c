@@ -28,27 +28,27 @@ static void build_driven(scene *s)
 }
 
 /* From a state to a time. */
-static void go(const run_state *run, const model_state *from, double time, model_state *to,
+static void go(const equations *eq, const model_state *from, double time, model_state *to,
                frame_rates *r)
 {
-    const model *m = run->m;
+    const model *m = eq->m;
     double inc[MOST] = {0}, v[MOST] = {0}, a[MOST] = {0};
-    drive_at(run, from, time, inc, v, a);
+    drive_at(eq, from, time, inc, v, a);
     increment_apply(m, from, inc, time, to);
     forms_rates(m, to, 0, v, a, r);
 }
 
 /* What is driven at a time, from a state. */
-static void check(const run_state *run, const model_state *from, double t, model_state *to)
+static void check(const equations *eq, const model_state *from, double t, model_state *to)
 {
     const double dt = 1e-4;
     frame_rates at, before, after;
     double q[2][4], turn[3], expected[4];
-    go(run, from, t - dt, to, &before);
+    go(eq, from, t - dt, to, &before);
     memcpy(q[0], to->q, sizeof q[0]);
-    go(run, from, t + dt, to, &after);
+    go(eq, from, t + dt, to, &after);
     memcpy(q[1], to->q, sizeof q[1]);
-    go(run, from, t, to, &at);
+    go(eq, from, t, to, &at);
     rotation_exp((const double[]){0.3 + sin(2 * t), 0.5 * t * t - 0.2, cos(3 * t)}, expected);
     rotation_between(expected, to->q, turn);
     gsl_test(!(vec3_norm(turn) < 1e-13), "turned otherwise by %g rad", vec3_norm(turn));
@@ -78,13 +78,13 @@ int main(void)
         .scene = &s, .type = &element_collocation, .options = chosen.option, .elements = 1};
     gsl_test(model_alloc(&request, &m, &f) != STATUS_OK, "%s", f.text);
     gsl_test(run_state_begin(&run, m, 1, &f) != STATUS_OK, "%s", f.text);
-    run.loading.in_time = 1;
+    const equations eq = {.m = m, .loading = {.in_time = 1}, .run = &run};
     gsl_test(kinematics_state_alloc(m, &now, &f) != STATUS_OK ||
                  kinematics_state_alloc(m, &to, &f) != STATUS_OK,
              "%s", f.text);
-    go(&run, kinematics_rest(m), 0.4, now, &at);
-    check(&run, kinematics_rest(m), 0.7, to);
-    check(&run, now, 0.7, to);
+    go(&eq, kinematics_rest(m), 0.4, now, &at);
+    check(&eq, kinematics_rest(m), 0.7, to);
+    check(&eq, now, 0.7, to);
     kinematics_state_free(now);
     kinematics_state_free(to);
     run_state_end(&run);

@@ -24,6 +24,7 @@ typedef struct flight {
     formulation chosen;
     model *m;
     run_state run;
+    context_work kept;
     solve_options options;
     solve_result result;
     analysis_context c;
@@ -47,9 +48,10 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
                               .model = f->m,
                               .run = &f->run,
                               .options = &f->options,
-                              .result = &f->result};
+                              .result = &f->result,
+                              .work = &f->kept};
+    f->c.eq = (equations){.m = f->m, .loading = {.in_time = 1}, .run = &f->run};
     f->how = *scene_motion_of(&f->scene.analysis[f->scene.analyses - 1]);
-    f->run.loading.in_time = 1;
     TRY(carried_alloc(f->m, &f->masses, &f->why));
     const scheme_request asked = {.c = &f->c, .masses = &f->masses, .how = &f->how};
     TRY(conserving_alloc(&asked, &f->scheme, &f->why));

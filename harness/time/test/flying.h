@@ -9,6 +9,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/model/model_impl.h"
 #include "harness/newton/history.h"
+#include "harness/newton/loads.h"
 #include "harness/time/damping.h"
 #include "harness/time/integrator.h"
 #include "harness/time/launch.h"
@@ -20,6 +21,7 @@ typedef struct flying {
     analysis_context c;
     model *m;
     run_state run;
+    context_work kept;
     carried masses;
     work work;
     run_damping damping;
@@ -38,13 +40,17 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
         .scene = s, .type = type, .options = f->chosen.option, .elements = elements};
     TRY(model_alloc(&wanted, &f->m, &f->why));
     TRY(run_state_begin(&f->run, f->m, 1, &f->why));
-    f->c = (analysis_context){
-        .scene = s, .model = f->m, .run = &f->run, .options = &f->options, .result = &f->result};
-    context_set_frame(&f->c, 0);
+    f->c = (analysis_context){.scene = s,
+                              .model = f->m,
+                              .run = &f->run,
+                              .options = &f->options,
+                              .result = &f->result,
+                              .work = &f->kept};
+    f->c.eq = (equations){f->m, loading_of(f->m, 0), &f->run};
     const scene_motion *how = scene_motion_of(&s->analysis[0]);
     TRY(carried_alloc(f->m, &f->masses, &f->why));
-    TRY(damping_begin(&f->run, &f->damping, &f->why));
-    TRY(work_alloc(&f->run, &f->masses, &f->work, &f->why));
+    TRY(damping_begin(&f->c.eq, &f->damping, &f->why));
+    TRY(work_alloc(&f->c.eq, &f->masses, &f->work, &f->why));
     const scheme_request request = {
         .c = &f->c, .masses = &f->masses, .how = how, .work = &f->work, .estimate = 1};
     TRY(integrator_alloc(&request, &f->scheme, &f->why));
@@ -55,7 +61,7 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
 
 static inline void flying_end(flying *f)
 {
-    damping_end(&f->run, &f->damping);
+    damping_end(&f->c.eq, &f->damping);
     integrator_free(f->scheme);
     instant_free(&f->now);
     instant_free(&f->next);

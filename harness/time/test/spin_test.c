@@ -125,7 +125,8 @@ static double settle(flight *f)
     const size_t all = (size_t)(m->free + m->driven) + 1;
     double *residual = calloc(all, sizeof *residual);
     memset(&K, 0, sizeof K);
-    if (residual == NULL || assemble_pattern(m, 0, &pattern, &f->why) != STATUS_OK ||
+    if (residual == NULL ||
+        assemble_pattern(m, f->run.patterns, 0, &pattern, &f->why) != STATUS_OK ||
         sparse_alloc_like(pattern, &K, &f->why) != STATUS_OK ||
         factor_alloc(pattern, &of, &f->why) != STATUS_OK || of == NULL) {
         free(residual);
@@ -135,14 +136,14 @@ static double settle(flight *f)
     for (int i = 0; i < ITERATIONS && correction > 1e-15; i++) {
         model_linearisation lin = {.path = 0, .K = &K, .residual = residual};
         turn_rates(f);
-        if (linearise_state(&f->run, &f->run.memory, f->now.state, &lin, &f->why) != STATUS_OK)
+        if (linearise_state(&f->c.eq, &f->run.memory, f->now.state, &lin, &f->why) != STATUS_OK)
             break;
         inertia_subtract(m, &f->masses, f->now.state, f->now.v, f->now.a, residual);
         memset(residual + m->free, 0, (size_t)m->driven * sizeof *residual);
         if (factor_numeric(of, &K, &f->why) != STATUS_OK)
             break;
         factor_solve(of, residual);
-        correction = advance_state(&f->run, &f->run.memory, f->now.state, residual, 0, NULL);
+        correction = advance_state(&f->c.eq, &f->run.memory, f->now.state, residual, 0, NULL);
     }
     turn_rates(f);
     free(residual);
@@ -159,7 +160,7 @@ static void pull(flight *f)
     for (int d = 0; d < m->scene->drivers; d++)
         if (m->driver_coordinate[d] >= m->free)
             dx[m->driver_coordinate[d]] =
-                loads_driver_value(&f->run, &m->scene->driver[d], 0) - f->now.state->driver[d];
+                loads_driver_value(&f->c.eq, &m->scene->driver[d], 0) - f->now.state->driver[d];
     increment_apply(m, f->now.state, dx, 0, f->next.state);
     instant_copy(m, &f->next, &f->now);
     free(dx);

@@ -57,10 +57,13 @@ static void tangent(const moving_one *o)
     sparse S;
     fault f = {""};
     double largest = 0, here[MOST];
-    gsl_test(assemble_pattern_in_time(o->m, &pattern, &f) != STATUS_OK ||
+    run_state run;
+    run_state_begin(&run, o->m, 1, NULL);
+    const equations eq = {.m = o->m, .run = &run};
+    gsl_test(assemble_pattern_in_time(o->m, run.patterns, &pattern, &f) != STATUS_OK ||
                  sparse_alloc_like(pattern, &S, &f) != STATUS_OK,
              "%s", f.text);
-    inertia_add_tangent(o->m, &o->masses, o->now, o->v, o->a, &with, &S);
+    inertia_add_tangent(&eq, &o->masses, o->now, o->v, o->a, &with, &S);
     force_at(o, o->inc, o->inc, here);
     for (int c = 0; c < o->m->free; c++) {
         double side[2][MOST], slope[MOST];
@@ -79,6 +82,7 @@ static void tangent(const moving_one *o)
     }
     gsl_test(!(largest < 1e-8), "the tangent is the derivative (%g)", largest);
     sparse_free_values(&S);
+    run_state_end(&run);
 }
 
 int main(void)
