@@ -8,7 +8,8 @@
 
 #include "harness/analysis/extract_path.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/context.h"
 #include "harness/newton/convention.h"
 #include "harness/newton/linear.h"

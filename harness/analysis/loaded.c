@@ -16,8 +16,9 @@
 #include "harness/analysis/static.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/metric.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"
 #include "harness/newton/internal.h"
@@ -502,12 +503,12 @@ static double thrust_of_elements(const newton *n)
     const model *m = n->c->model;
     const internal_state at = {.s = n->state, .path = kinematics_state_path(n->state)};
     double most = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_kind *kind = &m->kind[m->element[i].kind];
-        const section *s = &m->section[kind->section];
+    for (int i = 0; i < model_elements(m); i++) {
+        const mesh_kind *kind = model_kind_of(m, i);
+        const section *s = model_section(m, kind->section);
         double end[2][7];
         for (int k = 0; k < 2; k++)
-            internal_at_end(&n->c->eq, &at, m->element[i].member, k, end[k]);
+            internal_at_end(&n->c->eq, &at, model_element(m, i)->member, k, end[k]);
         const double EI = s->young * fmin(s->Iy, s->Iz), thrust = -fmin(end[0][0], end[1][0]);
         if (EI > 0) /* of a section by matrices: 0 */
             most = fmax(most, thrust * kind->length * kind->length / (PI * PI * EI));

@@ -72,10 +72,10 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;
-    for (int i = 0; i < m->elements; i++)
-        count = collect_of(&m->element[i], p, count, row, column);
-    for (int i = 0; i < m->discretes; i++)
-        count = collect_of(&m->discrete[i].el, p, count, row, column);
+    for (int i = 0; i < m->mesh.elements; i++)
+        count = collect_of(&m->mesh.element[i], p, count, row, column);
+    for (int i = 0; i < m->mesh.discretes; i++)
+        count = collect_of(&m->mesh.discrete[i].el, p, count, row, column);
     return count;
 }
 
@@ -188,13 +188,13 @@ static status add_layout(mesh_pattern *p, int entries, const mesh_entry entry[],
 static status find_places(const model *m, mesh_pattern *p, fault *f)
 {
     mesh_entry entry[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
-    p->element = m->element;
-    p->layout_of = malloc(((size_t)m->elements + 1) * sizeof *p->layout_of);
+    p->element = m->mesh.element;
+    p->layout_of = malloc(((size_t)m->mesh.elements + 1) * sizeof *p->layout_of);
     if (p->layout_of == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
                          p->matrix.n);
-    for (int i = 0; i < m->elements; i++) {
-        const int entries = entries_of(&m->element[i], p, entry);
+    for (int i = 0; i < m->mesh.elements; i++) {
+        const int entries = entries_of(&m->mesh.element[i], p, entry);
         p->layout_of[i] = find_layout(p, entries, entry);
         if (p->layout_of[i] != NONE)
             continue;
@@ -246,7 +246,7 @@ static status make(const model *m, assemble_patterns *all, int which, const spar
     if (p->made)
         return STATUS_OK;
     const int with_driven = which == WITH_DRIVEN || which == WHOLE_WITH_DRIVEN;
-    p->matrix.n = with_driven ? m->free + m->driven : m->free;
+    p->matrix.n = with_driven ? m->mesh.free + m->mesh.driven : m->mesh.free;
     p->matrix.symmetric = which <= WITH_DRIVEN;
     p->matrix.by_numbers = which >= WHOLE;
     const status outcome = fill_pattern(m, p, f);

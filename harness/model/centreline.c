@@ -15,7 +15,8 @@ static const double drawn_part = 0.1, drawn_rotation = 0.5; /* of the size; [rad
 /* Gaps between the vertices of a member, and pieces of each gap. */
 static int gaps_of(const model *m, int member)
 {
-    return (m->first_element[member + 1] - m->first_element[member]) * (m->nodes - 1);
+    return (m->mesh.first_element[member + 1] - m->mesh.first_element[member]) *
+           (m->mesh.nodes - 1);
 }
 
 static int pieces_of(const model *m, int member)
@@ -48,18 +49,18 @@ typedef struct span {
 
 static void span_of(const model *m, const model_state *s, int element, span *out)
 {
-    const mesh_element *el = &m->element[element];
-    const element_data *data = m->kind[el->kind].data;
-    const double *sigma = &s->sigma[(size_t)element * (size_t)m->strains];
+    const mesh_element *el = &m->mesh.element[element];
+    const element_data *data = m->mesh.kind[el->kind].data;
+    const double *sigma = &s->sigma[(size_t)element * (size_t)m->mesh.strains];
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(out, 0, sizeof *out);
-    out->nodes = m->nodes;
-    out->gap = m->kind[el->kind].length / (m->nodes - 1);
+    out->nodes = m->mesh.nodes;
+    out->gap = m->mesh.kind[el->kind].length / (m->mesh.nodes - 1);
     kinematics_gather(m, s, el, out->x);
-    for (int k = 0; k < m->nodes; k++)
+    for (int k = 0; k < m->mesh.nodes; k++)
         rotation_from_matrix(out->x[k].R, out->q[k]);
-    m->type->strain(data, out->x, &(strain_output){.J = J});
-    dense_add_transpose_mul(m->coordinates, m->strains, 1, J, sigma, out->force);
+    m->mesh.type->strain(data, out->x, &(strain_output){.J = J});
+    dense_add_transpose_mul(m->mesh.coordinates, m->mesh.strains, 1, J, sigma, out->force);
 }
 
 /* Cubic from node k to the next at t = 0 .. 1: position and direction. */
@@ -125,8 +126,8 @@ static void point_at(const span *e, int k, double t, centreline_point *p)
 void centreline_fill(const model *m, const model_state *s, centreline_point out[])
 {
     for (int member = 0; member < m->scene->members; member++) {
-        const int last = m->first_element[member + 1] - 1, pieces = pieces_of(m, member);
-        for (int i = m->first_element[member]; i <= last; i++) {
+        const int last = m->mesh.first_element[member + 1] - 1, pieces = pieces_of(m, member);
+        for (int i = m->mesh.first_element[member]; i <= last; i++) {
             span e;
             span_of(m, s, i, &e);
             for (int k = 0; k + 1 < e.nodes; k++)
@@ -161,22 +162,22 @@ static void increment_of_node(const model *m, const model_state *s, int node, co
 /* Increments of a vertex's frame: translation, spatial rotation. */
 static void increments_of(const model *m, const model_state *s, const double x[], double out[])
 {
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < m->mesh.elements; i++) {
         double local[ELEMENT_MAX_COORDINATES];
-        kinematics_local(m, s, &m->element[i], x, local);
-        for (int k = 0; k < m->nodes; k++)
-            memcpy(&out[6 * m->element[i].vertex[k]], &local[NODE_COORDINATES * k],
+        kinematics_local(m, s, &m->mesh.element[i], x, local);
+        for (int k = 0; k < m->mesh.nodes; k++)
+            memcpy(&out[6 * m->mesh.element[i].vertex[k]], &local[NODE_COORDINATES * k],
                    6 * sizeof(double));
     }
-    for (int i = m->first_release; i < m->vertices; i++)
-        increment_of_node(m, s, m->release[i - m->first_release].node, x, out);
+    for (int i = m->mesh.first_release; i < m->mesh.vertices; i++)
+        increment_of_node(m, s, m->mesh.release[i - m->mesh.first_release].node, x, out);
 }
 
 /* Makes a mode visible: its translations, or its rotations when these are larger. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
-    for (int v = 0; v < m->vertices; v++)
+    for (int v = 0; v < m->mesh.vertices; v++)
         scale = fmin(scale, fmin(drawn_part * m->size / vec3_norm(&increment[6 * v]),
                                  drawn_rotation / vec3_norm(&increment[6 * v + 3])));
     return isfinite(scale) ? scale : 1;
@@ -185,7 +186,7 @@ static double visible_scale(const model *m, const double increment[])
 /* s: moved by scale x the increments[vertices x 6]. */
 static void displace(const model *m, double scale, const double increment[], model_state *s)
 {
-    for (int v = 0; v < m->vertices; v++) {
+    for (int v = 0; v < m->mesh.vertices; v++) {
         double rotation_vector[3], q[4];
         for (int i = 0; i < 3; i++) {
             s->u[3 * v + i] += scale * increment[6 * v + i];
@@ -200,7 +201,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
                             const double sigma[], double *scale, model_state **out, fault *f)
 {
     TRY(kinematics_state_alloc(m, out, f));
-    double *increment = calloc((size_t)m->vertices * 6 + 1, sizeof *increment);
+    double *increment = calloc((size_t)m->mesh.vertices * 6 + 1, sizeof *increment);
     if (increment == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a picture");
     kinematics_state_copy(m, from, *out);
@@ -209,7 +210,8 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
         *scale = visible_scale(m, increment);
     displace(m, *scale, increment, *out);
     if (sigma != NULL)
-        memcpy((*out)->sigma, sigma, (size_t)m->elements * (size_t)m->strains * sizeof *sigma);
+        memcpy((*out)->sigma, sigma,
+               (size_t)m->mesh.elements * (size_t)m->mesh.strains * sizeof *sigma);
     free(increment);
     return STATUS_OK;
 }

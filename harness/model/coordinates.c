@@ -30,7 +30,7 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
 static int leaves_plane(const model *m, int vertex, int component)
 {
     const int normal = scene_normal(m->scene), turn = component - SCENE_RX;
-    const mesh_vertex *v = &m->vertex[vertex];
+    const mesh_vertex *v = &m->mesh.vertex[vertex];
     if (normal == SCENE_NONE)
         return 0;
     if (turn < 0)
@@ -52,7 +52,7 @@ static int motion_of(const model *m, int vertex, int component)
         component < SCENE_RX ? n->translation[component] : n->angle[component - SCENE_RX];
     if (component < SCENE_RX)
         return motion;
-    const mesh_vertex *v = &m->vertex[vertex];
+    const mesh_vertex *v = &m->mesh.vertex[vertex];
     const int angle = component - SCENE_RX,
               sequence = n->rotation == SCENE_ROTATION_SEQUENCE || v->angles > 0;
     return (sequence && angle >= v->angles) || (v->idle >> angle & 1) ? SCENE_HELD : motion;
@@ -74,22 +74,22 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
 /* A vertex that nothing is connected to must not become a row of zeros. */
 static void mark_used(const model *m, char *used)
 {
-    for (int i = 0; i < m->elements; i++)
-        for (int k = 0; k < m->nodes; k++)
-            used[m->vertex[m->element[i].vertex[k]].body] = 1;
-    for (int i = m->discretes - m->springs; i < m->discretes; i++)
-        for (int k = 0; k < m->discrete[i].el.nodes; k++)
-            used[m->vertex[m->discrete[i].el.vertex[k]].body] = 1;
+    for (int i = 0; i < m->mesh.elements; i++)
+        for (int k = 0; k < m->mesh.nodes; k++)
+            used[m->mesh.vertex[m->mesh.element[i].vertex[k]].body] = 1;
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++)
+        for (int k = 0; k < m->mesh.discrete[i].el.nodes; k++)
+            used[m->mesh.vertex[m->mesh.discrete[i].el.vertex[k]].body] = 1;
 }
 
 /* What a released end keeps to itself: shifts first, turns behind. */
 static void number_release(model *m, int index)
 {
-    mesh_vertex *v = &m->vertex[index];
+    mesh_vertex *v = &m->mesh.vertex[index];
     const mesh_release *r = release_of(m, index);
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
         const int own = c < SCENE_RX ? c < r->slides : c - SCENE_RX < r->turns;
-        v->coordinate[c] = own ? m->free++ : NONE;
+        v->coordinate[c] = own ? m->mesh.free++ : NONE;
     }
 }
 
@@ -101,7 +101,7 @@ typedef struct tally {
 
 static void number_vertex(model *m, int index, int pass, int used, tally *of)
 {
-    mesh_vertex *v = &m->vertex[index];
+    mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
         const int motion = v->body == index ? motion_of(m, index, c) : SCENE_HELD;
         const int vector = c >= SCENE_RX && v->vector_driver[0] != NONE;
@@ -116,35 +116,35 @@ static void number_vertex(model *m, int index, int pass, int used, tally *of)
                 *(leaves_plane(m, index, c) ? &of->across : &of->held) += 1;
             of->unused += motion == SCENE_FREE && !used && c == 0;
             if (is_free)
-                v->coordinate[c] = m->free++;
+                v->coordinate[c] = m->mesh.free++;
             if (condition != NONE)
-                m->driver_coordinate[motion] = v->coordinate[c];
+                m->mesh.driver_coordinate[motion] = v->coordinate[c];
         } else if (driver && condition == NONE) {
-            if (m->driver_coordinate[motion] == NONE)
-                m->driver_coordinate[motion] = m->free + m->driven++;
-            v->coordinate[c] = m->driver_coordinate[motion];
+            if (m->mesh.driver_coordinate[motion] == NONE)
+                m->mesh.driver_coordinate[motion] = m->mesh.free + m->mesh.driven++;
+            v->coordinate[c] = m->mesh.driver_coordinate[motion];
         } else if (vector || kept) {
-            v->coordinate[c] = m->free + m->driven++;
+            v->coordinate[c] = m->mesh.free + m->mesh.driven++;
         }
     }
 }
 
 static status number_vertices(model *m, tally *of, fault *f)
 {
-    char *used = calloc((size_t)m->vertices, 1);
+    char *used = calloc((size_t)m->mesh.vertices, 1);
     if (used == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory");
     mark_used(m, used);
     for (int pass = 0; pass < 2; pass++) {
         /* The warping amplitudes come between: they are free. */
-        for (int i = 0; i < m->first_release; i++)
+        for (int i = 0; i < m->mesh.first_release; i++)
             number_vertex(m, i, pass, used[i], of);
         if (pass > 0)
             continue;
-        for (int i = m->first_release; i < m->vertices; i++)
+        for (int i = m->mesh.first_release; i < m->mesh.vertices; i++)
             number_release(m, i);
-        for (int i = 0; i < m->warps; i++)
-            m->warp[i].coordinate = m->free++;
+        for (int i = 0; i < m->mesh.warps; i++)
+            m->mesh.warp[i].coordinate = m->mesh.free++;
     }
     free(used);
     return of->unused > 0
@@ -154,13 +154,13 @@ static status number_vertices(model *m, tally *of, fault *f)
 
 int coordinates_held_turn(const model *m, int node)
 {
-    const mesh_vertex *v = &m->vertex[node];
+    const mesh_vertex *v = &m->mesh.vertex[node];
     int held = NONE, count = 0;
     if (v->body != node || v->angles > 0 || v->vector_driver[0] != NONE)
         return NONE;
     for (int k = 0; k < 3; k++) {
         const int coordinate = v->coordinate[SCENE_RX + k];
-        if (coordinate != NONE && coordinate < m->free)
+        if (coordinate != NONE && coordinate < m->mesh.free)
             continue;
         held = v->idle >> k & 1 ? NONE : k;
         count++;
@@ -172,7 +172,7 @@ int coordinates_held_turn(const model *m, int node)
  * node turns, unless that is beside the body. */
 static void index_release(const model *m, int node, mesh_element *el)
 {
-    const mesh_vertex *v = &m->vertex[el->vertex[node]];
+    const mesh_vertex *v = &m->mesh.vertex[el->vertex[node]];
     const mesh_release *r = release_of(m, el->vertex[node]);
     for (int k = 0; k < r->turns; k++)
         el->index[el->columns++] = v->coordinate[SCENE_RX + k];
@@ -189,11 +189,11 @@ static void index_element(model *m, mesh_element *el)
     el->plain = 1;
     el->columns = NODE_COORDINATES * el->nodes;
     for (int k = 0; k < el->nodes; k++) {
-        const mesh_vertex *v = &m->vertex[el->vertex[k]], *body = &m->vertex[v->body];
+        const mesh_vertex *v = &m->mesh.vertex[el->vertex[k]], *body = &m->mesh.vertex[v->body];
         for (int c = 0; c < VERTEX_COORDINATES; c++)
             el->index[NODE_COORDINATES * k + c] = body->coordinate[c];
         el->index[NODE_COORDINATES * k + 6] =
-            el->warp[k] == NONE ? NONE : m->warp[el->warp[k]].coordinate;
+            el->warp[k] == NONE ? NONE : m->mesh.warp[el->warp[k]].coordinate;
         el->plain &= v->body == el->vertex[k] && body->angles == 0;
         if (release_of(m, el->vertex[k]) != NULL)
             index_release(m, k, el);
@@ -203,12 +203,12 @@ static void index_element(model *m, mesh_element *el)
 static int fixed_warps(const model *m, int *absent)
 {
     int fixed = 0;
-    for (int i = 0; i < m->elements; i++)
-        for (int k = 0; k < m->nodes; k++) {
+    for (int i = 0; i < m->mesh.elements; i++)
+        for (int k = 0; k < m->mesh.nodes; k++) {
             unsigned features;
-            features_of_section(m, m->kind[m->element[i].kind].section, &features, NULL);
+            features_of_section(m, m->mesh.kind[m->mesh.element[i].kind].section, &features, NULL);
             *absent += !(features & FEATURE_WARPING);
-            fixed += (features & FEATURE_WARPING) && m->element[i].warp[k] == NONE;
+            fixed += (features & FEATURE_WARPING) && m->mesh.element[i].warp[k] == NONE;
         }
     return fixed;
 }
@@ -218,7 +218,7 @@ static status note_left_out(model *m, const tally *of, fault *f)
 {
     int absent = 0, attached = 0;
     for (int i = 0; i < m->scene->nodes; i++)
-        attached += m->vertex[i].body != i;
+        attached += m->mesh.vertex[i].body != i;
     const int fixed = fixed_warps(m, &absent);
     if (of->held > 0)
         TRY(coordinates_note_left_out(m, f, "%d held coordinates", of->held));
@@ -234,8 +234,8 @@ static status note_left_out(model *m, const tally *of, fault *f)
             m, f, "warping amplitudes of %d element ends: nothing warps there", absent));
     if (fixed > 0)
         TRY(coordinates_note_left_out(m, f, "%d warping amplitudes held at zero", fixed));
-    if (m->driven > 0)
-        TRY(coordinates_note_left_out(m, f, "rows of %d prescribed coordinates", m->driven));
+    if (m->mesh.driven > 0)
+        TRY(coordinates_note_left_out(m, f, "rows of %d prescribed coordinates", m->mesh.driven));
     return STATUS_OK;
 }
 
@@ -243,11 +243,11 @@ status coordinates_number(model *m, fault *f)
 {
     tally of = {0, 0, 0};
     for (int i = 0; i < m->scene->drivers; i++)
-        m->driver_coordinate[i] = NONE;
+        m->mesh.driver_coordinate[i] = NONE;
     TRY(number_vertices(m, &of, f));
-    for (int i = 0; i < m->elements; i++)
-        index_element(m, &m->element[i]);
-    for (int i = 0; i < m->discretes; i++)
-        index_element(m, &m->discrete[i].el);
+    for (int i = 0; i < m->mesh.elements; i++)
+        index_element(m, &m->mesh.element[i]);
+    for (int i = 0; i < m->mesh.discretes; i++)
+        index_element(m, &m->mesh.discrete[i].el);
     return note_left_out(m, &of, f);
 }

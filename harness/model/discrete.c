@@ -10,6 +10,7 @@
 #include "elements/math/offset.h"
 #include "harness/model/body.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/model_impl.h"
 #include "harness/model/spring.h"
 #include "harness/model/turns.h"
 
@@ -32,10 +33,10 @@ static void begin(const int nodes, const int vertex[], mesh_discrete *d)
 static void add_spring(model *m, const scene_spring *spring)
 {
     const int both[2] = {spring->p, spring->q}, one = spring->p == SCENE_NONE;
-    mesh_discrete *d = &m->discrete[m->discretes++];
+    mesh_discrete *d = &m->mesh.discrete[m->mesh.discretes++];
     begin(one ? 1 : 2, one ? &both[1] : both, d);
     d->spring = spring;
-    m->springs++;
+    m->mesh.springs++;
 }
 
 status discrete_build(model *m, fault *f)
@@ -45,13 +46,13 @@ status discrete_build(model *m, fault *f)
         count += scene_has_body(&m->scene->node[i]);
     if (count == 0)
         return STATUS_OK;
-    m->discrete = calloc((size_t)count, sizeof *m->discrete);
-    if (m->discrete == NULL)
+    m->mesh.discrete = calloc((size_t)count, sizeof *m->mesh.discrete);
+    if (m->mesh.discrete == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for rigid bodies and springs");
     for (int i = 0; i < m->scene->nodes; i++)
         if (scene_has_body(&m->scene->node[i])) {
-            begin(1, &i, &m->discrete[m->discretes]);
-            m->discrete[m->discretes++].body = &m->scene->node[i].body;
+            begin(1, &i, &m->mesh.discrete[m->mesh.discretes]);
+            m->mesh.discrete[m->mesh.discretes++].body = &m->scene->node[i].body;
         }
     for (int i = 0; i < m->scene->springs; i++)
         add_spring(m, &m->scene->spring[i]);
@@ -116,8 +117,8 @@ void discrete_equations(const model *m, const model_state *s, const mesh_discret
 void discrete_inertia(const model *m, const model_state *s, const element_rotating_frame *frame,
                       sparse *M, sparse *G)
 {
-    for (int i = 0; i < m->discretes - m->springs; i++) {
-        const mesh_discrete *d = &m->discrete[i];
+    for (int i = 0; i < m->mesh.discretes - m->mesh.springs; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
         node_state x[ELEMENT_MAX_NODES];
         double mass[X * X], gyroscopic[X * X];
         kinematics_gather(m, s, &d->el, x);
@@ -133,8 +134,8 @@ void discrete_inertia(const model *m, const model_state *s, const element_rotati
 
 void discrete_material_product(const model *m, const model_state *s, const double x[], double y[])
 {
-    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
-        const mesh_discrete *d = &m->discrete[i];
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
         const int n = NODE_COORDINATES * d->el.nodes;
         double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS], force[X] = {0};
         spring_state p;
@@ -151,18 +152,18 @@ void discrete_material_product(const model *m, const model_state *s, const doubl
 void discrete_geometric(const model *m, const model_state *s, const element_rotating_frame *frame,
                         sparse *out)
 {
-    for (int i = 0; i < m->discretes; i++) {
+    for (int i = 0; i < m->mesh.discretes; i++) {
         double force[X], K[X * X];
-        eliminated(m, s, &m->discrete[i], frame, 0, force, K);
-        assemble_discrete(&m->discrete[i].el, K, out);
+        eliminated(m, s, &m->mesh.discrete[i], frame, 0, force, K);
+        assemble_discrete(&m->mesh.discrete[i].el, K, out);
     }
 }
 
 double discrete_material_rounding(const model *m, const model_state *s, const double x[])
 {
     double sum = 0;
-    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
-        const mesh_discrete *d = &m->discrete[i];
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
         const int n = NODE_COORDINATES * d->el.nodes;
         double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS];
         spring_state p;
@@ -180,9 +181,9 @@ double discrete_material_rounding(const model *m, const model_state *s, const do
 double discrete_stored(const model *m, const model_state *s)
 {
     double sum = 0;
-    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
         spring_state p;
-        spring_at(m, s, &m->discrete[i], &p);
+        spring_at(m, s, &m->mesh.discrete[i], &p);
         sum += dense_dot(SPRING_STRAINS, p.e, p.sigma) / 2;
     }
     return sum;
@@ -191,13 +192,13 @@ double discrete_stored(const model *m, const model_state *s)
 void discrete_node_force(const model *m, const model_state *s, const element_rotating_frame *frame,
                          int node, double F[6])
 {
-    for (int i = 0; i < m->discretes; i++) {
-        const mesh_discrete *d = &m->discrete[i];
+    for (int i = 0; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
         double force[X], K[X * X];
         evaluate(m, s, d, frame, 1, force, K);
         for (int k = 0; k < d->el.nodes; k++) {
             double *at = force + NODE_COORDINATES * k, rho[3];
-            if (m->vertex[d->el.vertex[k]].body != node)
+            if (m->mesh.vertex[d->el.vertex[k]].body != node)
                 continue;
             kinematics_offset(m, s, d->el.vertex[k], rho);
             if (d->el.vertex[k] != node)

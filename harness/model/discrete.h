@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_MODEL_DISCRETE_H
 #define BEAMWORK_MODEL_DISCRETE_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
 
 status discrete_build(model *, fault *);
 /* Internal less centrifugal force (of the frame in that state) [7 nodes] and its tangent [7 nodes x

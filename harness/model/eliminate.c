@@ -22,7 +22,7 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
     if (el->plain)
         return;
     for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
-        const int v = el->vertex[k], body = m->vertex[v].body;
+        const int v = el->vertex[k], body = m->mesh.vertex[v].body;
         double rho[3], b[3][3];
         if (release_of(m, v) != NULL) {
             release_force(m, s, v, force + NODE_COORDINATES * k, force + own);
@@ -32,9 +32,9 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
             kinematics_offset(m, s, v, rho);
             offset_force(rho, force + NODE_COORDINATES * k);
         }
-        if (m->vertex[body].angles > 0) {
+        if (m->mesh.vertex[body].angles > 0) {
             kinematics_axes(m, s, body, b);
-            sequence_force(m->vertex[body].angles, b, force + NODE_COORDINATES * k);
+            sequence_force(m->mesh.vertex[body].angles, b, force + NODE_COORDINATES * k);
         }
     }
 }
@@ -74,7 +74,7 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
     if (n > NODE_COORDINATES * el->nodes)
         release_widen(el, K);
     for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
-        const int v = el->vertex[k], body = m->vertex[v].body;
+        const int v = el->vertex[k], body = m->mesh.vertex[v].body;
         double rho[3], b[3][3], moment[7];
         if (force != NULL)
             memcpy(moment, force + NODE_COORDINATES * k, sizeof moment);
@@ -89,9 +89,9 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
             if (force != NULL)
                 offset_force(rho, moment);
         }
-        if (m->vertex[body].angles > 0) {
+        if (m->mesh.vertex[body].angles > 0) {
             kinematics_axes(m, s, body, b);
-            sequence_matrix(n, NODE_COORDINATES * k, m->vertex[body].angles, b,
+            sequence_matrix(n, NODE_COORDINATES * k, m->mesh.vertex[body].angles, b,
                             force != NULL ? moment + 3 : NULL, K);
         }
     }

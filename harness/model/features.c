@@ -249,7 +249,7 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     const section *c = &m->section[index];
     const unsigned beyond_matrices =
         FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
-    *features = m->features & m->type->offers;
+    *features = m->features & m->mesh.type->offers;
     *features &= ~(c->matrices ? beyond_matrices : m->scene->omits & FEATURE_SHEAR);
     if (c->Iw <= 0 && !m->keep_all)
         *features &= ~(unsigned)FEATURE_WARPING;

@@ -35,4 +35,7 @@ const char *features_theory_words(const element_type *, unsigned theory);
  * structure. */
 unsigned features_needed_by_quantity(const scene *, int quantity);
 
+int features_eccentric(const section *c); /* its shear centre is not its centroid */
+status features_of_section(const model *m, int section, unsigned *features, fault *f);
+
 #endif

@@ -14,12 +14,12 @@
 void kinematics_position(const model *m, const model_state *s, int index, double r[3])
 {
     for (int i = 0; i < 3; i++)
-        r[i] = m->vertex[index].position[i] + s->u[3 * index + i];
+        r[i] = m->mesh.vertex[index].position[i] + s->u[3 * index + i];
 }
 
 void kinematics_offset(const model *m, const model_state *s, int index, double rho[3])
 {
-    const mesh_vertex *v = &m->vertex[index];
+    const mesh_vertex *v = &m->mesh.vertex[index];
     rotation_apply(&s->q[4 * v->body], v->offset, rho);
 }
 
@@ -27,7 +27,7 @@ void kinematics_offset(const model *m, const model_state *s, int index, double r
 static void sequence_orientation(const model *m, const model_state *s, int index, double b[][3],
                                  double q[4])
 {
-    const mesh_vertex *v = &m->vertex[index];
+    const mesh_vertex *v = &m->mesh.vertex[index];
     rotation_identity(q);
     for (int k = 0; k < v->angles; k++) {
         double turn[3], step[4];
@@ -50,10 +50,10 @@ void kinematics_axes(const model *m, const model_state *s, int index, double b[3
 void kinematics_follow(const model *m, model_state *s)
 {
     for (int i = 0; i < m->scene->nodes; i++)
-        if (m->vertex[i].angles > 0)
+        if (m->mesh.vertex[i].angles > 0)
             sequence_orientation(m, s, i, NULL, &s->q[4 * i]);
     for (int i = 0; i < m->scene->nodes; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+        const mesh_vertex *v = &m->mesh.vertex[i];
         if (v->body == i)
             continue;
         double rho[3];
@@ -83,7 +83,7 @@ void kinematics_gather(const model *m, const model_state *s, const mesh_element 
 static void body_increment(const model *m, const model_state *s, int body, const double dx[],
                            double out[6])
 {
-    const mesh_vertex *v = &m->vertex[body];
+    const mesh_vertex *v = &m->mesh.vertex[body];
     double d[6];
     for (int c = 0; c < 6; c++)
         d[c] = v->coordinate[c] == NONE ? 0 : dx[v->coordinate[c]];
@@ -110,7 +110,7 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
                        : dx[el->index[NODE_COORDINATES * k + c]];
         if (el->plain)
             continue;
-        const int v = el->vertex[k], body = m->vertex[v].body;
+        const int v = el->vertex[k], body = m->mesh.vertex[v].body;
         body_increment(m, s, body, dx, d);
         if (body != v) {
             double rho[3], moved[3];
@@ -134,7 +134,7 @@ double kinematics_component(const model *m, const model_state *s, int node, int 
 {
     if (component < SCENE_RX)
         return s->u[3 * node + component];
-    const mesh_vertex *v = &m->vertex[node];
+    const mesh_vertex *v = &m->mesh.vertex[node];
     if (v->body == node && v->angles == 0 && v->vector_driver[0] == NONE &&
         m->scene->node[node].angle[component - SCENE_RX] != SCENE_FREE)
         return s->angle[3 * node + component -
@@ -156,7 +156,7 @@ double kinematics_relative(const model *m, const model_state *s, int from, int n
         return t[component - SCENE_RX];
     }
     for (int i = 0; i < 3; i++) {
-        first[i] = m->vertex[node].position[i] - m->vertex[from].position[i];
+        first[i] = m->mesh.vertex[node].position[i] - m->mesh.vertex[from].position[i];
         apart[i] = first[i] + (s->u[3 * node + i] - s->u[3 * from + i]);
     }
     rotation_apply(back, apart, turned);
@@ -175,7 +175,7 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     double p[3], q[3], d[3], axis[3];
     const double *triad = el->triad[node], x[3] = {triad[0], triad[3], triad[6]};
     kinematics_position(m, s, el->vertex[0], p);
-    kinematics_position(m, s, el->vertex[m->nodes - 1], q);
+    kinematics_position(m, s, el->vertex[m->mesh.nodes - 1], q);
     for (int i = 0; i < 3; i++)
         d[i] = q[i] - p[i];
     rotation_apply(&s->q[4 * el->vertex[node]], x, axis);
@@ -187,17 +187,18 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
-    for (int k = 0; k + 1 < m->nodes; k++) {
+    for (int k = 0; k + 1 < m->mesh.nodes; k++) {
         const double *p = &s->q[4 * el->vertex[k]], *q = &s->q[4 * el->vertex[k + 1]];
         least = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
-        if (m->nodes > 2)
+        if (m->mesh.nodes > 2)
             turn += acos(fmax(-1, fmin(1, least)));
     }
-    if (m->nodes > 2)
+    if (m->mesh.nodes > 2)
         least = cos(fmin(turn, PI));
     if (!chords)
         return least;
-    const double cosine = fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, m->nodes - 1));
+    const double cosine =
+        fmin(chord_cosine(m, s, el, 0), chord_cosine(m, s, el, m->mesh.nodes - 1));
     return fmin(least, sqrt(fmax(0, (1 + cosine) / 2)));
 }
 
@@ -205,8 +206,8 @@ double kinematics_largest_turn(const model *m, const model_state *s, int chords,
 {
     double least = 1;
     *index = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const double half = half_cosine(m, s, &m->element[i], chords);
+    for (int i = 0; i < m->mesh.elements; i++) {
+        const double half = half_cosine(m, s, &m->mesh.element[i], chords);
         if (!(half >= least)) {
             least = half;
             *index = i;
@@ -221,7 +222,7 @@ static double twist_of(const model *m, const model_state *s, const mesh_element 
     double back[4], q[4];
     const double *triad = el->triad[0], x[3] = {triad[0], triad[3], triad[6]};
     rotation_conjugate(&s->q[4 * el->vertex[0]], back);
-    rotation_compose(back, &s->q[4 * el->vertex[m->nodes - 1]], q);
+    rotation_compose(back, &s->q[4 * el->vertex[m->mesh.nodes - 1]], q);
     const double angle = fabs(2 * atan2(vec3_dot(q + 1, x), q[0]));
     return angle > PI ? 2 * PI - angle : angle;
 }
@@ -230,8 +231,8 @@ double kinematics_largest_rise(const model *m, int *index)
 {
     double largest = 0;
     *index = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_kind *k = &m->kind[m->element[i].kind];
+    for (int i = 0; i < m->mesh.elements; i++) {
+        const mesh_kind *k = &m->mesh.kind[m->mesh.element[i].kind];
         const section *c = &m->section[k->section];
         const double square = c->matrices ? c->stiffness[35] / c->stiffness[0] : c->Iz / c->A,
                      rise = k->length * k->length * fabs(k->curvature[2]) / 8 / sqrt(square);
@@ -247,8 +248,8 @@ double kinematics_largest_twist(const model *m, const model_state *s, int *index
 {
     double largest = 0;
     *index = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const double twist = twist_of(m, s, &m->element[i]);
+    for (int i = 0; i < m->mesh.elements; i++) {
+        const double twist = twist_of(m, s, &m->mesh.element[i]);
         if (!(twist <= largest)) {
             largest = twist;
             *index = i;
@@ -259,7 +260,7 @@ double kinematics_largest_twist(const model *m, const model_state *s, int *index
 
 int kinematics_coordinate(const model *m, int node, int component)
 {
-    return m->vertex[node].body == node ? m->vertex[node].coordinate[component] : NONE;
+    return m->mesh.vertex[node].body == node ? m->mesh.vertex[node].coordinate[component] : NONE;
 }
 
 /* Coordinates of a released end behind those of its body: turns, shifts. Returns how many there
@@ -268,9 +269,9 @@ static int append_own(const model *m, int vertex, int size, int count, int index
 {
     const mesh_release *r = release_of(m, vertex);
     for (int k = 0; r != NULL && k < r->turns && count < size; k++)
-        index[count++] = m->vertex[vertex].coordinate[SCENE_RX + k];
+        index[count++] = m->mesh.vertex[vertex].coordinate[SCENE_RX + k];
     for (int k = 0; r != NULL && k < r->slides && count < size; k++)
-        index[count++] = m->vertex[vertex].coordinate[k];
+        index[count++] = m->mesh.vertex[vertex].coordinate[k];
     return count;
 }
 
@@ -278,7 +279,7 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
                              double T[])
 {
     const model_state *state = s != NULL ? s : m->rest;
-    const mesh_vertex *v = &m->vertex[node], *body = &m->vertex[v->body];
+    const mesh_vertex *v = &m->mesh.vertex[node], *body = &m->mesh.vertex[v->body];
     int count = 0, slot[6];
     for (int c = 0; c < 6; c++) {
         slot[c] = NONE;

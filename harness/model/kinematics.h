@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MODEL_KINEMATICS_H
 #define BEAMWORK_MODEL_KINEMATICS_H
 
-#include "harness/model/model.h"
+#include "harness/model/mesh.h"
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
 /* What kinematics_component and kinematics_driver_value read of a state, and its path: nothing else
@@ -14,8 +14,8 @@ void kinematics_state_copy(const model *, const model_state *from, model_state *
 double kinematics_state_path(const model_state *);
 const double *kinematics_strains(const model_state *); /* [elements x strains] */
 
-/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms:
- * what a state keeps is known in this one only. */
+/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms,
+ * which need not know what a state keeps (state.h). */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state,
  * of as many turns as the path has made; not a number: the vector has lost its direction on a full
@@ -44,5 +44,17 @@ int kinematics_node_jacobian(const model *, const model_state *, int node, int s
                              double T[]);
 /* Current offset of a vertex from its body [m]. */
 void kinematics_offset(const model *, const model_state *, int vertex, double rho[3]);
+
+/* Of an element in a state, as its type takes it: x[nodes]. */
+void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
+                       node_state x[]);
+void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
+/* Spatial axes of a sequence's angles in the present state: b[angles][3]. */
+void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
+/* Recomputes what depends on bodies' coordinates. */
+void kinematics_follow(const model *m, model_state *s);
+/* Increments of an element's own coordinates from those of the model: local[7 nodes]. */
+void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
+                      const double dx[], double local[]);
 
 #endif

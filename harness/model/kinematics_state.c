@@ -39,7 +39,7 @@ static status block_alloc(size_t size, model_state **out, fault *f)
 status kinematics_nodes_alloc(const model *m, const model_state *from, model_state **out, fault *f)
 {
     const size_t N = (size_t)m->scene->nodes, drivers = (size_t)m->scene->drivers;
-    const size_t turns = 3 * (size_t)m->turns;
+    const size_t turns = 3 * (size_t)m->mesh.turns;
     TRY(block_alloc(10 * N + drivers + turns, out, f));
     model_state *s = *out;
     s->path = from->path;
@@ -58,27 +58,28 @@ status kinematics_nodes_alloc(const model *m, const model_state *from, model_sta
 
 status kinematics_state_alloc(const model *m, model_state **out, fault *f)
 {
-    const size_t V = (size_t)m->vertices, E = (size_t)m->elements;
-    TRY(block_alloc(V * 10 + 3 * (size_t)m->releases + (size_t)m->warps +
-                        (size_t)m->scene->drivers + E * (size_t)(2 * m->strains + m->inner) +
-                        3 * (size_t)m->turns,
-                    out, f));
+    const size_t V = (size_t)m->mesh.vertices, E = (size_t)m->mesh.elements;
+    TRY(block_alloc(
+        V * 10 + 3 * (size_t)m->mesh.releases + (size_t)m->mesh.warps + (size_t)m->scene->drivers +
+            E * (size_t)(2 * m->mesh.strains + m->mesh.inner) + 3 * (size_t)m->mesh.turns,
+        out, f));
     model_state *s = *out;
     s->u = s->block;
     s->q = s->u + 3 * V;
     s->angle = s->q + 4 * V;
     s->shift = s->angle + 3 * V;
-    s->warp = s->shift + 3 * m->releases;
-    s->driver = s->warp + m->warps;
+    s->warp = s->shift + 3 * m->mesh.releases;
+    s->driver = s->warp + m->mesh.warps;
     s->e = s->driver + m->scene->drivers;
-    s->sigma = s->e + E * (size_t)m->strains;
-    s->inner = s->sigma + E * (size_t)m->strains;
-    s->turn = s->inner + E * (size_t)m->inner;
+    s->sigma = s->e + E * (size_t)m->mesh.strains;
+    s->inner = s->sigma + E * (size_t)m->mesh.strains;
+    s->turn = s->inner + E * (size_t)m->mesh.inner;
     for (size_t i = 0; i < V; i++)
         rotation_identity(&s->q[4 * i]);
-    if (m->type->rest != NULL)
+    if (m->mesh.type->rest != NULL)
         for (size_t i = 0; i < E; i++)
-            m->type->rest(m->kind[m->element[i].kind].data, &s->inner[i * (size_t)m->inner]);
+            m->mesh.type->rest(m->mesh.kind[m->mesh.element[i].kind].data,
+                               &s->inner[i * (size_t)m->mesh.inner]);
     return STATUS_OK;
 }
 

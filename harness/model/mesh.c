@@ -51,7 +51,7 @@ static void scene_vertices(model *m)
 {
     const scene *s = m->scene;
     for (int i = 0; i < s->nodes; i++) {
-        mesh_vertex *v = &m->vertex[i];
+        mesh_vertex *v = &m->mesh.vertex[i];
         const scene_node *n = &s->node[i];
         memcpy(v->position, n->position, sizeof v->position);
         v->body = n->attached == SCENE_NONE ? i : n->attached;
@@ -83,8 +83,8 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
     int modal = 0;
     for (int i = 0; i < m->scene->analyses; i++)
         modal |= m->scene->analysis[i].kind == SCENE_MODAL;
-    if (!modal || m->scene->lumped || m->nodes != 2 || m->type->mass_of_field == NULL ||
-        !m->type->mass_of_field(m->options))
+    if (!modal || m->scene->lumped || m->mesh.nodes != 2 || m->mesh.type->mass_of_field == NULL ||
+        !m->mesh.type->mass_of_field(m->options))
         return STATUS_OK;
     k->inner = malloc(FIELD_INNER * FIELD_INNER * sizeof *k->inner);
     if (k->inner == NULL)
@@ -99,14 +99,14 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
                       double rounding, const double curvature[3], int *out, fault *f)
 {
     int *end = &m->kind_of_section[profile];
-    for (; *end != NONE; end = &m->kind[*end].next)
-        if (fabs(m->kind[*end].length - length) <= 1e-12 * length + rounding &&
-            same_vector(m->kind[*end].curvature, curvature) &&
-            same_vector(m->kind[*end].strain, member->strain)) {
+    for (; *end != NONE; end = &m->mesh.kind[*end].next)
+        if (fabs(m->mesh.kind[*end].length - length) <= 1e-12 * length + rounding &&
+            same_vector(m->mesh.kind[*end].curvature, curvature) &&
+            same_vector(m->mesh.kind[*end].strain, member->strain)) {
             *out = *end;
             return STATUS_OK;
         }
-    mesh_kind *k = &m->kind[m->kinds];
+    mesh_kind *k = &m->mesh.kind[m->mesh.kinds];
     element_request request = {
         .section = &m->section[profile], .length = length, .options = m->options, .type = m->given};
     memcpy(request.curvature, curvature, sizeof request.curvature);
@@ -117,14 +117,14 @@ static status kind_of(model *m, const scene_member *member, int profile, double 
     k->length = length;
     memcpy(k->curvature, curvature, sizeof k->curvature);
     memcpy(k->strain, member->strain, sizeof k->strain);
-    k->data_size = m->type->data_size(&request);
+    k->data_size = m->mesh.type->data_size(&request);
     k->data = calloc(1, k->data_size);
     if (k->data == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for an element");
-    *out = *end = m->kinds++;
-    field_prepare(&request, m->nodes, &k->field);
+    *out = *end = m->mesh.kinds++;
+    field_prepare(&request, m->mesh.nodes, &k->field);
     TRY(set_inner(m, &request, k, f));
-    return m->type->prepare(&request, k->data, f);
+    return m->mesh.type->prepare(&request, k->data, f);
 }
 
 /* Where each element has a section of its own, its axes too. */
@@ -140,11 +140,11 @@ static status arc_of_element(const model *m, int member, int profile, const memb
 /* Where triad[nodes] are kept: with those of the element before where they are the same. */
 static mesh_triad *keep_triads(model *m, mesh_triad triad[])
 {
-    const size_t size = (size_t)m->nodes * sizeof *triad;
+    const size_t size = (size_t)m->mesh.nodes * sizeof *triad;
     mesh_triad *next = m->triad + m->triads;
-    if (m->triads > 0 && memcmp(next - m->nodes, triad, size) == 0)
-        return next - m->nodes;
-    m->triads += m->nodes;
+    if (m->triads > 0 && memcmp(next - m->mesh.nodes, triad, size) == 0)
+        return next - m->mesh.nodes;
+    m->triads += m->mesh.nodes;
     memcpy(next, triad, size);
     return next;
 }
@@ -153,7 +153,7 @@ static mesh_triad *keep_triads(model *m, mesh_triad triad[])
 static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
 {
-    mesh_element *el = &m->element[m->elements];
+    mesh_element *el = &m->mesh.element[m->mesh.elements];
     const scene_member *sm = &m->scene->member[member];
     const int profile = profile_at(m, member, number), n = division_elements(&m->division, member),
               each = m->division.each[member];
@@ -162,12 +162,12 @@ static status add_element(model *m, const member_arc *along, int member, int num
     member_arc here;
     TRY(arc_of_element(m, member, profile, along, &here, f));
     const member_arc *a = &here;
-    const int curved = (m->type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
-              last = m->nodes - 1;
+    const int curved = (m->mesh.type->offers & FEATURE_CURVATURE) && vec3_norm(a->k) > 0,
+              last = m->mesh.nodes - 1;
     const double straight[3] = {0, 0, 0};
     mesh_triad triad[ELEMENT_MAX_NODES];
     el->member = member;
-    el->nodes = m->nodes;
+    el->nodes = m->mesh.nodes;
     for (int k = 0; k <= last; k++) {
         const int at_start = number == 0 && k == 0, at_end = number == n - 1 && k == last;
         el->vertex[k] = inner_vertex + number * last + k - 1;
@@ -175,7 +175,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
             el->vertex[k] = sm->p;
         else if (at_end)
             el->vertex[k] = sm->q;
-        mesh_vertex *v = &m->vertex[el->vertex[k]];
+        mesh_vertex *v = &m->mesh.vertex[el->vertex[k]];
         double position[3], between[3];
         member_arc_at(a,
                       a->length * ends[0] +
@@ -190,7 +190,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
         if (k < last || curved)
             continue;
         /* Not curved: one triad along the chord. */
-        const double *p = m->vertex[el->vertex[0]].position;
+        const double *p = m->mesh.vertex[el->vertex[0]].position;
         double y[3];
         for (int i = 0; i < 3; i++) {
             between[i] = v->position[i] - p[i];
@@ -201,12 +201,12 @@ static status add_element(model *m, const member_arc *along, int member, int num
                              scene_called(m->scene, SCENE_MEMBERS, member).text);
         for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
             memcpy(triad[i], triad[0], sizeof triad[0]);
-        m->elements++;
+        m->mesh.elements++;
         el->triad = keep_triads(m, triad);
         return kind_of(m, sm, profile, vec3_norm(between), 4 * DBL_EPSILON * vec3_norm(position),
                        straight, &el->kind, f);
     }
-    m->elements++;
+    m->mesh.elements++;
     el->triad = keep_triads(m, triad);
     return kind_of(m, sm, profile, a->length * (ends[1] - ends[0]) / each, 0, a->k, &el->kind, f);
 }
@@ -217,15 +217,15 @@ static int end_warp(model *m, int name, int *named)
     if (name == SCENE_WARP_FIXED)
         return NONE;
     if (name < 0)
-        return m->warps++;
+        return m->mesh.warps++;
     if (named[name] == NONE)
-        named[name] = m->warps++;
+        named[name] = m->mesh.warps++;
     return named[name];
 }
 
 static void add_warps(model *m, int *named)
 {
-    const int last = m->nodes - 1;
+    const int last = m->mesh.nodes - 1;
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
         const int profile = profile_at(m, member, 0); /* warps as the other elements: profile.c */
@@ -233,20 +233,20 @@ static void add_warps(model *m, int *named)
         features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,
                   nothing_warps = m->section[profile].Iw <= 0;
-        for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++)
+        for (int i = m->mesh.first_element[member]; i < m->mesh.first_element[member + 1]; i++)
             for (int k = 0; k <= last; k++) {
-                mesh_element *el = &m->element[i];
-                const int at_start = i == m->first_element[member] && k == 0,
-                          at_end = i + 1 == m->first_element[member + 1] && k == last;
+                mesh_element *el = &m->mesh.element[i];
+                const int at_start = i == m->mesh.first_element[member] && k == 0,
+                          at_end = i + 1 == m->mesh.first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
                 else if (nothing_warps) /* kept although nothing warps: an amplitude of its own
                                            changes nothing */
-                    el->warp[k] = m->warps++;
+                    el->warp[k] = m->mesh.warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
                 else
-                    el->warp[k] = k == 0 ? m->element[i - 1].warp[last] : m->warps++;
+                    el->warp[k] = k == 0 ? m->mesh.element[i - 1].warp[last] : m->mesh.warps++;
             }
     }
 }
@@ -289,17 +289,17 @@ static void set_shares(mesh_element *el, int count)
 
 static void share_mass(model *m)
 {
-    for (int i = 0, next; i < m->elements; i = next) {
-        mesh_element *el = &m->element[i];
-        for (next = i + 1; next < m->elements && m->element[next].member == el->member &&
-                           m->element[next].kind == el->kind;)
+    for (int i = 0, next; i < m->mesh.elements; i = next) {
+        mesh_element *el = &m->mesh.element[i];
+        for (next = i + 1; next < m->mesh.elements && m->mesh.element[next].member == el->member &&
+                           m->mesh.element[next].kind == el->kind;)
             next++;
-        if (m->nodes == 2)
+        if (m->mesh.nodes == 2)
             set_shares(el, next - i);
         else
             for (int k = i; k < next; k++)
-                memcpy(m->element[k].share, lumped_shares(m->nodes),
-                       (size_t)m->nodes * sizeof(double));
+                memcpy(m->mesh.element[k].share, lumped_shares(m->mesh.nodes),
+                       (size_t)m->mesh.nodes * sizeof(double));
     }
 }
 
@@ -329,17 +329,18 @@ static status allocate(model *m, fault *f)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: at most %.0f can be numbered", total,
                          most);
     const int ends = release_count(s);
-    m->first_release = s->nodes + (int)total * (m->nodes - 1) - s->members;
-    m->vertices = m->first_release + ends;
-    m->release = calloc((size_t)ends + 1, sizeof *m->release);
-    m->vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
-    m->element = calloc((size_t)total, sizeof *m->element);
-    m->triad = malloc((size_t)total * (size_t)m->nodes * sizeof *m->triad);
-    m->kind = calloc((size_t)total, sizeof *m->kind);
-    m->warp = calloc((size_t)total * ELEMENT_MAX_NODES, sizeof *m->warp);
-    m->first_element = calloc((size_t)s->members + 1, sizeof *m->first_element);
-    if (m->release == NULL || m->vertex == NULL || m->element == NULL || m->triad == NULL ||
-        m->kind == NULL || m->warp == NULL || m->first_element == NULL)
+    m->mesh.first_release = s->nodes + (int)total * (m->mesh.nodes - 1) - s->members;
+    m->mesh.vertices = m->mesh.first_release + ends;
+    m->mesh.release = calloc((size_t)ends + 1, sizeof *m->mesh.release);
+    m->mesh.vertex = calloc((size_t)m->mesh.vertices, sizeof *m->mesh.vertex);
+    m->mesh.element = calloc((size_t)total, sizeof *m->mesh.element);
+    m->triad = malloc((size_t)total * (size_t)m->mesh.nodes * sizeof *m->triad);
+    m->mesh.kind = calloc((size_t)total, sizeof *m->mesh.kind);
+    m->mesh.warp = calloc((size_t)total * ELEMENT_MAX_NODES, sizeof *m->mesh.warp);
+    m->mesh.first_element = calloc((size_t)s->members + 1, sizeof *m->mesh.first_element);
+    if (m->mesh.release == NULL || m->mesh.vertex == NULL || m->mesh.element == NULL ||
+        m->triad == NULL || m->mesh.kind == NULL || m->mesh.warp == NULL ||
+        m->mesh.first_element == NULL)
         return fault_set(f, STATUS_REFUSED, "%.0f elements: more than memory allows; give fewer",
                          total);
     return STATUS_OK;
@@ -369,13 +370,13 @@ status mesh_build(model *m, fault *f)
         const int n = division_elements(&m->division, member);
         member_arc a;
         TRY(member_arc_of(s, member, m->section[s->member[member].section].axes_angle, &a, f));
-        m->first_element[member] = m->elements;
+        m->mesh.first_element[member] = m->mesh.elements;
         for (int i = 0; i < n; i++)
             TRY(add_element(m, &a, member, i, inner_vertex, f));
-        inner_vertex += n * (m->nodes - 1) - 1;
+        inner_vertex += n * (m->mesh.nodes - 1) - 1;
         m->size = a.length > m->size ? a.length : m->size;
     }
-    m->first_element[s->members] = m->elements;
+    m->mesh.first_element[s->members] = m->mesh.elements;
     share_mass(m);
     TRY(release_build(m, f));
     const int names = largest_name(s) + 1;

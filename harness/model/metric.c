@@ -11,10 +11,10 @@
 static int moving_bodies(const model *m)
 {
     int count = 0;
-    for (int i = 0; i < m->vertices; i++) {
+    for (int i = 0; i < m->mesh.vertices; i++) {
         int moves = 0;
         for (int c = 0; c < VERTEX_COORDINATES; c++)
-            moves |= m->vertex[i].body == i && m->vertex[i].coordinate[c] != NONE;
+            moves |= m->mesh.vertex[i].body == i && m->mesh.vertex[i].coordinate[c] != NONE;
         count += moves;
     }
     return count > 0 ? count : 1;
@@ -23,14 +23,14 @@ static int moving_bodies(const model *m)
 void metric_of(const model *m, double weight[])
 {
     const double share = 1.0 / moving_bodies(m);
-    for (int k = 0; k < m->free + m->driven; k++)
+    for (int k = 0; k < m->mesh.free + m->mesh.driven; k++)
         weight[k] = 0;
-    for (int i = 0; i < m->vertices; i++) {
-        if (m->vertex[i].body != i)
+    for (int i = 0; i < m->mesh.vertices; i++) {
+        if (m->mesh.vertex[i].body != i)
             continue;
         for (int c = 0; c < VERTEX_COORDINATES; c++)
-            if (m->vertex[i].coordinate[c] != NONE)
-                weight[m->vertex[i].coordinate[c]] +=
+            if (m->mesh.vertex[i].coordinate[c] != NONE)
+                weight[m->mesh.vertex[i].coordinate[c]] +=
                     c < SCENE_RX ? share / (m->size * m->size) : share;
     }
 }
@@ -38,9 +38,9 @@ void metric_of(const model *m, double weight[])
 double metric_shift_part(const model *m, const double dx[])
 {
     double shift = 0, all = 0;
-    for (int i = 0; i < m->vertices; i++)
-        for (int c = 0; c < VERTEX_COORDINATES && m->vertex[i].body == i; c++) {
-            const int k = m->vertex[i].coordinate[c];
+    for (int i = 0; i < m->mesh.vertices; i++)
+        for (int c = 0; c < VERTEX_COORDINATES && m->mesh.vertex[i].body == i; c++) {
+            const int k = m->mesh.vertex[i].coordinate[c];
             const double x = k == NONE ? 0 : c < SCENE_RX ? dx[k] / m->size : dx[k];
             shift += c < SCENE_RX ? x * x : 0;
             all += x * x;
@@ -77,10 +77,10 @@ double metric_distance(const model *m, const model_state *a, const model_state *
                        const double light[])
 {
     double sum = 0;
-    for (int i = 0; i < m->vertices; i++) {
-        const double *P = light != NULL && i < m->first_release ? &light[18 * i] : NULL;
+    for (int i = 0; i < m->mesh.vertices; i++) {
+        const double *P = light != NULL && i < m->mesh.first_release ? &light[18 * i] : NULL;
         double d[3], angle[3];
-        if (m->vertex[i].body != i)
+        if (m->mesh.vertex[i].body != i)
             continue;
         for (int k = 0; k < 3; k++)
             d[k] = (b->u[3 * i + k] - a->u[3 * i + k]) / m->size;
@@ -95,8 +95,8 @@ double metric_distance(const model *m, const model_state *a, const model_state *
 double metric_turn_between(const model *m, const model_state *a, const model_state *b)
 {
     double largest = 0;
-    for (int i = 0; i < m->vertices; i++)
-        if (m->vertex[i].body == i)
+    for (int i = 0; i < m->mesh.vertices; i++)
+        if (m->mesh.vertex[i].body == i)
             largest = fmax(largest, turn(a, b, i));
     return largest;
 }

@@ -26,7 +26,7 @@ static int takes_loads(const model *m)
         along |= scene_load_along(&m->scene->load[i]);
     for (int i = 0; i < m->scene->analyses; i++)
         moves |= m->scene->analysis[i].kind == SCENE_MOTION;
-    return m->type->along != NULL && m->nodes == 2 && along && !moves;
+    return m->mesh.type->along != NULL && m->mesh.nodes == 2 && along && !moves;
 }
 
 static status choose_options(model *m, const double options[], fault *f)
@@ -37,15 +37,15 @@ static status choose_options(model *m, const double options[], fault *f)
         for (int i = 0; i < parameter_count(t->options); i++)
             m->options[i] = options[i];
     TRY(adapters_complete(t, m->options, &m->completed, f));
-    m->type = &m->completed;
-    m->nodes = element_nodes(t, m->options);
-    m->coordinates = NODE_COORDINATES * m->nodes;
-    m->strains = element_strains(m->type, m->options);
-    m->inner = element_inner(m->type, m->options);
-    m->memory = element_memory(m->type, m->options);
-    m->takes = takes_loads(m);
-    m->work_size =
-        m->strains * (m->coordinates + m->strains + 2) + m->memory + (m->takes ? slot_along(m) : 0);
+    m->mesh.type = &m->completed;
+    m->mesh.nodes = element_nodes(t, m->options);
+    m->mesh.coordinates = NODE_COORDINATES * m->mesh.nodes;
+    m->mesh.strains = element_strains(m->mesh.type, m->options);
+    m->mesh.inner = element_inner(m->mesh.type, m->options);
+    m->mesh.memory = element_memory(m->mesh.type, m->options);
+    m->mesh.takes = takes_loads(m);
+    m->mesh.work_size = m->mesh.strains * (m->mesh.coordinates + m->mesh.strains + 2) +
+                        m->mesh.memory + (m->mesh.takes ? slot_along(m) : 0);
     return STATUS_OK;
 }
 
@@ -58,16 +58,16 @@ static int stations_of(const scene_analysis *a)
  * take. */
 static status check_memory(const model *m, fault *f)
 {
-    const double entries = (double)m->coordinates * m->coordinates / 2,
-                 words = 10.0 * (m->nodes - 1) + 2 * m->strains + m->inner;
+    const double entries = (double)m->mesh.coordinates * m->mesh.coordinates / 2,
+                 words = 10.0 * (m->mesh.nodes - 1) + 2 * m->mesh.strains + m->mesh.inner;
     double count = 0, states = 3;
     char what[80];
     for (int i = 0; i < m->scene->members; i++)
         count += (double)division_pieces(&m->division, i) * m->division.each[i];
     for (int i = 0; i < m->scene->analyses; i++)
         states += stations_of(&m->scene->analysis[i]);
-    const double each = sizeof(mesh_element) + (m->nodes - 1) * sizeof(mesh_vertex) +
-                        sizeof(double) * (m->work_size + states * words) +
+    const double each = sizeof(mesh_element) + (m->mesh.nodes - 1) * sizeof(mesh_vertex) +
+                        sizeof(double) * (m->mesh.work_size + states * words) +
                         (2 * sizeof(int) + sizeof(double)) * entries;
     snprintf(what, sizeof what, "%.0f elements", count);
     return memory_check(count * each, what, "give fewer", f);
@@ -131,8 +131,9 @@ static status build(model *m, const model_request *request, fault *f)
     if (m->keep_all)
         m->features |= (FEATURE_WARPING | FEATURE_ECCENTRIC) & ~(m->omits | s->omits);
     TRY(choose_options(m, request->options, f));
-    m->driver_coordinate = malloc(((size_t)s->drivers + 1) * sizeof *m->driver_coordinate);
-    if (m->driver_coordinate == NULL)
+    m->mesh.driver_coordinate =
+        malloc(((size_t)s->drivers + 1) * sizeof *m->mesh.driver_coordinate);
+    if (m->mesh.driver_coordinate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for drivers");
     TRY(divide(m, f));
     TRY(mesh_build(m, f));
@@ -161,7 +162,7 @@ status model_alloc(const model_request *request, model **out, fault *f)
     if (m == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a model");
     m->scene = request->scene;
-    m->given = m->type = request->type;
+    m->given = m->mesh.type = request->type;
     m->keep_all = request->keep_all;
     m->asked = request->elements;
     const status outcome = build(m, request, f);
@@ -189,9 +190,9 @@ void model_free(model *m)
 {
     if (m == NULL)
         return;
-    for (int i = 0; i < m->kinds; i++) {
-        free(m->kind[i].data);
-        free(m->kind[i].inner);
+    for (int i = 0; i < m->mesh.kinds; i++) {
+        free(m->mesh.kind[i].data);
+        free(m->mesh.kind[i].inner);
     }
     for (int i = 0; i < m->lines; i++)
         free(m->line[i]);
@@ -199,40 +200,42 @@ void model_free(model *m)
     free(m->section);
     free(m->profile);
     free(m->kind_of_section);
-    free(m->vertex);
-    free(m->release);
-    free(m->element);
+    free(m->mesh.vertex);
+    free(m->mesh.release);
+    free(m->mesh.element);
     free(m->triad);
-    free(m->kind);
-    free(m->warp);
-    free(m->discrete);
+    free(m->mesh.kind);
+    free(m->mesh.warp);
+    free(m->mesh.discrete);
     free(m->turn);
-    free(m->first_element);
+    free(m->mesh.first_element);
     division_free(&m->division);
-    free(m->driver_coordinate);
+    free(m->mesh.driver_coordinate);
     kinematics_state_free(m->rest);
     free(m);
 }
 
 int model_spreads(const model *m, int analysis)
 {
-    return features_spreads(m->scene, analysis, m->type, m->options);
+    return features_spreads(m->scene, analysis, m->mesh.type, m->options);
 }
 
 model_size model_sizes(const model *m)
 {
-    return (model_size){m->elements, m->vertices, m->free,  m->driven,
-                        m->strains,  m->inner,    m->kinds, m->features};
+    return (model_size){m->mesh.elements, m->mesh.vertices, m->mesh.free,  m->mesh.driven,
+                        m->mesh.strains,  m->mesh.inner,    m->mesh.kinds, m->features};
 }
 
 const char *model_trouble(const model *m)
 {
-    return m->type->trouble != NULL && m->kinds > 0 ? m->type->trouble(m->kind[0].data) : NULL;
+    return m->mesh.type->trouble != NULL && m->mesh.kinds > 0
+               ? m->mesh.type->trouble(m->mesh.kind[0].data)
+               : NULL;
 }
 
 int model_stresses(const model *m)
 {
-    return m->elements * m->strains + SPRING_STRAINS * m->springs;
+    return m->mesh.elements * m->mesh.strains + SPRING_STRAINS * m->mesh.springs;
 }
 
 const scene *model_scene(const model *m)
@@ -242,12 +245,12 @@ const scene *model_scene(const model *m)
 
 int model_body(const model *m, int vertex)
 {
-    return m->vertex[vertex].body;
+    return m->mesh.vertex[vertex].body;
 }
 
 int model_is_released(const model *m, int vertex)
 {
-    return vertex >= m->first_release;
+    return vertex >= m->mesh.first_release;
 }
 
 double model_length(const model *m)
@@ -260,6 +263,26 @@ unsigned model_omits(const model *m)
     return m->omits;
 }
 
+unsigned model_features(const model *m)
+{
+    return m->features;
+}
+
+int model_keeps_all(const model *m)
+{
+    return m->keep_all;
+}
+
+const double *model_options(const model *m)
+{
+    return m->options;
+}
+
+const division *model_division(const model *m)
+{
+    return &m->division;
+}
+
 int model_left_out(const model *m, const char *const **lines)
 {
     *lines = (const char *const *)m->line;
@@ -268,17 +291,17 @@ int model_left_out(const model *m, const char *const **lines)
 
 unsigned model_leaves(const model *m)
 {
-    return m->type->leaves;
+    return m->mesh.type->leaves;
 }
 
 const char *model_formulation(const model *m)
 {
-    return m->type->name;
+    return m->mesh.type->name;
 }
 
 unsigned model_limits(const model *m)
 {
-    return m->type->limits;
+    return m->mesh.type->limits;
 }
 
 const section *model_section(const model *m, int index)
@@ -288,30 +311,30 @@ const section *model_section(const model *m, int index)
 
 int model_member_vertices(const model *m, int member, int vertex[])
 {
-    const int first = m->first_element[member], last = m->first_element[member + 1] - 1;
-    const int count = (last - first + 1) * (m->nodes - 1) + 1;
+    const int first = m->mesh.first_element[member], last = m->mesh.first_element[member + 1] - 1;
+    const int count = (last - first + 1) * (m->mesh.nodes - 1) + 1;
     if (vertex == NULL)
         return count;
     for (int i = first; i <= last; i++)
-        for (int k = 0; k < m->nodes; k++)
-            vertex[(i - first) * (m->nodes - 1) + k] = m->element[i].vertex[k];
+        for (int k = 0; k < m->mesh.nodes; k++)
+            vertex[(i - first) * (m->mesh.nodes - 1) + k] = m->mesh.element[i].vertex[k];
     return count;
 }
 
 int model_shape(const model *m, const double x[], double *u, double *position)
 {
     if (position != NULL)
-        for (int v = 0; v < m->vertices; v++)
-            memcpy(&position[3 * v], m->vertex[v].position, 3 * sizeof(double));
+        for (int v = 0; v < m->mesh.vertices; v++)
+            memcpy(&position[3 * v], m->mesh.vertex[v].position, 3 * sizeof(double));
     if (u == NULL)
-        return m->vertices;
-    memset(u, 0, (size_t)m->vertices * NODE_COORDINATES * sizeof *u);
-    for (int i = 0; i < m->elements; i++) {
+        return m->mesh.vertices;
+    memset(u, 0, (size_t)m->mesh.vertices * NODE_COORDINATES * sizeof *u);
+    for (int i = 0; i < m->mesh.elements; i++) {
         double local[ELEMENT_MAX_COORDINATES];
-        kinematics_local(m, m->rest, &m->element[i], x, local);
-        for (int k = 0; k < m->nodes; k++)
-            memcpy(&u[NODE_COORDINATES * m->element[i].vertex[k]], &local[NODE_COORDINATES * k],
-                   NODE_COORDINATES * sizeof(double));
+        kinematics_local(m, m->rest, &m->mesh.element[i], x, local);
+        for (int k = 0; k < m->mesh.nodes; k++)
+            memcpy(&u[NODE_COORDINATES * m->mesh.element[i].vertex[k]],
+                   &local[NODE_COORDINATES * k], NODE_COORDINATES * sizeof(double));
     }
-    return m->vertices;
+    return m->mesh.vertices;
 }

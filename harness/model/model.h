@@ -49,6 +49,7 @@ status model_coarse(const model *, model **, fault *);
 /* The same with twice as many elements. */
 status model_halved(const model *, model **, fault *);
 const scene *model_scene(const model *);
+int model_keeps_all(const model *); /* model_request.keep_all */
 /* The vertex that moves this one rigidly; itself: it has coordinates of its own. */
 int model_body(const model *, int vertex);
 /* 1: it is the vertex of a released end, behind those of nodes. */
@@ -58,6 +59,8 @@ double model_length(const model *);
 
 /* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits (missing.h). */
 unsigned model_omits(const model *);
+/* What it has of that: FEATURE_* bits. */
+unsigned model_features(const model *);
 /* What was left out, one line each ("warping coordinates of 12 ends: nothing warps there"). */
 int model_left_out(const model *, const char *const **lines);
 
@@ -69,8 +72,9 @@ const char *model_trouble(const model *);
 typedef struct model_state model_state;
 
 const char *model_formulation(const model *);
-unsigned model_limits(const model *); /* LIMIT_* of its formulation */
-unsigned model_leaves(const model *); /* LEAVES_* of it */
+const double *model_options(const model *); /* of it, all of them */
+unsigned model_limits(const model *);       /* LIMIT_* of its formulation */
+unsigned model_leaves(const model *);       /* LEAVES_* of it */
 /* Shape of a mode or state for identification and pictures: displacement (3), rotation (3) and
  * warping of every vertex in order along the members; returns vertices. u[vertices x 7],
  * position[vertices x 3] (undeformed). */

@@ -6,6 +6,7 @@
 
 #include "elements/section/taper.h"
 #include "harness/model/missing.h"
+#include "harness/model/model_impl.h"
 
 /* A change from one section of the scene to another in so many steps, from m->section[first] on. */
 typedef struct taper {
@@ -37,7 +38,8 @@ static status check_between(const model *m, int member, const section *c, fault 
     const scene_member *sm = &m->scene->member[member];
     const section *p = &m->section[sm->section], *q = &m->section[sm->section_q];
     const int cells = m->scene->section[sm->section].cells;
-    const char *limit = missing_in_section(m->type, c, cells, (m->features & FEATURE_WARPING) != 0);
+    const char *limit =
+        missing_in_section(m->mesh.type, c, cells, (m->features & FEATURE_WARPING) != 0);
     if ((c->Iw > 0) != (p->Iw > 0 || q->Iw > 0))
         limit = "warping in a part of a member only";
     else if (features_eccentric(c) && !features_eccentric(p) && !features_eccentric(q))

@@ -7,7 +7,7 @@
 #ifndef BEAMWORK_MODEL_PROFILE_H
 #define BEAMWORK_MODEL_PROFILE_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/model.h"
 
 /* Those of the scene. */
 status profile_scene(model *m, fault *f);

@@ -8,6 +8,7 @@
 #include "elements/math/offset.h"
 #include "elements/math/rotation.h"
 #include "harness/model/member_arc.h"
+#include "harness/model/model_impl.h"
 
 enum { BALL = 3 }; /* turns without order */
 
@@ -25,15 +26,16 @@ static void add_end(model *m, int member, int end, const double R[9])
 {
     const scene_member *sm = &m->scene->member[member];
     const scene_release *what = &sm->release[end];
-    const int node = end ? sm->q : sm->p, vertex = m->first_release + m->releases;
+    const int node = end ? sm->q : sm->p, vertex = m->mesh.first_release + m->mesh.releases;
     mesh_element *el =
-        &m->element[end ? m->first_element[member + 1] - 1 : m->first_element[member]];
-    mesh_release *r = &m->release[m->releases++];
+        &m->mesh
+             .element[end ? m->mesh.first_element[member + 1] - 1 : m->mesh.first_element[member]];
+    mesh_release *r = &m->mesh.release[m->mesh.releases++];
     r->node = node;
-    m->vertex[vertex] = m->vertex[node]; /* its place, and what moves that */
-    m->vertex[vertex].angles = 0;
+    m->mesh.vertex[vertex] = m->mesh.vertex[node]; /* its place, and what moves that */
+    m->mesh.vertex[vertex].angles = 0;
     for (int k = 0; k < 3; k++)
-        m->vertex[vertex].vector_driver[k] = NONE;
+        m->mesh.vertex[vertex].vector_driver[k] = NONE;
     el->vertex[end ? el->nodes - 1 : 0] = vertex;
     for (int k = 0; k < what->count; k++) {
         const int c = what->component[k], normal = scene_normal(m->scene);
@@ -84,8 +86,8 @@ static void follow_turns(const mesh_release *r, const double angle[3], const dou
 void release_turn_axes(const model *m, const model_state *s, int vertex, double b[3][3])
 {
     double q[4];
-    follow_turns(release_of(m, vertex), &s->angle[3 * vertex], &s->q[4 * m->vertex[vertex].body], b,
-                 q);
+    follow_turns(release_of(m, vertex), &s->angle[3 * vertex],
+                 &s->q[4 * m->mesh.vertex[vertex].body], b, q);
 }
 
 void release_slide_axes(const model *m, const model_state *s, int vertex, double along[3][3],
@@ -96,7 +98,7 @@ void release_slide_axes(const model *m, const model_state *s, int vertex, double
     for (int k = 0; k < r->slides; k++) {
         rotation_apply(&s->q[4 * vertex], r->slide[k], along[k]);
         for (int i = 0; i < 3; i++)
-            apart[i] += along[k][i] * s->shift[3 * (vertex - m->first_release) + k];
+            apart[i] += along[k][i] * s->shift[3 * (vertex - m->mesh.first_release) + k];
     }
 }
 
@@ -104,7 +106,7 @@ void release_add_local(const model *m, const model_state *s, int vertex, const d
                        double d[6])
 {
     const mesh_release *r = release_of(m, vertex);
-    const int *coordinate = m->vertex[vertex].coordinate;
+    const int *coordinate = m->mesh.vertex[vertex].coordinate;
     double b[3][3], along[3][3], apart[3], moved[3];
     release_turn_axes(m, s, vertex, b);
     release_slide_axes(m, s, vertex, along, apart);
@@ -149,10 +151,10 @@ void release_jacobian(const model *m, const model_state *s, int vertex, int coun
 double release_advance(const model *m, model_state *s, int vertex, const double dx[])
 {
     const mesh_release *r = release_of(m, vertex);
-    const int *coordinate = m->vertex[vertex].coordinate;
+    const int *coordinate = m->mesh.vertex[vertex].coordinate;
     double largest = 0, turn[3] = {0}, step[4];
     for (int k = 0; k < r->slides; k++) {
-        s->shift[3 * (vertex - m->first_release) + k] += dx[coordinate[k]];
+        s->shift[3 * (vertex - m->mesh.first_release) + k] += dx[coordinate[k]];
         largest = larger(largest, fabs(dx[coordinate[k]]) / m->size);
     }
     for (int k = 0; k < r->turns; k++) {
@@ -170,8 +172,8 @@ double release_advance(const model *m, model_state *s, int vertex, const double 
 
 void release_follow(const model *m, model_state *s)
 {
-    for (int i = m->first_release; i < m->vertices; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int i = m->mesh.first_release; i < m->mesh.vertices; i++) {
+        const mesh_vertex *v = &m->mesh.vertex[i];
         const mesh_release *r = release_of(m, i);
         const double *body = &s->q[4 * v->body];
         double rho[3], along[3][3], apart[3], b[3][3];

@@ -10,7 +10,7 @@
 #ifndef BEAMWORK_MODEL_RELEASE_H
 #define BEAMWORK_MODEL_RELEASE_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
 
 /* Ends of all members that keep something. */
 int release_count(const scene *);
@@ -20,7 +20,8 @@ status release_build(model *, fault *);
 /* The end at this vertex; NULL: it is none. */
 static inline const mesh_release *release_of(const model *m, int vertex)
 {
-    return vertex < m->first_release ? NULL : &m->release[vertex - m->first_release];
+    const int first = model_first_release(m);
+    return vertex < first ? NULL : &model_mesh_of(m)->release[vertex - first];
 }
 
 /* The end's motion d[6] += what its own coordinates, by dx, add to that of its node. */

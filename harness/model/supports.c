@@ -1,6 +1,6 @@
 /* Which parts of the structure its supports leave loose: rigid motions of what is joined together,
  * found from the supports alone and so whatever the stiffness. */
-#include "harness/model/supports_impl.h"
+#include "harness/model/supports.h"
 
 #include <lapacke.h>
 #include <math.h>
@@ -26,7 +26,7 @@ int supports_root(const int part[], int vertex)
 
 int supports_mover(const model *m, int vertex, int apart)
 {
-    return apart && release_of(m, vertex) != NULL ? vertex : m->vertex[vertex].body;
+    return apart && release_of(m, vertex) != NULL ? vertex : m->mesh.vertex[vertex].body;
 }
 
 static void join_element(const model *m, const mesh_element *el, int apart, int part[])
@@ -40,12 +40,12 @@ static void join_element(const model *m, const mesh_element *el, int apart, int 
 
 void supports_join(const model *m, int apart, int part[])
 {
-    for (int i = 0; i < m->vertices; i++)
+    for (int i = 0; i < m->mesh.vertices; i++)
         part[i] = i;
-    for (int i = 0; i < m->elements; i++)
-        join_element(m, &m->element[i], apart, part);
-    for (int i = 0; i < m->discretes; i++)
-        join_element(m, &m->discrete[i].el, apart, part);
+    for (int i = 0; i < m->mesh.elements; i++)
+        join_element(m, &m->mesh.element[i], apart, part);
+    for (int i = 0; i < m->mesh.discretes; i++)
+        join_element(m, &m->mesh.discrete[i].el, apart, part);
 }
 
 void supports_rigid(const double position[3], double length, double G[N * N])
@@ -69,9 +69,9 @@ static void free_motions(const model *m, int node, movable *out)
     double T[N * N], of_free[N * N];
     const int all = kinematics_node_jacobian(m, m->rest, node, N, index, T);
     for (int k = 0; k < all; k++)
-        columns += index[k] < m->free;
+        columns += index[k] < m->mesh.free;
     for (int k = 0, to = 0; k < all; k++)
-        if (index[k] < m->free) {
+        if (index[k] < m->mesh.free) {
             for (int i = 0; i < N; i++)
                 of_free[i * columns + to] = T[i * all + k];
             to++;
@@ -85,7 +85,7 @@ void supports_prevented(const model *m, int node, const double origin[3], double
     movable v;
     free_motions(m, node, &v);
     for (int i = 0; i < 3; i++)
-        at[i] = m->vertex[node].position[i] - origin[i];
+        at[i] = m->mesh.vertex[node].position[i] - origin[i];
     supports_rigid(at, m->size, G);
     dense_mul(v.count, N, N, v.dual, G, along);
     dense_mul(N, v.count, N, v.span, along, out);
@@ -104,15 +104,15 @@ static void add_supports(const model *m, int node, const double origin[3], doubl
 void supports_add_springs(const model *m, const int part[], int root, const double origin[3],
                           double sum[N * N])
 {
-    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
-        const mesh_discrete *d = &m->discrete[i];
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
         const double *K = d->spring->stiffness;
         const int node = d->el.vertex[0];
         double at[3], G[N * N], prevented[N * N];
-        if (d->el.nodes == 2 || supports_root(part, m->vertex[node].body) != root)
+        if (d->el.nodes == 2 || supports_root(part, m->mesh.vertex[node].body) != root)
             continue;
         for (int k = 0; k < 3; k++)
-            at[k] = m->vertex[node].position[k] - origin[k];
+            at[k] = m->mesh.vertex[node].position[k] - origin[k];
         supports_rigid(at, m->size, G);
         double unit[N * N] = {0}, work[N * N];
         for (int k = 0; k < N; k++)
@@ -129,26 +129,26 @@ void supports_add_springs(const model *m, const int part[], int root, const doub
 
 static int has_elements(const model *m, const int part[], int root)
 {
-    for (int i = 0; i < m->elements; i++)
-        if (supports_root(part, m->vertex[m->element[i].vertex[0]].body) == root)
+    for (int i = 0; i < m->mesh.elements; i++)
+        if (supports_root(part, m->mesh.vertex[m->mesh.element[i].vertex[0]].body) == root)
             return 1;
     return 0;
 }
 
 int supports_loose_part(const model *m, int *node, double motion[6])
 {
-    int *part = malloc((size_t)m->vertices * sizeof *part), found = 0;
+    int *part = malloc((size_t)m->mesh.vertices * sizeof *part), found = 0;
     if (part == NULL)
         return 0;
     supports_join(m, 0, part);
     for (int i = 0; i < m->scene->nodes && !found; i++) {
-        if (supports_root(part, i) != i || m->vertex[i].body != i)
+        if (supports_root(part, i) != i || m->mesh.vertex[i].body != i)
             continue;
         double sum[N * N] = {0}, size[N];
         for (int k = 0; k < m->scene->nodes; k++)
-            if (m->vertex[k].body == k && supports_root(part, k) == i)
-                add_supports(m, k, m->vertex[i].position, sum);
-        supports_add_springs(m, part, i, m->vertex[i].position, sum);
+            if (m->mesh.vertex[k].body == k && supports_root(part, k) == i)
+                add_supports(m, k, m->mesh.vertex[i].position, sum);
+        supports_add_springs(m, part, i, m->mesh.vertex[i].position, sum);
         found = has_elements(m, part, i) &&
                 LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', N, sum, N, size) == 0 &&
                 !(size[0] > supports_loose * size[N - 1]);

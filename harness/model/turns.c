@@ -27,7 +27,7 @@ static int first_between(const model *m)
 
 static int find_between(const model *m, int from, int node)
 {
-    for (int i = first_between(m); i < m->turns; i++)
+    for (int i = first_between(m); i < m->mesh.turns; i++)
         if (m->turn[i].from == from && m->turn[i].node == node)
             return i;
     return NONE;
@@ -39,18 +39,18 @@ status turns_build(model *m, fault *f)
     m->turn = malloc(((size_t)first_between(m) + (size_t)s->quantities + 1) * sizeof *m->turn);
     if (m->turn == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for turns");
-    m->turns = 0;
+    m->mesh.turns = 0;
     for (int i = 0; i < s->nodes; i++)
-        m->turn[m->turns++] = (mesh_turn){NONE, i};
+        m->turn[m->mesh.turns++] = (mesh_turn){NONE, i};
     for (int i = 0; i < s->springs; i++)
-        m->turn[m->turns++] =
+        m->turn[m->mesh.turns++] =
             (mesh_turn){s->spring[i].p == SCENE_NONE ? NONE : s->spring[i].p, s->spring[i].q};
     for (int i = 0; i < s->quantities; i++) {
         if (!reads_turn(&s->quantity[i]))
             continue;
         const scene_relative *r = scene_relative_of(&s->quantity[i]);
         if (find_between(m, r->from, r->node) == NONE)
-            m->turn[m->turns++] = (mesh_turn){r->from, r->node};
+            m->turn[m->mesh.turns++] = (mesh_turn){r->from, r->node};
     }
     return STATUS_OK;
 }
@@ -104,7 +104,7 @@ static void between_frames(const model_state *s, const mesh_turn *t, double q[4]
 /* Of a node whose turn is that of one driven or held angle: that, however far it goes at once. */
 static int by_angle(const model *m, const model_state *s, int node, double out[3])
 {
-    const mesh_vertex *v = &m->vertex[node];
+    const mesh_vertex *v = &m->mesh.vertex[node];
     int turned = NONE;
     for (int k = 0; k < v->angles; k++)
         if (s->angle[3 * node + k] != 0) {
@@ -122,17 +122,17 @@ static int by_angle(const model *m, const model_state *s, int node, double out[3
 void turns_follow(const model *m, model_state *s)
 {
     const int nodes = m->scene->nodes;
-    for (int i = 0; i < m->turns; i++) {
+    for (int i = 0; i < m->mesh.turns; i++) {
         double q[4], *turn = &s->turn[3 * i];
         const double before[3] = {turn[0], turn[1], turn[2]};
-        if (i < nodes && (m->vertex[i].body != i || by_angle(m, s, i, turn)))
+        if (i < nodes && (m->mesh.vertex[i].body != i || by_angle(m, s, i, turn)))
             continue;
         between_frames(s, &m->turn[i], q);
         turns_continue(q, before, turn);
     }
     for (int i = 0; i < nodes; i++)
-        if (m->vertex[i].body != i)
-            memcpy(&s->turn[3 * i], &s->turn[3 * m->vertex[i].body], 3 * sizeof *s->turn);
+        if (m->mesh.vertex[i].body != i)
+            memcpy(&s->turn[3 * i], &s->turn[3 * m->mesh.vertex[i].body], 3 * sizeof *s->turn);
 }
 
 const double *turns_of_node(const model_state *s, int node)
@@ -153,12 +153,12 @@ const double *turns_between(const model *m, const model_state *s, int from, int 
 
 int turns_between_count(const model *m)
 {
-    return m->turns - first_between(m);
+    return m->mesh.turns - first_between(m);
 }
 
 void turns_put_between(const model *m, const model_state *s, double out[])
 {
-    for (int i = first_between(m); i < m->turns; i++, out += 5) {
+    for (int i = first_between(m); i < m->mesh.turns; i++, out += 5) {
         out[0] = m->turn[i].from;
         out[1] = m->turn[i].node;
         memcpy(out + 2, &s->turn[3 * i], 3 * sizeof *out);
@@ -178,7 +178,7 @@ static void begin_between(const model *m, model_state *s, int i)
 
 void turns_take_between(const model *m, int count, const double in[], model_state *s)
 {
-    for (int i = first_between(m); i < m->turns; i++)
+    for (int i = first_between(m); i < m->mesh.turns; i++)
         begin_between(m, s, i);
     for (int k = 0; k < count; k++, in += 5) {
         const int i = find_between(m, (int)in[0], (int)in[1]);
@@ -201,7 +201,7 @@ int turns_swung(const double from[3], const double to[3])
 
 void turns_lose(const model *m, const model_state *from, model_state *s)
 {
-    for (int i = 0; i < m->turns; i++)
+    for (int i = 0; i < m->mesh.turns; i++)
         if (turns_swung(&from->turn[3 * i], &s->turn[3 * i]))
             for (int k = 0; k < 3; k++)
                 s->turn[3 * i + k] = NAN;

@@ -3,6 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+
 /* Bytes of an array, so that the next one is aligned. */
 static size_t bytes(size_t count, size_t size)
 {
@@ -21,8 +24,9 @@ static void *part(char **from, size_t count, size_t size)
 static int allocate(const equations *eq)
 {
     const model *m = eq->m;
-    const size_t n = (size_t)m->elements, s = (size_t)m->strains, c = (size_t)m->coordinates,
-                 nodes = (size_t)m->nodes, memory = (size_t)m->memory;
+    const size_t n = (size_t)model_elements(m), s = (size_t)model_strains(m),
+                 c = (size_t)model_own_coordinates(m), nodes = (size_t)model_nodes(m),
+                 memory = (size_t)model_memory(m);
     const size_t size = bytes(1, sizeof(run_ahead)) + 3 * bytes(n, sizeof(void *)) +
                         bytes(n * nodes, sizeof(node_state)) + bytes(n, sizeof(strain_output)) +
                         bytes(n, sizeof(stress_output)) + bytes(n, sizeof(status)) +
@@ -47,46 +51,49 @@ static int allocate(const equations *eq)
     a->H = part(&block, n * c * c, sizeof *a->H);
     a->C = part(&block, n * s * s, sizeof *a->C);
     a->memory = part(&block, n * memory, sizeof *a->memory);
-    for (int i = 0; i < m->elements; i++)
-        a->data[i] = m->kind[m->element[i].kind].data;
+    for (int i = 0; i < model_elements(m); i++)
+        a->data[i] = model_kind_of(m, i)->data;
     return 1;
 }
 
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[])
 {
     const model *m = eq->m;
-    if (m->type->strain_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(eq))
+    if (model_type(m)->strain_many == NULL || model_type(m)->lanes > 0 || model_elements(m) == 0 ||
+        !allocate(eq))
         return;
     run_ahead *a = eq->run->ahead;
-    const int n = m->strains, c = m->coordinates;
-    for (int i = 0; i < m->elements; i++) {
-        kinematics_gather(m, s, &m->element[i], a->x + i * m->nodes);
+    const int n = model_strains(m), c = model_own_coordinates(m);
+    for (int i = 0; i < model_elements(m); i++) {
+        kinematics_gather(m, s, model_element(m, i), a->x + i * model_nodes(m));
         a->strain[i] = (strain_output){.e = what & AHEAD_E ? a->e + i * n : NULL,
                                        .J = what & AHEAD_J ? a->J + i * n * c : NULL,
                                        .s = what & AHEAD_H ? sigma + i * n : NULL,
                                        .H = what & AHEAD_H ? a->H + i * c * c : NULL};
     }
-    m->type->strain_many(m->elements, a->data, a->x, a->strain);
+    model_type(m)->strain_many(model_elements(m), a->data, a->x, a->strain);
     a->what = what;
 }
 
 void ahead_stresses(const equations *eq, const double e[], const double inner[])
 {
     const model *m = eq->m;
-    if (m->type->stress_many == NULL || m->type->lanes > 0 || m->elements == 0 || !allocate(eq))
+    if (model_type(m)->stress_many == NULL || model_type(m)->lanes > 0 || model_elements(m) == 0 ||
+        !allocate(eq))
         return;
     run_ahead *a = eq->run->ahead;
-    const int n = m->strains;
+    const int n = model_strains(m);
     if (e == NULL && !(a->what & AHEAD_E))
         return;
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         a->at[i] = (e != NULL ? e : a->e) + i * n;
-        a->inner[i] = inner + i * m->inner;
-        a->stress[i] = (stress_output){.sigma = a->sigma + i * n,
-                                       .C = a->C + i * n * n,
-                                       .memory = m->memory > 0 ? a->memory + i * m->memory : NULL};
+        a->inner[i] = inner + i * model_inner(m);
+        a->stress[i] =
+            (stress_output){.sigma = a->sigma + i * n,
+                            .C = a->C + i * n * n,
+                            .memory = model_memory(m) > 0 ? a->memory + i * model_memory(m) : NULL};
     }
-    m->type->stress_many(m->elements, a->data, a->at, a->inner, a->stress, a->outcome);
+    model_type(m)->stress_many(model_elements(m), a->data, a->at, a->inner, a->stress, a->outcome);
     a->stresses = 1;
 }
 
@@ -106,7 +113,7 @@ void ahead_copy_strain(const equations *eq, int i, const strain_output *out)
 {
     const model *m = eq->m;
     const run_ahead *a = eq->run->ahead;
-    const int n = m->strains, c = m->coordinates;
+    const int n = model_strains(m), c = model_own_coordinates(m);
     copy(out->e, a->e + i * n, n);
     copy(out->J, a->J + i * n * c, n * c);
     if (out->s != NULL)
@@ -117,9 +124,9 @@ status ahead_copy_stress(const equations *eq, int i, const stress_output *out)
 {
     const model *m = eq->m;
     const run_ahead *a = eq->run->ahead;
-    const int n = m->strains;
+    const int n = model_strains(m);
     copy(out->sigma, a->sigma + i * n, n);
     copy(out->C, a->C + i * n * n, n * n);
-    copy(out->memory, a->memory + i * m->memory, m->memory);
+    copy(out->memory, a->memory + i * model_memory(m), model_memory(m));
     return a->outcome[i];
 }

@@ -5,7 +5,8 @@
 #ifndef BEAMWORK_MODEL_AHEAD_H
 #define BEAMWORK_MODEL_AHEAD_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/run_state.h"
 
 /* Strains and stresses evaluated for all elements at once. */
@@ -39,7 +40,7 @@ static inline void ahead_strain(const equations *eq, int i, const node_state x[]
     if (eq->run->ahead != NULL && eq->run->ahead->what != 0)
         ahead_copy_strain(eq, i, out);
     else
-        eq->m->type->strain(eq->m->kind[eq->m->element[i].kind].data, x, out);
+        model_type(eq->m)->strain(model_kind_of(eq->m, i)->data, x, out);
 }
 
 static inline status ahead_stress(const equations *eq, int i, const double e[],
@@ -47,7 +48,7 @@ static inline status ahead_stress(const equations *eq, int i, const double e[],
 {
     if (eq->run->ahead != NULL && eq->run->ahead->stresses)
         return ahead_copy_stress(eq, i, out);
-    return eq->m->type->stress(eq->m->kind[eq->m->element[i].kind].data, e, inner, out);
+    return model_type(eq->m)->stress(model_kind_of(eq->m, i)->data, e, inner, out);
 }
 
 #endif

@@ -9,7 +9,9 @@
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
 #include "elements/shared/lumped.h"
+#include "harness/model/division.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/newton/equations_impl.h"
 
@@ -68,7 +70,7 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
 /* Of a body: m g at its centre of mass. */
 static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
 {
-    const scene_body *body = &m->scene->node[load->where].body;
+    const scene_body *body = &model_scene(m)->node[load->where].body;
     scene_load force = *load;
     for (int i = 0; i < 3; i++)
         force.vector[i] *= body->mass;
@@ -78,7 +80,7 @@ static applied of_weight(const model *m, const model_state *s, const scene_load 
 /* Per length, of an element: 1, or its mass for gravity. */
 static double density_of(const model *m, const scene_load *load, const mesh_element *el)
 {
-    const section *c = &m->section[m->kind[el->kind].section];
+    const section *c = model_section(m, model_kind(m, el->kind)->section);
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
@@ -86,7 +88,7 @@ static double density_of(const model *m, const scene_load *load, const mesh_elem
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
-    const section *c = &m->section[m->kind[el->kind].section];
+    const section *c = model_section(m, model_kind(m, el->kind)->section);
     double at[3];
     memset(centre, 0, 3 * sizeof *centre);
     if (load->kind != SCENE_GRAVITY || !c->matrices)
@@ -105,17 +107,17 @@ int applied_inside(double x)
 
 int applied_part(const model *m, int element, const scene_load *load, double part[2])
 {
-    const int member = m->element[element].member;
+    const int member = model_element(m, element)->member;
     if (!scene_load_along(load) || load->where != member)
         return 0;
-    const int number = element - m->first_element[member];
+    const int number = element - model_first_element(m, member);
     if (scene_load_within(load)) {
-        const int at = division_at(&m->division, member, load->range[0], 0, &part[0]);
+        const int at = division_at(model_division(m), member, load->range[0], 0, &part[0]);
         part[1] = part[0];
         return at == number;
     }
     for (int i = 0; i < 2; i++)
-        part[i] = division_inside(&m->division, member, number, load->range[i]);
+        part[i] = division_inside(model_division(m), member, number, load->range[i]);
     part[0] = fmax(part[0], 0);
     part[1] = fmin(part[1], 1);
     return part[1] - part[0] > least_part;
@@ -123,12 +125,12 @@ int applied_part(const model *m, int element, const scene_load *load, double par
 
 void applied_vector(const model *m, int element, const scene_load *load, double x, double vector[3])
 {
-    const int member = m->element[element].member;
+    const int member = model_element(m, element)->member;
     memcpy(vector, load->vector, 3 * sizeof *vector);
     if (!load->varies)
         return;
-    const double place =
-                     division_place(&m->division, member, element - m->first_element[member], x),
+    const double place = division_place(model_division(m), member,
+                                        element - model_first_element(m, member), x),
                  along = (place - load->range[0]) / (load->range[1] - load->range[0]);
     for (int i = 0; i < 3; i++)
         vector[i] += along * (load->last[i] - load->vector[i]);
@@ -138,7 +140,7 @@ void applied_vector(const model *m, int element, const scene_load *load, double 
 static double share_of(const model *m, int k, double x)
 {
     const double three[] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), -x * (1 - 2 * x)};
-    if (m->nodes == 2)
+    if (model_nodes(m) == 2)
         return k == 0 ? 1 - x : x;
     return three[k];
 }
@@ -169,12 +171,12 @@ int applied_with_mass(const scene_load *load)
 static void share_at(const model *m, const scene_load *load, int element, const double part[2],
                      int k, double vector[3])
 {
-    const double length = scene_load_within(load) ? 1 : m->kind[m->element[element].kind].length;
+    const double length = scene_load_within(load) ? 1 : model_kind_of(m, element)->length;
     double x[2], weight[2];
     memset(vector, 0, 3 * sizeof *vector);
     if (!load->varies && !scene_load_within(load) && part[0] == 0 && part[1] == 1) {
-        const double *share =
-            applied_with_mass(load) ? m->element[element].share : lumped_shares(m->nodes);
+        const double *share = applied_with_mass(load) ? model_element(m, element)->share
+                                                      : lumped_shares(model_nodes(m));
         for (int i = 0; i < 3; i++)
             vector[i] = share[k] * length * load->vector[i];
         return;
@@ -191,16 +193,17 @@ static void share_at(const model *m, const scene_load *load, int element, const 
 void applied_element(const model *m, const model_state *s, const scene_load *load, double scale,
                      int element, void (*take)(void *context, const applied *), void *context)
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     double part[2];
     if (!applied_part(m, element, load, part))
         return;
-    for (int k = 0; k < m->nodes; k++) {
+    for (int k = 0; k < model_nodes(m); k++) {
         double axes[9], centre[3];
         scene_load one = *load;
         share_at(m, load, element, part, k, one.vector);
         if (load->axes == SCENE_AXES_MEMBER)
-            applied_member_axes(el->triad[k], &m->section[m->kind[el->kind].section], axes);
+            applied_member_axes(el->triad[k], model_section(m, model_kind(m, el->kind)->section),
+                                axes);
         weight_centre(m, load, el, k, centre);
         const applied what = of_vertex(s, el->vertex[k], &one, scale * density_of(m, load, el),
                                        load->axes == SCENE_AXES_MEMBER ? axes : NULL, centre);
@@ -219,7 +222,8 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
         take(context, &one);
         return;
     }
-    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++)
+    for (int i = model_first_element(m, load->where); i < model_first_element(m, load->where + 1);
+         i++)
         applied_element(m, s, load, scale, i, take, context);
 }
 
@@ -263,7 +267,7 @@ static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
     const mesh_release *r = release_of(all->m, what->vertex);
-    const int body = all->m->vertex[what->vertex].body;
+    const int body = model_vertex(all->m, what->vertex)->body;
     int index[KINEMATICS_MOST];
     double T[6 * KINEMATICS_MOST], of_body[6 * KINEMATICS_MOST];
     const int from_body = kinematics_node_jacobian(all->m, all->s, body, 6, index, of_body),
@@ -280,8 +284,8 @@ static int motions_at_release(const entries *all, const applied *what,
         vec3_cross(to->turn, what->arm, to->shift);
         for (int i = 0; i < 3; i++)
             to->shift[i] = T[i * count + k] + (what->offset ? to->shift[i] : 0);
-        to->chart =
-            vec3_norm(to->axis) > 0 && (to->own ? r->turns == 3 : all->m->vertex[body].angles == 0);
+        to->chart = vec3_norm(to->axis) > 0 &&
+                    (to->own ? r->turns == 3 : model_vertex(all->m, body)->angles == 0);
     }
     return count;
 }
@@ -337,7 +341,8 @@ static void add_stiffness(void *context, const applied *what)
         add_stiffness_at_release(all, what);
         return;
     }
-    const mesh_vertex *v = &all->m->vertex[what->vertex], *body = &all->m->vertex[v->body];
+    const mesh_vertex *v = model_vertex(all->m, what->vertex),
+                      *body = model_vertex(all->m, v->body);
     double rho[3], D[9], moment[3] = {0, 0, 0}, b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (v->body == what->vertex && !what->offset && !what->follower && F[3] == 0 && F[4] == 0 &&
         F[5] == 0)

@@ -4,6 +4,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/ahead.h"
 
 /* Fewer elements than these cost less one by one; without AVX2 any number does: there four lanes
@@ -12,7 +14,7 @@ enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
 
 int chunk_size(const model *m)
 {
-    const element_type *t = m->type;
+    const element_type *t = model_type(m);
     if (t->lanes < 2 || t->strain_many == NULL)
         return 1;
     return t->lanes < CHUNK_MOST ? t->lanes : CHUNK_MOST;
@@ -25,7 +27,7 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
     while (i < end && done[i - first])
         i++;
     for (int k = i; k < end && count < most; k++)
-        if (!done[k - first] && m->element[k].kind == m->element[i].kind) {
+        if (!done[k - first] && model_element(m, k)->kind == model_element(m, i)->kind) {
             done[k - first] = 1;
             index[count++] = k;
         }
@@ -34,12 +36,12 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
 
 static double *of_strains(const model *m, double *all, int element)
 {
-    return all + (size_t)element * (size_t)m->strains;
+    return all + (size_t)element * (size_t)model_strains(m);
 }
 
 static const double *inner_of(const model *m, const model_state *s, int element)
 {
-    return &s->inner[(size_t)element * (size_t)m->inner];
+    return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
 /* Their functions of one element, or what was evaluated ahead. */
@@ -71,7 +73,7 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
         element[k].outcome = ahead_stress(
             eq, i, of_strains(m, s->e, i), inner_of(m, s, i),
             &(stress_output){
-                .sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL});
+                .sigma = w.sigma, .C = w.C, .memory = model_memory(m) > 0 ? w.memory : NULL});
     }
 }
 
@@ -85,14 +87,14 @@ static void strains_together(const model *m, const linear_memory *memory, const 
     strain_output out[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
         const chunk_element *c = &element[k];
-        data[k] = m->kind[m->element[c->index].kind].data;
-        memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
+        data[k] = model_kind_of(m, c->index)->data;
+        memcpy(x + k * model_nodes(m), c->x, (size_t)model_nodes(m) * sizeof *x);
         out[k] = (strain_output){.e = deformed[k],
                                  .J = linearise_slot(m, memory, c->index).J,
                                  .s = c->K != NULL ? of_strains(m, s->sigma, c->index) : NULL,
                                  .H = c->K};
     }
-    m->type->strain_many(count, data, x, out);
+    model_type(m)->strain_many(count, data, x, out);
 }
 
 static void stresses_together(const model *m, const linear_memory *memory, const model_state *s,
@@ -108,15 +110,15 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         const model_slot w = linearise_slot(m, memory, i);
         if (element[k].along.acts)
             continue;
-        data[owned] = m->kind[m->element[i].kind].data;
+        data[owned] = model_kind_of(m, i)->data;
         e[owned] = of_strains(m, s->e, i);
         inner[owned] = inner_of(m, s, i);
-        out[owned] =
-            (stress_output){.sigma = w.sigma, .C = w.C, .memory = m->memory > 0 ? w.memory : NULL};
+        out[owned] = (stress_output){
+            .sigma = w.sigma, .C = w.C, .memory = model_memory(m) > 0 ? w.memory : NULL};
         own[owned++] = k;
     }
     if (owned > 0)
-        m->type->stress_many(owned, data, e, inner, out, outcome);
+        model_type(m)->stress_many(owned, data, e, inner, out, outcome);
     for (int k = 0; k < owned; k++)
         element[own[k]].outcome = outcome[k];
 }
@@ -135,7 +137,7 @@ static void stresses_under_loads(const model *m, const linear_memory *memory, co
         const model_slot w = linearise_slot(m, memory, c->index);
         if (!c->along.acts)
             continue;
-        data[owned] = m->kind[m->element[c->index].kind].data;
+        data[owned] = model_kind_of(m, c->index)->data;
         memcpy(x + (ptrdiff_t)2 * owned, c->x, 2 * sizeof *x);
         out[owned] = c->along.out;
         out[owned].e = of_strains(m, s->e, c->index);
@@ -150,7 +152,7 @@ static void stresses_under_loads(const model *m, const linear_memory *memory, co
     }
     if (owned == 0)
         return;
-    m->type->along(owned, data, x, out, outcome);
+    model_type(m)->along(owned, data, x, out, outcome);
     for (int k = 0; k < owned; k++) {
         element[own[k]].along.out = out[k];
         memcpy(linearise_slot(m, memory, element[own[k]].index).along + SLOT_TURN, out[k].turn,
@@ -171,8 +173,8 @@ static void equations_together(const model *m, const linear_memory *memory, cons
     for (int k = 0; k < count; k++) {
         chunk_element *c = &element[k];
         const model_slot w = linearise_slot(m, memory, c->index);
-        data[k] = m->kind[m->element[c->index].kind].data;
-        memcpy(x + k * m->nodes, c->x, (size_t)m->nodes * sizeof *x);
+        data[k] = model_kind_of(m, c->index)->data;
+        memcpy(x + k * model_nodes(m), c->x, (size_t)model_nodes(m) * sizeof *x);
         e[k] = of_strains(m, s->e, c->index);
         sigma[k] = of_strains(m, s->sigma, c->index);
         inner[k] = inner_of(m, s, c->index);
@@ -186,7 +188,7 @@ static void equations_together(const model *m, const linear_memory *memory, cons
                                     .K = c->K};
         c->complete = 1;
     }
-    m->type->equations_many(count, data, x, e, inner, sigma, out, outcome);
+    model_type(m)->equations_many(count, data, x, e, inner, sigma, out, outcome);
     for (int k = 0; k < count; k++)
         element[k].outcome = outcome[k];
 }
@@ -198,10 +200,10 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
     const model_slot w = linearise_slot(m, memory, index);
     const double *e = of_strains(m, s->e, index);
     double more[ELEMENT_MAX_STRAINS];
-    for (int i = 0; i < m->strains; i++)
+    for (int i = 0; i < model_strains(m); i++)
         w.incompatibility[i] = deformed[i] - e[i];
-    dense_mul_vec(m->strains, m->strains, w.C, w.incompatibility, more);
-    for (int i = 0; i < m->strains; i++)
+    dense_mul_vec(model_strains(m), model_strains(m), w.C, w.incompatibility, more);
+    for (int i = 0; i < model_strains(m); i++)
         w.sigma[i] += more[i];
 }
 
@@ -210,9 +212,9 @@ static void damp(const equations *eq, const linear_memory *memory, const model_s
 {
     const model *m = eq->m;
     const run_damping *d = eq->run->damping;
-    const double eta = m->scene->member[m->element[index].member].damping;
-    const size_t n = (size_t)m->strains, first = (size_t)index * n;
-    const double *S = d->stiffness + (size_t)m->element[index].kind * n * n;
+    const double eta = model_scene(m)->member[model_element(m, index)->member].damping;
+    const size_t n = (size_t)model_strains(m), first = (size_t)index * n;
+    const double *S = d->stiffness + (size_t)model_element(m, index)->kind * n * n;
     const model_slot w = linearise_slot(m, memory, index);
     double rate[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
     if (eta == 0)
@@ -220,7 +222,7 @@ static void damp(const equations *eq, const linear_memory *memory, const model_s
     for (size_t k = 0; k < n; k++)
         rate[k] = d->known[first + k] +
                   d->g * (s->e[first + k] + w.incompatibility[k] - d->from[first + k]);
-    dense_mul_vec(m->strains, m->strains, S, rate, more);
+    dense_mul_vec(model_strains(m), model_strains(m), S, rate, more);
     for (size_t k = 0; k < n; k++)
         w.sigma[k] += eta * more[k];
     for (size_t k = 0; k < n * n; k++)
@@ -234,16 +236,16 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
     double deformed[CHUNK_MOST][ELEMENT_MAX_STRAINS];
     const int together = count >= REAL_CHOSEN(together_from) && chunk_size(m) > 1;
     for (int k = 0; k < count; k++) {
-        kinematics_gather(m, s, &m->element[element[k].index], element[k].x);
+        kinematics_gather(m, s, model_element(m, element[k].index), element[k].x);
         element[k].complete = 0;
         element[k].along.acts = 0;
-        if (m->takes)
+        if (model_takes_loads(m))
             distributed_take(eq, element[k].index, path, &element[k].along);
-        if (m->takes)
+        if (model_takes_loads(m))
             linearise_slot(m, memory, element[k].index).along[SLOT_TAKES] = element[k].along.acts;
     }
-    if (together && m->type->equations_many != NULL && !eq->loading.rotates &&
-        eq->run->damping == NULL && !m->takes) {
+    if (together && model_type(m)->equations_many != NULL && !eq->loading.rotates &&
+        eq->run->damping == NULL && !model_takes_loads(m)) {
         equations_together(m, memory, s, count, element);
         return;
     }
@@ -251,11 +253,11 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
         strains_together(m, memory, s, count, element, deformed);
     else
         strains_one_by_one(eq, memory, s, count, element, deformed);
-    if (together && m->type->stress_many != NULL)
+    if (together && model_type(m)->stress_many != NULL)
         stresses_together(m, memory, s, count, element);
     else
         stresses_one_by_one(eq, memory, s, count, element);
-    if (m->takes)
+    if (model_takes_loads(m))
         stresses_under_loads(m, memory, s, count, element);
     for (int k = 0; k < count; k++)
         mix(m, memory, s, element[k].index, deformed[k]);

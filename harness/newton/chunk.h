@@ -5,6 +5,7 @@
 
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
+#include "harness/newton/linearise.h"
 
 enum {
     CHUNK_MOST = 8,   /* elements in one go */

@@ -6,12 +6,16 @@
 #include "elements/math/dense.h"
 #include "harness/model/assemble.h"
 #include "harness/model/discrete.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/entries.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/newton/ahead.h"
 #include "harness/newton/condensation_impl.h"
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
+#include "harness/newton/linearise.h"
 #include "harness/newton/link.h"
 #include "harness/numerics/memory.h"
 
@@ -21,16 +25,16 @@ static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
     int longest = 0;
-    if (eq->loading.rotates || m->keep_all || m->scene->plane != SCENE_SPACE)
+    if (eq->loading.rotates || model_keeps_all(m) || model_scene(m)->plane != SCENE_SPACE)
         return 0;
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
         if (scene_load_along(load) &&
             (scene_load_unsymmetric(load) || (load->lumped && vec3_norm(load->at) > 0)))
             return 0;
     }
-    for (int i = 0; i < m->scene->members; i++) {
-        const int count = m->first_element[i + 1] - m->first_element[i];
+    for (int i = 0; i < model_scene(m)->members; i++) {
+        const int count = model_first_element(m, i + 1) - model_first_element(m, i);
         longest = count > longest ? count : longest;
     }
     return longest >= from;
@@ -52,10 +56,10 @@ static int released_columns(const model *m, int vertex)
 
 static status member_of(const model *m, int index, member *out, fault *f)
 {
-    const int nodes = m->nodes, last = m->first_element[index + 1] - 1;
-    out->first = m->first_element[index];
+    const int nodes = model_nodes(m), last = model_first_element(m, index + 1) - 1;
+    out->first = model_first_element(m, index);
     out->links = last + 1 - out->first;
-    const mesh_element *p = &m->element[out->first], *q = &m->element[last];
+    const mesh_element *p = model_element(m, out->first), *q = model_element(m, last);
     mesh_element *e = &out->ends;
     *e = *p;
     e->nodes = 2;
@@ -81,7 +85,7 @@ static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
     size_t longest = 0;
-    s->members = m->scene->members;
+    s->members = model_scene(m)->members;
     s->member = calloc((size_t)s->members, sizeof *s->member);
     if (s->member == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
@@ -115,7 +119,7 @@ static status build(condensation *s, const condensation *of, int count, const in
     if (!*few)
         return STATUS_OK;
     s->small = malloc(((size_t)s->unknowns + 1) * sizeof *s->small);
-    s->driven = malloc(((size_t)m->driven + 1) * sizeof *s->driven);
+    s->driven = malloc(((size_t)model_driven(m) + 1) * sizeof *s->driven);
     if (s->driven == NULL || s->unknown == NULL || s->small == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     s->K.symmetric = s->inside.symmetric = assemble_symmetric(m);
@@ -134,7 +138,7 @@ static status allocate(const equations *eq, const condensation *of, int count, c
         return fault_set(f, STATUS_FAULT, "out of memory for the ends of members");
     s->eq = eq;
     s->m = m;
-    s->all = m->free + m->driven;
+    s->all = model_all_coordinates(m);
     const status outcome = build(s, of, count, released, &few, f);
     if (outcome == STATUS_OK && few)
         *out = s;
@@ -187,20 +191,20 @@ static status link_element_of(const equations *eq, const model_state *s, const m
 {
     const model *m = eq->m;
     const model_slot w = linearise_slot(m, &eq->run->memory, i);
-    const double *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    const double *sigma = &s->sigma[(size_t)i * (size_t)model_strains(m)];
     node_state x[ELEMENT_MAX_NODES];
     double H[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[3 * ELEMENT_MAX_NODES],
         along[ELEMENT_MAX_COORDINATES] = {0};
-    kinematics_gather(m, s, &m->element[i], x);
+    kinematics_gather(m, s, model_element(m, i), x);
     ahead_strain(eq, i, x, &(strain_output){.s = sigma, .H = H});
-    for (int k = 0; k < m->nodes; k++)
+    for (int k = 0; k < model_nodes(m); k++)
         memcpy(r + 3 * k, x[k].r, sizeof x[k].r);
-    memset(force, 0, (size_t)m->coordinates * sizeof *force);
-    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, sigma, force);
+    memset(force, 0, (size_t)model_own_coordinates(m) * sizeof *force);
+    dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, w.J, sigma, force);
     distributed_add(eq, s, x, i, path, along, H);
-    for (int k = 0; k < m->coordinates; k++)
+    for (int k = 0; k < model_own_coordinates(m); k++)
         force[k] -= along[k];
-    const link_element el = {m->nodes, m->strains, of->joint, w.J, w.C, H, r};
+    const link_element el = {model_nodes(m), model_strains(m), of->joint, w.J, w.C, H, r};
     return link_of(&el, link, f);
 }
 
@@ -218,7 +222,7 @@ static status fill_chain(const equations *eq, const model_state *s, member *of, 
         if (i == of->first)
             memcpy(force, own, NODE_COORDINATES * sizeof *force);
     }
-    memcpy(force + NODE_COORDINATES, own + NODE_COORDINATES * (m->nodes - 1),
+    memcpy(force + NODE_COORDINATES, own + NODE_COORDINATES * (model_nodes(m) - 1),
            NODE_COORDINATES * sizeof *force);
     return STATUS_OK;
 }
@@ -260,10 +264,10 @@ status condensation_at(condensation *s, const model_state *at, double path, faul
     const status outcome = members(s, path, f);
     ahead_end(s->eq);
     TRY(outcome);
-    for (int i = 0; i < s->m->discretes; i++) {
+    for (int i = 0; i < model_discretes(s->m); i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(s->m, at, &s->m->discrete[i], &frame, part.force, part.K);
-        assemble_discrete(&s->m->discrete[i].el, part.K, &s->K);
+        discrete_equations(s->m, at, model_discrete(s->m, i), &frame, part.force, part.K);
+        assemble_discrete(&model_discrete(s->m, i)->el, part.K, &s->K);
     }
     loads_subtract_at_vertices(s->eq, at, path, &s->K);
     linearise_add_held_moments(s->eq, at, path, &s->K);

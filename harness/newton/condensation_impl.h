@@ -2,7 +2,8 @@
 #ifndef BEAMWORK_CONDENSATION_IMPL_H
 #define BEAMWORK_CONDENSATION_IMPL_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/chain.h"
 #include "harness/newton/condensation.h"
 

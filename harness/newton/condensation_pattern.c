@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/model/mesh.h"
 #include "harness/newton/condensation_impl.h"
 
 static void note(const mesh_element *el, int number[])
@@ -21,14 +22,14 @@ int condensation_number(condensation *s, int count, const int released[])
         s->number[i] = NONE;
     for (int i = 0; i < s->members; i++)
         note(&s->member[i].ends, s->number);
-    for (int i = 0; i < m->discretes; i++)
-        note(&m->discrete[i].el, s->number);
+    for (int i = 0; i < model_discretes(m); i++)
+        note(&model_discrete(m, i)->el, s->number);
     for (int i = 0; i < s->all; i++)
         if (s->number[i] != NONE)
             s->number[i] = ends++;
     s->unknown = malloc(((size_t)ends + 1) * sizeof *s->unknown);
     for (int i = 0; i < s->all && s->unknown != NULL; i++) {
-        int unknown = i < m->free;
+        int unknown = i < model_unknowns(m);
         for (int k = 0; k < count; k++)
             unknown |= released[k] == i;
         if (s->number[i] != NONE && unknown)
@@ -94,8 +95,8 @@ static status patterns_with(condensation *s, int ends, char coupled[], int list[
 {
     for (int i = 0; i < s->members; i++)
         couple(s, &s->member[i].ends, ends, coupled);
-    for (int i = 0; i < s->m->discretes; i++)
-        couple(s, &s->m->discrete[i].el, ends, coupled);
+    for (int i = 0; i < model_discretes(s->m); i++)
+        couple(s, &model_discrete(s->m, i)->el, ends, coupled);
     for (int i = 0; i < ends; i++)
         coupled[i * ends + i] = 1;
     for (int i = 0; i < s->all; i++)

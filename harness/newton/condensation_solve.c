@@ -1,17 +1,21 @@
 /* Solutions on all coordinates by way of the ends. */
 #include <string.h>
 
+#include "harness/model/eliminate.h"
+#include "harness/model/entries.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/condensation_impl.h"
 
 /* Loads between the ends of a member, in the order of its links. */
 static void gather_loads(const condensation *s, const member *of, const double x[])
 {
-    const int c = of->joint, nodes = s->m->nodes;
+    const int c = of->joint, nodes = model_nodes(s->m);
     for (int i = 0; i < of->links; i++)
         for (int k = 1; k < nodes; k++)
             for (int j = 0; j < c; j++) {
-                const int index = s->m->element[of->first + i].index[NODE_COORDINATES * k + j];
+                const int index =
+                    model_element(s->m, of->first + i)->index[NODE_COORDINATES * k + j];
                 const int end = i + 1 == of->links && k + 1 == nodes;
                 s->r[(i * (nodes - 1) + k - 1) * c + j] = end || index == NONE ? 0 : x[index];
             }
@@ -19,11 +23,12 @@ static void gather_loads(const condensation *s, const member *of, const double x
 
 static void scatter_motions(const condensation *s, const member *of, double x[])
 {
-    const int c = of->joint, nodes = s->m->nodes;
+    const int c = of->joint, nodes = model_nodes(s->m);
     for (int i = 0; i < of->links; i++)
         for (int k = 1; k < nodes; k++)
             for (int j = 0; j < c && !(i + 1 == of->links && k + 1 == nodes); j++) {
-                const int index = s->m->element[of->first + i].index[NODE_COORDINATES * k + j];
+                const int index =
+                    model_element(s->m, of->first + i)->index[NODE_COORDINATES * k + j];
                 if (index != NONE)
                     x[index] = s->r[(i * (nodes - 1) + k - 1) * c + j];
             }
@@ -63,8 +68,8 @@ static void expand(condensation *s, double x[])
 
 void condensation_solve(condensation *s, int transposed, double x[])
 {
-    const int free_count = s->m->free;
-    const size_t driven = (size_t)s->m->driven * sizeof *x;
+    const int free_count = model_unknowns(s->m);
+    const size_t driven = (size_t)model_driven(s->m) * sizeof *x;
     memcpy(s->driven, x + free_count, driven); /* those that are known stay */
     reduce(s, x);
     for (int i = 0; i < s->unknowns; i++)

@@ -7,6 +7,8 @@
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
 
@@ -22,8 +24,8 @@ int distributed_acts(const distributed *of)
     double part[2];
     if (of->eq->loading.rotates)
         return 1;
-    for (int i = 0; i < of->m->scene->loads; i++)
-        if (applied_part(of->m, of->element, &of->m->scene->load[i], part))
+    for (int i = 0; i < model_scene(of->m)->loads; i++)
+        if (applied_part(of->m, of->element, &model_scene(of->m)->load[i], part))
             return 1;
     return 0;
 }
@@ -31,8 +33,8 @@ int distributed_acts(const distributed *of)
 int distributed_jumps(const distributed *of)
 {
     double part[2];
-    for (int i = 0; i < of->m->scene->loads; i++)
-        if (applied_part(of->m, of->element, &of->m->scene->load[i], part) &&
+    for (int i = 0; i < model_scene(of->m)->loads; i++)
+        if (applied_part(of->m, of->element, &model_scene(of->m)->load[i], part) &&
             (applied_inside(part[0]) || applied_inside(part[1])))
             return i;
     return SCENE_NONE;
@@ -41,8 +43,8 @@ int distributed_jumps(const distributed *of)
 /* The triad of the undeformed element at x. */
 static void undeformed(const distributed *of, double x, double R[9])
 {
-    const mesh_element *el = &of->m->element[of->element];
-    const mesh_kind *kind = &of->m->kind[el->kind];
+    const mesh_element *el = model_element(of->m, of->element);
+    const mesh_kind *kind = model_kind(of->m, el->kind);
     double turn[3], q[4], by[9];
     for (int i = 0; i < 3; i++)
         turn[i] = x * kind->length * kind->curvature[i];
@@ -56,7 +58,7 @@ static void undeformed(const distributed *of, double x, double R[9])
 static void load_at(const distributed *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
-    const section *c = &of->m->section[of->m->kind[of->m->element[of->element].kind].section];
+    const section *c = model_section(of->m, model_kind_of(of->m, of->element)->section);
     const double size = scale * (load->kind == SCENE_GRAVITY ? c->density * c->A : 1);
     double vector[3], at[3], v[3], axes[9];
     applied_vector(of->m, of->element, load, x, vector);
@@ -87,14 +89,14 @@ static int same(const distributed *of, const scene_load *load, const field_load 
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
            (load->axes == SCENE_AXES_FIXED ||
-            vec3_norm(of->m->kind[of->m->element[of->element].kind].curvature) == 0);
+            vec3_norm(model_kind_of(of->m, of->element)->curvature) == 0);
 }
 
 /* What acts of one load at the points of an element; returns how many. */
 static int points_of(const distributed *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
-    const mesh_kind *kind = &of->m->kind[of->m->element[of->element].kind];
+    const mesh_kind *kind = model_kind_of(of->m, of->element);
     double x[MOST], weight[MOST], before[9];
     int count = 1;
     undeformed(of, part[0], before);
@@ -121,9 +123,9 @@ static int points_of(const distributed *of, const scene_load *load, double scale
 static int taken(const equations *eq, int element, const scene_load *load, const double part[2])
 {
     const model *m = eq->m;
-    const section *c = &m->section[m->kind[m->element[element].kind].section];
+    const section *c = model_section(m, model_kind_of(m, element)->section);
     double centre[3] = {0};
-    if (!m->takes || !distributed_spreads(eq, load) || scene_load_within(load) ||
+    if (!model_takes_loads(m) || !distributed_spreads(eq, load) || scene_load_within(load) ||
         scene_load_turns(load) || load->follower)
         return 0;
     if (load->kind == SCENE_GRAVITY && c->matrices)
@@ -160,8 +162,8 @@ void distributed_take(const equations *eq, int element, double path, distributed
 {
     const model *m = eq->m;
     out->acts = 0;
-    for (int i = 0; i < m->scene->loads && m->takes; i++) {
-        const scene_load *load = &m->scene->load[i];
+    for (int i = 0; i < model_scene(m)->loads && model_takes_loads(m); i++) {
+        const scene_load *load = &model_scene(m)->load[i];
         double part[2];
         if (!applied_part(m, element, load, part) || !taken(eq, element, load, part))
             continue;
@@ -183,7 +185,7 @@ void distributed_add_taken(const model *m, const along_output *out, const double
     double moment[3], work[ELEMENT_MAX_STRAINS * X], of[X * X] = {0}, both[X * X] = {0};
     memcpy(moment, out->moment, sizeof moment);
     if (gap != NULL)
-        dense_add_transpose_mul(3, m->strains, 1, out->mixed, gap, moment);
+        dense_add_transpose_mul(3, model_strains(m), 1, out->mixed, gap, moment);
     for (int j = 0; j < X; j++) {
         forces[j] += out->ends[j];
         for (int i = 0; i < 3; i++)
@@ -191,8 +193,8 @@ void distributed_add_taken(const model *m, const along_output *out, const double
     }
     if (K == NULL)
         return;
-    dense_mul(m->strains, 3, X, out->mixed, out->turn, work);
-    dense_add_transpose_mul(X, m->strains, X, J, work, both);
+    dense_mul(model_strains(m), 3, X, out->mixed, out->turn, work);
+    dense_add_transpose_mul(X, model_strains(m), X, J, work, both);
     dense_add_congruence(3, X, out->turn, out->second, of, work);
     for (int i = 0; i < X; i++)
         for (int j = 0; j < X; j++)
@@ -204,35 +206,35 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
 {
     const model *m = eq->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
-    const size_t first = (size_t)element * (size_t)m->strains;
-    const element_data *data = m->kind[m->element[element].kind].data;
-    const int linear = s == m->rest;
+    const size_t first = (size_t)element * (size_t)model_strains(m);
+    const element_data *data = model_kind_of(m, element)->data;
+    const int linear = s == kinematics_rest(m);
     distributed_taken of;
     double J[S * X], D[S], sigma[S], C[S * S], H[X * X], work[S * X];
     status outcome;
     distributed_take(eq, element, path, &of);
     if (!of.acts)
         return 0;
-    m->type->strain(data, x, &(strain_output){.e = D, .J = J});
+    model_type(m)->strain(data, x, &(strain_output){.e = D, .J = J});
     of.out.sigma = sigma;
     of.out.C = K != NULL || !linear ? C : NULL;
     of.out.H = K != NULL ? of.H : NULL;
     if (!linear) {
         of.out.e = &s->e[first];
-        of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+        of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
-    m->type->along(1, &data, x, &of.out, &outcome); /* a state that has been evaluated */
-    for (int k = 0; k < m->strains && !linear; k++)
+    model_type(m)->along(1, &data, x, &of.out, &outcome); /* a state that has been evaluated */
+    for (int k = 0; k < model_strains(m) && !linear; k++)
         D[k] -= s->e[first + (size_t)k];
     distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
     if (!linear)
         return 1;
-    dense_mul_vec(m->strains, 1, sigma, (const double[]){-1}, D);
-    dense_add_transpose_mul(X, m->strains, 1, J, D, forces);
+    dense_mul_vec(model_strains(m), 1, sigma, (const double[]){-1}, D);
+    dense_add_transpose_mul(X, model_strains(m), 1, J, D, forces);
     if (K == NULL)
         return 1;
-    m->type->strain(data, x, &(strain_output){.s = sigma, .H = H});
-    dense_add_congruence(m->strains, X, J, C, K, work);
+    model_type(m)->strain(data, x, &(strain_output){.s = sigma, .H = H});
+    dense_add_congruence(model_strains(m), X, J, C, K, work);
     for (int k = 0; k < X * X; k++)
         K[k] += H[k];
     return 1;
@@ -242,16 +244,16 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
                        double path, const stress_output *out, status *outcome)
 {
     const model *m = eq->m;
-    const element_data *data = m->kind[m->element[element].kind].data;
+    const element_data *data = model_kind_of(m, element)->data;
     distributed_taken of;
     distributed_take(eq, element, path, &of);
     if (!of.acts)
         return 0;
     of.out.sigma = out->sigma;
     of.out.C = out->C;
-    of.out.e = &s->e[(size_t)element * (size_t)m->strains];
-    of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
-    m->type->along(1, &data, x, &of.out, outcome);
+    of.out.e = &s->e[(size_t)element * (size_t)model_strains(m)];
+    of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
+    model_type(m)->along(1, &data, x, &of.out, outcome);
     return 1;
 }
 
@@ -261,7 +263,7 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
 {
     const model *m = eq->m;
     enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_ALONG_COORDINATES };
-    const element_data *data = m->kind[m->element[element].kind].data;
+    const element_data *data = model_kind_of(m, element)->data;
     distributed_taken of;
     double rate[3 * ELEMENT_ALONG_POINTS] = {0}, J[S * X], sigma[S], work[X] = {0};
     status outcome;
@@ -271,16 +273,16 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
     gather(eq, element, load, scale, rate);
     of.out.sigma = sigma;
     of.out.rate = rate;
-    if (s == m->rest) {
+    if (s == kinematics_rest(m)) {
         of.out.rate = NULL;
         of.out.force = rate;
     } else {
-        of.out.e = &s->e[(size_t)element * (size_t)m->strains];
-        of.out.inner = &s->inner[(size_t)element * (size_t)m->inner];
+        of.out.e = &s->e[(size_t)element * (size_t)model_strains(m)];
+        of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
-    m->type->strain(data, x, &(strain_output){.J = J});
-    m->type->along(1, &data, x, &of.out, &outcome);
-    dense_add_transpose_mul(X, m->strains, 1, J, sigma, work);
+    model_type(m)->strain(data, x, &(strain_output){.J = J});
+    model_type(m)->along(1, &data, x, &of.out, &outcome);
+    dense_add_transpose_mul(X, model_strains(m), 1, J, sigma, work);
     for (int k = 0; k < X; k++)
         forces[k] -= work[k];
     distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
@@ -294,7 +296,7 @@ static int add_field(const equations *eq, const node_state x[], int element, con
     field_rows rows[MOST];
     field_load acting[MOST];
     const int count = points_of(&of, load, scale, part, rows, acting);
-    field_add_loads(&m->kind[m->element[element].kind].field, x, count, rows, acting, forces, K);
+    field_add_loads(&model_kind_of(m, element)->field, x, count, rows, acting, forces, K);
     return 1;
 }
 
@@ -317,8 +319,8 @@ int distributed_add_field(const equations *eq, const node_state x[], int element
 {
     const model *m = eq->m;
     int acting = 0;
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
         double part[2];
         if (!distributed_spreads(eq, load) || !applied_part(m, element, load, part) ||
             taken(eq, element, load, part))
@@ -381,7 +383,7 @@ static void add_rotating_matrices(const section *c, const double omega[3], const
 static void add_rotating(const distributed *of, const span_frame *at, span_load *out)
 {
     const model *m = of->m;
-    const section *c = &m->section[m->kind[m->element[of->element].kind].section];
+    const section *c = model_section(m, model_kind_of(m, of->element)->section);
     const element_rotating_frame frame = loading_frame(&of->eq->loading, of->path);
     double arm[3], speed[3], force[3], inside[3], moment[3];
     const double inertia[3] = {c->Iy + c->Iz, c->Iy, c->Iz};
@@ -395,7 +397,7 @@ static void add_rotating(const distributed *of, const span_frame *at, span_load 
     vec3_cross(frame.omega, speed, force);
     for (int i = 0; i < 3; i++)
         out->force[i] -= c->density * c->A * force[i];
-    if (!(m->features & m->type->offers & FEATURE_ROTARY_INERTIA))
+    if (!(model_features(m) & model_type(m)->offers & FEATURE_ROTARY_INERTIA))
         return;
     mat3_transpose_mul_vec(at->R, frame.omega, inside);
     for (int i = 0; i < 3; i++)
@@ -412,8 +414,8 @@ void distributed_at(void *context, double x, const span_frame *at, span_load *ou
     double before[9];
     memset(out, 0, sizeof *out);
     undeformed(of, x, before);
-    for (int i = 0; i < of->m->scene->loads; i++) {
-        const scene_load *load = &of->m->scene->load[i];
+    for (int i = 0; i < model_scene(of->m)->loads; i++) {
+        const scene_load *load = &model_scene(of->m)->load[i];
         double part[2];
         if (applied_part(of->m, of->element, load, part) && !scene_load_within(load))
             add_load(of, load, x, before, at->R, out);

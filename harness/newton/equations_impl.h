@@ -2,7 +2,8 @@
 #ifndef BEAMWORK_EQUATIONS_IMPL_H
 #define BEAMWORK_EQUATIONS_IMPL_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/applied.h"
 #include "harness/newton/run_state.h"
 
@@ -18,25 +19,6 @@ typedef struct element_part {
  * coordinates; nothing where no frame turns. */
 status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
-
-/* Of linearise.c and chunk.c: one element's part of a linear_memory between linearise_state and
- * advance_state. */
-typedef struct model_slot {
-    double *J, *C, *sigma, *incompatibility, *along, /* SLOT_* */
-        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
-} model_slot;
-static inline model_slot linearise_slot(const model *m, const linear_memory *memory, int element)
-{
-    model_slot w;
-    const int n = m->strains;
-    w.J = memory->slot + (size_t)element * (size_t)m->work_size;
-    w.C = w.J + n * m->coordinates;
-    w.sigma = w.C + n * n;
-    w.incompatibility = w.sigma + n;
-    w.memory = w.incompatibility + n;
-    w.along = w.memory + m->memory;
-    return w;
-}
 
 /* loads.c: out[free + driven] += all of them, or those on vertices alone, not along elements. */
 void loads_add(const equations *eq, const model_state *s, double path, double out[]);

@@ -6,6 +6,8 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
@@ -53,17 +55,18 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
 {
     const model *m = eq->m;
     double value[MODEL_EXTRAPOLATED + 1];
-    for (int d = 0; d < m->scene->drivers; d++) {
-        const scene_driver *driver = &m->scene->driver[d];
+    for (int d = 0; d < model_scene(m)->drivers; d++) {
+        const scene_driver *driver = &model_scene(m)->driver[d];
         if (driver->value == NULL)
             continue;
         for (int i = 0; i <= g->most; i++)
             value[i] = loads_driver_value(eq, driver, i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
-    for (int l = 0; l < m->scene->loads; l++) {
+    for (int l = 0; l < model_scene(m)->loads; l++) {
         for (int i = 0; i <= g->most; i++)
-            value[i] = applied_factor(eq, &m->scene->load[l], i < g->most ? at[i]->path : path);
+            value[i] =
+                applied_factor(eq, &model_scene(m)->load[l], i < g->most ? at[i]->path : path);
         keep_continuing(value, g);
     }
 }
@@ -75,11 +78,11 @@ static void prescribe(const model *m, const mesh_vertex *v, const model_state *l
 {
     for (int c = 0; c < 3; c++) {
         const int coordinate = v->coordinate[3 + c];
-        if (coordinate < m->free || v->vector_driver[0] != NONE)
+        if (coordinate < model_unknowns(m) || v->vector_driver[0] != NONE)
             continue;
         turn[c] = 0;
-        for (int d = 0; d < m->scene->drivers; d++)
-            if (m->driver_coordinate[d] == coordinate)
+        for (int d = 0; d < model_scene(m)->drivers; d++)
+            if (model_driver_coordinate(m, d) == coordinate)
                 turn[c] = out->driver[d] - last->driver[d];
     }
 }
@@ -96,7 +99,7 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
         for (int c = 0; c < 3; c++)
             turn[c] += weight[i] * back[c];
     }
-    prescribe(m, &m->vertex[vertex], last, out, turn);
+    prescribe(m, model_vertex(m, vertex), last, out, turn);
     rotation_exp(turn, step);
     rotation_compose(step, &last->q[4 * vertex], &out->q[4 * vertex]);
     rotation_normalise(&out->q[4 * vertex]);
@@ -106,8 +109,9 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);
-    return r != NULL ? r->turns == 3
-                     : m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
+    return r != NULL
+               ? r->turns == 3
+               : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
 /* From `least` to `most` states. */
@@ -176,9 +180,9 @@ void extrapolate_errors(const equations *eq, int most, const model_state *const 
         error[k] = INFINITY;
         if (g.good[k])
             error[k] =
-                fmax(largest_error(k, g.weight[k], last, last[0]->u, 3 * (size_t)m->vertices),
+                fmax(largest_error(k, g.weight[k], last, last[0]->u, 3 * (size_t)model_vertices(m)),
                      largest_error(k, g.weight[k], last, last[0]->e,
-                                   (size_t)m->elements * (size_t)m->strains));
+                                   (size_t)model_elements(m) * (size_t)model_strains(m)));
     }
 }
 
@@ -196,10 +200,10 @@ int extrapolate_state(const equations *eq, int count, const model_state *const a
     memset(out->block, 0, out->size * sizeof *out->block);
     for (int i = 0; i < count; i++)
         add_weighted(weight[i], out->size, at[i]->block, out->block);
-    for (int v = 0; v < m->vertices; v++)
+    for (int v = 0; v < model_vertices(m); v++)
         if (turns_by_itself(m, v))
             extrapolate_rotation(m, v, count, weight, at, out);
-    memcpy(out->turn, at[count - 1]->turn, 3 * (size_t)m->turns * sizeof *out->turn);
+    memcpy(out->turn, at[count - 1]->turn, 3 * (size_t)model_turns(m) * sizeof *out->turn);
     kinematics_follow(m, out);
     return 1;
 }

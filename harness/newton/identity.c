@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 
 identity identity_begin(void)
 {
@@ -42,32 +43,34 @@ static void add_type(identity *out, const element_type *type)
 
 static void add_elements(identity *out, const model *m)
 {
-    for (int i = 0; i < m->kinds; i++) {
-        identity_add(out, &m->kind[i].length, sizeof m->kind[i].length);
-        identity_add(out, m->kind[i].data, m->kind[i].data_size);
+    for (int i = 0; i < model_kinds(m); i++) {
+        identity_add(out, &model_kind(m, i)->length, sizeof model_kind(m, i)->length);
+        identity_add(out, model_kind(m, i)->data, model_kind(m, i)->data_size);
     }
-    for (int i = 0; i < m->elements; i++) {
-        add_number(out, m->element[i].kind);
-        identity_add(out, m->element[i].warp, sizeof m->element[i].warp);
-        identity_add(out, m->element[i].triad, (size_t)m->nodes * sizeof(mesh_triad));
+    for (int i = 0; i < model_elements(m); i++) {
+        add_number(out, model_element(m, i)->kind);
+        identity_add(out, model_element(m, i)->warp, sizeof model_element(m, i)->warp);
+        identity_add(out, model_element(m, i)->triad, (size_t)model_nodes(m) * sizeof(mesh_triad));
     }
 }
 
 int identity_add_model(identity *out, const model *m)
 {
-    if (m->type->trouble != NULL)
+    const char *const *line;
+    const int lines = model_left_out(m, &line);
+    if (model_type(m)->trouble != NULL)
         return 0;
-    add_type(out, m->type);
-    add_number(out, m->features);
-    add_number(out, m->features & m->type->offers);
-    add_number(out, m->keep_all);
-    add_number(out, m->elements);
-    add_number(out, m->free);
-    add_number(out, m->driven);
+    add_type(out, model_type(m));
+    add_number(out, model_features(m));
+    add_number(out, model_features(m) & model_type(m)->offers);
+    add_number(out, model_keeps_all(m));
+    add_number(out, model_elements(m));
+    add_number(out, model_unknowns(m));
+    add_number(out, model_driven(m));
     for (int i = 0; i < ELEMENT_MAX_OPTIONS; i++)
-        identity_add(out, &m->options[i], sizeof m->options[i]);
-    for (int i = 0; i < m->lines; i++)
-        identity_add(out, m->line[i], strlen(m->line[i]) + 1);
+        identity_add(out, &model_options(m)[i], sizeof model_options(m)[i]);
+    for (int i = 0; i < lines; i++)
+        identity_add(out, line[i], strlen(line[i]) + 1);
     add_elements(out, m);
     return 1;
 }

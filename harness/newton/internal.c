@@ -6,7 +6,10 @@
 
 #include "elements/math/dense.h"
 #include "elements/section/taper.h"
+#include "harness/model/division.h"
+#include "harness/model/features.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
@@ -46,7 +49,7 @@ static void note_taken(const model *m, const double force[], double sign, double
 {
     for (int end = 0; end < 2; end++)
         for (int i = 0; i < 3; i++)
-            taken[end][i] += sign * force[NODE_COORDINATES * (end ? m->nodes - 1 : 0) + i];
+            taken[end][i] += sign * force[NODE_COORDINATES * (end ? model_nodes(m) - 1 : 0) + i];
 }
 
 /* What was taken off the ends for shares of the mass of an element of two nodes, weight or
@@ -76,13 +79,13 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
                     double ends[2][7])
 {
     const model *m = eq->m;
-    const mesh_element *el = &m->element[i];
+    const mesh_element *el = model_element(m, i);
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], force[ELEMENT_MAX_COORDINATES] = {0},
                                                              along[ELEMENT_MAX_COORDINATES] = {0};
-    const size_t first = (size_t)i * (size_t)m->strains;
+    const size_t first = (size_t)i * (size_t)model_strains(m);
     kinematics_gather(m, s->s, el, x);
-    m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
-    dense_add_transpose_mul(m->coordinates, m->strains, 1, J,
+    model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+    dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                             s->sigma != NULL ? &s->sigma[first] : &s->s->sigma[first], force);
     double taken[2][3] = {{0}};
     if (rotating_frame_lumps(eq))
@@ -91,21 +94,21 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
                        NULL); /* never fails in a state that is reached */
     if (rotating_frame_lumps(eq))
         note_taken(m, force, -1, taken);
-    for (int l = 0; l < m->scene->loads; l++) {
-        const scene_load *load = &m->scene->load[l];
+    for (int l = 0; l < model_scene(m)->loads; l++) {
+        const scene_load *load = &model_scene(m)->load[l];
         if (lies_along(m, i, load) && distributed_spreads(eq, load) &&
             !distributed_takes(eq, i, load))
             distributed_add_one(eq, s->s, x, i, load, applied_factor(eq, load, s->path), along,
                                 NULL);
     }
-    distributed_add_own(eq, s->x != NULL ? m->rest : s->s, x, i, s->path, along, NULL);
-    for (int k = 0; k < m->coordinates; k++)
+    distributed_add_own(eq, s->x != NULL ? kinematics_rest(m) : s->s, x, i, s->path, along, NULL);
+    for (int k = 0; k < model_own_coordinates(m); k++)
         force[k] -= along[k];
     for (int end = 0; end < 2; end++) {
-        const int k = end ? m->nodes - 1 : 0;
+        const int k = end ? model_nodes(m) - 1 : 0;
         share of = {el->vertex[k], force + NODE_COORDINATES * k};
-        for (int l = 0; l < m->scene->loads; l++) {
-            const scene_load *load = &m->scene->load[l];
+        for (int l = 0; l < model_scene(m)->loads; l++) {
+            const scene_load *load = &model_scene(m)->load[l];
             if (!lies_along(m, i, load) || distributed_spreads(eq, load))
                 continue;
             const int weighted = applied_with_mass(load);
@@ -117,7 +120,7 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
         }
         memcpy(ends[end], force + NODE_COORDINATES * k, 7 * sizeof(double));
     }
-    if (m->nodes == 2)
+    if (model_nodes(m) == 2)
         take_couple(el, x, taken, ends);
     if (s->moving != NULL)
         s->moving->ends(s->moving->context, i, ends);
@@ -127,7 +130,7 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
  * at the place: the angle between them [rad]. */
 static double axes_turned(const model *m, int member, double place, const mesh_element *el)
 {
-    const scene *s = m->scene;
+    const scene *s = model_scene(m);
     const scene_member *sm = &s->member[member];
     section_spec spec;
     section c;
@@ -135,7 +138,8 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
     const int known = section_compute(&spec, &c, NULL) == STATUS_OK; /* as those beside it are */
-    return known ? c.axes_angle - m->section[m->kind[el->kind].section].axes_angle : 0;
+    return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
+                 : 0;
 }
 
 /* To axes that are turned by an angle about x. */
@@ -152,12 +156,12 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
                      double out[7])
 {
     const model *m = eq->m;
-    const int i = end ? m->first_element[member + 1] - 1 : m->first_element[member],
-              k = end ? m->nodes - 1 : 0;
+    const int i = end ? model_first_element(m, member + 1) - 1 : model_first_element(m, member),
+              k = end ? model_nodes(m) - 1 : 0;
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7];
     ends_of(eq, s, i, x, force);
-    const double angle = axes_turned(m, member, end, &m->element[i]);
+    const double angle = axes_turned(m, member, end, model_element(m, i));
     mat3_transpose_mul_vec(x[k].R, force[end], out);
     mat3_transpose_mul_vec(x[k].R, force[end] + 3, out + 3);
     turn_components(angle, out);
@@ -171,14 +175,14 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;
-    const mesh_element *el = &m->element[i];
+    const mesh_element *el = model_element(m, i);
     node_state x[ELEMENT_MAX_NODES];
     double force[2][7], moved[ELEMENT_MAX_COORDINATES] = {0};
     ends_of(eq, s, i, x, force);
     if (s->x != NULL)
         kinematics_local(m, s->s, el, s->x, moved);
     for (int e = 0; e < 2; e++) {
-        const int k = e ? m->nodes - 1 : 0;
+        const int k = e ? model_nodes(m) - 1 : 0;
         const double sign = e ? 1 : -1;
         memcpy(end[e].frame.r, x[k].r, sizeof end[e].frame.r);
         memcpy(end[e].frame.R, x[k].R, sizeof end[e].frame.R);
@@ -227,10 +231,11 @@ static status recover(const equations *eq, const internal_state *s, int i, const
                       span_fields *out, fault *f)
 {
     const model *m = eq->m;
-    const mesh_kind *kind = &m->kind[m->element[i].kind];
-    between loads = {.loads = {eq, m, i, s->path}, .nodes = s->moving != NULL ? m->nodes : 0};
-    element_request request = {
-        .section = &m->section[kind->section], .length = kind->length, .options = m->options};
+    const mesh_kind *kind = model_kind_of(m, i);
+    between loads = {.loads = {eq, m, i, s->path}, .nodes = s->moving != NULL ? model_nodes(m) : 0};
+    element_request request = {.section = model_section(m, kind->section),
+                               .length = kind->length,
+                               .options = model_options(m)};
     span_problem problem = {
         .request = &request, .linear = s->x != NULL, .context = &loads, .load = NULL};
     TRY(features_of_section(m, kind->section, &request.features, f));
@@ -238,12 +243,13 @@ static status recover(const equations *eq, const internal_state *s, int i, const
     memcpy(request.strain, kind->strain, sizeof request.strain);
     const int jump = distributed_jumps(&loads.loads);
     if (jump != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: %s begins, ends or acts inside an element of it, where resultants "
-                         "have a kink: it is within %g of its length of an end, or of another such "
-                         "place; put it there, or put a node of the scene at one of them",
-                         scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
-                         scene_called(m->scene, SCENE_LOADS, jump).text, DIVISION_LEAST);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: %s begins, ends or acts inside an element of it, where resultants "
+            "have a kink: it is within %g of its length of an end, or of another such "
+            "place; put it there, or put a node of the scene at one of them",
+            scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
+            scene_called(model_scene(m), SCENE_LOADS, jump).text, DIVISION_LEAST);
     loads.acts = distributed_acts(&loads.loads);
     if (loads.nodes > 0)
         s->moving->along(s->moving->context, i, loads.density);
@@ -259,14 +265,14 @@ status internal_at(const equations *eq, const internal_state *s, const internal_
     const model *m = eq->m;
     const int member = at->member;
     double x;
-    const int i =
-        m->first_element[member] + division_at(&m->division, member, at->place, at->before, &x);
+    const int i = model_first_element(m, member) +
+                  division_at(model_division(m), member, at->place, at->before, &x);
     span_grid g;
     span_fields fields;
     span_grid_make(&g);
     TRY(recover(eq, s, i, &g, &fields, f));
     span_at(&g, &fields, x, out);
-    const double angle = axes_turned(m, member, at->place, &m->element[i]);
+    const double angle = axes_turned(m, member, at->place, model_element(m, i));
     turn_components(angle, &out[SPAN_N]);
     turn_components(angle, &out[SPAN_MX]);
     return STATUS_OK;
@@ -331,17 +337,18 @@ status internal_largest(const equations *eq, const internal_state *s, int member
 {
     const model *m = eq->m;
     span_grid g;
-    if (axes_turned(m, member, 0, &m->element[m->first_element[member]]) != 0 ||
-        axes_turned(m, member, 1, &m->element[m->first_element[member + 1] - 1]) != 0)
+    if (axes_turned(m, member, 0, model_element(m, model_first_element(m, member))) != 0 ||
+        axes_turned(m, member, 1, model_element(m, model_first_element(m, member + 1) - 1)) != 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: the axes of its sections turn along it; ask at places of it",
-                         scene_called(m->scene, SCENE_MEMBERS, member).text);
+                         scene_called(model_scene(m), SCENE_MEMBERS, member).text);
     span_grid_make(&g);
     *out = -INFINITY;
-    for (int i = m->first_element[member]; i < m->first_element[member + 1]; i++) {
+    for (int i = model_first_element(m, member); i < model_first_element(m, member + 1); i++) {
         span_fields fields;
         TRY(recover(eq, s, i, &g, &fields, f));
-        take_largest(&(measured){&g, &fields, i - m->first_element[member], of, context}, out);
+        take_largest(&(measured){&g, &fields, i - model_first_element(m, member), of, context},
+                     out);
     }
     return STATUS_OK;
 }

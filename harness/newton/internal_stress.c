@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "elements/section/taper.h"
+#include "harness/model/division.h"
+#include "harness/model/features.h"
+#include "harness/model/mesh.h"
 #include "harness/model/profile.h"
 #include "harness/newton/equations_impl.h"
 
@@ -20,7 +23,7 @@ typedef struct member_points {
 static status prepare(const model *m, const internal_state *s, int member, stress_measure what,
                       member_points *out, fault *f)
 {
-    const scene_member *sm = &m->scene->member[member];
+    const scene_member *sm = &model_scene(m)->member[member];
     unsigned features;
     TRY(features_of_section(m, profile_at(m, member, 0), &features, f));
     out->m = m;
@@ -28,17 +31,17 @@ static status prepare(const model *m, const internal_state *s, int member, stres
     out->tapers = scene_member_tapers(sm);
     out->turned = s->x == NULL && (features & FEATURE_WAGNER_TORQUE);
     out->what = what;
-    return stress_points_of(&m->scene->section[sm->section], &m->section[sm->section], &out->points,
-                            f);
+    return stress_points_of(&model_scene(m)->section[sm->section], model_section(m, sm->section),
+                            &out->points, f);
 }
 
 /* The section at a place of a member whose section changes. */
 static status take_local(member_points *of, double place, fault *f)
 {
-    const scene_member *sm = &of->m->scene->member[of->member];
+    const scene_member *sm = &model_scene(of->m)->member[of->member];
     section_spec spec;
-    section_taper_at(&of->m->scene->section[sm->section], &of->m->scene->section[sm->section_q],
-                     place, &spec);
+    section_taper_at(&model_scene(of->m)->section[sm->section],
+                     &model_scene(of->m)->section[sm->section_q], place, &spec);
     TRY(section_compute(&spec, &of->local, f));
     return stress_points_of(&spec, &of->local, &of->points, f);
 }
@@ -48,7 +51,7 @@ static status take_local(member_points *of, double place, fault *f)
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {
     const section *c = of->points.section,
-                  *whole = &of->m->section[profile_at(of->m, of->member, element)];
+                  *whole = model_section(of->m, profile_at(of->m, of->member, element));
     const double angle = c->axes_angle - whole->axes_angle, e = cos(angle), d = sin(angle);
     stress_resultants r = {.N = v[SPAN_N],
                            .Qy = e * v[SPAN_QY] + d * v[SPAN_QZ],
@@ -68,8 +71,8 @@ static double measured(void *context, int element, double x, const double v[])
 {
     member_points *of = context;
     fault f;
-    if (of->tapers &&
-        take_local(of, division_place(&of->m->division, of->member, element, x), &f) != STATUS_OK)
+    if (of->tapers && take_local(of, division_place(model_division(of->m), of->member, element, x),
+                                 &f) != STATUS_OK)
         return NAN;
     const stress_resultants r = local_resultants(of, element, v);
     return (of->what == STRESS_NORMAL_MIN ? -1 : 1) * stress_of(&of->points, &r, of->what);
@@ -88,7 +91,7 @@ status internal_stress_at(const equations *eq, const internal_state *s, const in
     double v[SPAN_VALUES], x;
     TRY(prepare(m, s, at->member, what, &of, f));
     TRY(internal_at(eq, s, at, v, f));
-    const int element = division_at(&m->division, at->member, at->place, at->before, &x);
+    const int element = division_at(model_division(m), at->member, at->place, at->before, &x);
     *out = signed_value(what, measured(&of, element, x, v));
     return STATUS_OK;
 }

@@ -10,6 +10,10 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/discrete.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/entries.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/ahead.h"
 #include "harness/newton/chunk.h"
 #include "harness/newton/distributed.h"
@@ -20,19 +24,19 @@
 static status compatible_element(const equations *eq, model_state *s, int i)
 {
     const model *m = eq->m;
-    const mesh_element *el = &m->element[i];
+    const mesh_element *el = model_element(m, i);
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
-    double *e = &s->e[(size_t)i * (size_t)m->strains],
-           *sigma = &s->sigma[(size_t)i * (size_t)m->strains];
+    double *e = &s->e[(size_t)i * (size_t)model_strains(m)],
+           *sigma = &s->sigma[(size_t)i * (size_t)model_strains(m)];
     ahead_strain(eq, i, x, &(strain_output){.e = e});
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
     status outcome;
-    if (m->takes &&
+    if (model_takes_loads(m) &&
         distributed_stress(eq, s, x, i, s->path, &(stress_output){.sigma = sigma}, &outcome))
         return outcome;
-    return ahead_stress(eq, i, e, &s->inner[(size_t)i * (size_t)m->inner],
+    return ahead_stress(eq, i, e, &s->inner[(size_t)i * (size_t)model_inner(m)],
                         &(stress_output){.sigma = sigma});
 }
 
@@ -42,12 +46,12 @@ status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
     status outcome = STATUS_OK;
     ahead_strains(eq, s, AHEAD_E, NULL);
     ahead_stresses(eq, NULL, s->inner);
-    for (int i = 0; i < m->elements && outcome == STATUS_OK; i++) {
+    for (int i = 0; i < model_elements(m) && outcome == STATUS_OK; i++) {
         outcome = compatible_element(eq, s, i);
         if (outcome != STATUS_OK)
             fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
-                      scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text,
-                      m->type->name);
+                      scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
+                      model_type(m)->name);
     }
     ahead_end(eq);
     return outcome;
@@ -56,7 +60,7 @@ status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
 static double incompatibility_of(const model *m, const model_slot *w, double length)
 {
     double largest = 0;
-    for (int k = 0; k < m->strains; k++)
+    for (int k = 0; k < model_strains(m); k++)
         largest = fmax(largest, fabs(w->incompatibility[k]) / length);
     return largest;
 }
@@ -70,19 +74,20 @@ static status add_material(const equations *eq, const linear_memory *memory, con
     const model *m = eq->m;
     const int i = of->index;
     const model_slot w = linearise_slot(m, memory, i);
-    const size_t size = (size_t)m->coordinates * sizeof *present;
+    const size_t size = (size_t)model_own_coordinates(m) * sizeof *present;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(part->force, 0, size);
     if (eq->loading.rotates)
         TRY(rotating_frame_add(eq, of->x, i, path, part->force, tangent ? part->K : NULL,
                                &part->why));
     memcpy(present, part->force, size);
-    dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J, w.sigma, part->force);
+    dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, w.J, w.sigma,
+                            part->force);
     if (tangent)
-        dense_add_congruence(m->strains, m->coordinates, w.J, w.C, part->K, work);
-    if (tangent && !m->element[i].plain)
-        dense_add_transpose_mul(m->coordinates, m->strains, 1, w.J,
-                                &s->sigma[(size_t)i * (size_t)m->strains], present);
+        dense_add_congruence(model_strains(m), model_own_coordinates(m), w.J, w.C, part->K, work);
+    if (tangent && !model_element(m, i)->plain)
+        dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, w.J,
+                                &s->sigma[(size_t)i * (size_t)model_strains(m)], present);
     return STATUS_OK;
 }
 
@@ -98,7 +103,7 @@ static void subtract_loads(const equations *eq, const linear_memory *memory, chu
         distributed_add_taken(m, &of->along.out, w.J, w.incompatibility, forces, K);
     else if (!acts)
         return;
-    for (int k = 0; k < m->coordinates; k++) {
+    for (int k = 0; k < model_own_coordinates(m); k++) {
         part->force[k] -= forces[k];
         of->present[k] -= tangent ? forces[k] : 0;
     }
@@ -111,19 +116,19 @@ static status element_equations(const equations *eq, const linear_memory *memory
                                 element_part *part)
 {
     const model *m = eq->m;
-    const mesh_element *el = &m->element[of->index];
+    const mesh_element *el = model_element(m, of->index);
     const model_slot w = linearise_slot(m, memory, of->index);
     if (of->outcome != STATUS_OK)
         return fault_set(&part->why, of->outcome, "element %d of %s: outside what %s can evaluate",
-                         of->index, scene_called(m->scene, SCENE_MEMBERS, el->member).text,
-                         m->type->name);
+                         of->index, scene_called(model_scene(m), SCENE_MEMBERS, el->member).text,
+                         model_type(m)->name);
     if (!of->complete)
         TRY(add_material(eq, memory, s, of, tangent, path, of->present, part));
     subtract_loads(eq, memory, of, tangent, path, part);
     if (tangent)
         eliminate_matrix(m, s, el, of->present, part->K);
     eliminate_forces(m, s, el, part->force);
-    part->incompatibility = incompatibility_of(m, &w, m->kind[el->kind].length);
+    part->incompatibility = incompatibility_of(m, &w, model_kind(m, el->kind)->length);
     return STATUS_OK;
 }
 
@@ -133,7 +138,7 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
 {
     const int n = el->columns;
     for (int j = 0; j < n; j++) {
-        const double step = el->index[j] >= m->free ? drive[el->index[j]] : 0;
+        const double step = el->index[j] >= model_unknowns(m) ? drive[el->index[j]] : 0;
         if (step == 0)
             continue;
         for (int i = 0; i < n; i++)
@@ -147,7 +152,7 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
 {
     const int n = el->columns;
     for (int c = 0; c < lin->conditions; c++) {
-        double *column = lin->column + c * (m->free + m->driven);
+        double *column = lin->column + c * model_all_coordinates(m);
         for (int j = 0; j < n; j++) {
             if (el->index[j] != lin->condition[c].unknown)
                 continue;
@@ -197,7 +202,7 @@ static void fill_window(const shared_loop *loop, int first, int end, element_par
 static int end_of(const shared_loop *loop, int piece)
 {
     const int end = (piece + 1) * loop->window;
-    return end < loop->m->elements ? end : loop->m->elements;
+    return end < model_elements(loop->m) ? end : model_elements(loop->m);
 }
 
 static void fill_piece(void *context, int piece, int slot)
@@ -213,7 +218,7 @@ static void fill_piece(void *context, int piece, int slot)
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;
-    const int wanted = m->elements < CHUNK_WINDOW ? m->elements : CHUNK_WINDOW,
+    const int wanted = model_elements(m) < CHUNK_WINDOW ? model_elements(m) : CHUNK_WINDOW,
               slots = eq->run->team != NULL ? TEAM_SLOTS : 1;
     if (eq->run->team == NULL && chunk_size(m) == 1)
         return 0;
@@ -241,12 +246,12 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
 {
     const element_rotating_frame frame = loading_frame(&eq->loading, lin->path);
     const model *m = eq->m;
-    for (int i = 0; i < m->discretes; i++) {
+    for (int i = 0; i < model_discretes(m); i++) {
         element_part part = {.incompatibility = 0};
-        discrete_equations(m, s, &m->discrete[i], &frame, part.force, part.K);
-        add_part(eq, &m->discrete[i].el, &part, lin);
+        discrete_equations(m, s, model_discrete(m, i), &frame, part.force, part.K);
+        add_part(eq, &model_discrete(m, i)->el, &part, lin);
         if (lin->K != NULL)
-            assemble_discrete(&m->discrete[i].el, part.K, lin->K);
+            assemble_discrete(&model_discrete(m, i)->el, part.K, lin->K);
     }
 }
 
@@ -264,7 +269,7 @@ static int take_piece(void *context, int piece, int slot)
             fault_set(loop->f, part->outcome, "%s", part->why.text);
             return 0;
         }
-        add_part(eq, &loop->m->element[i], part, loop->lin);
+        add_part(eq, model_element(loop->m, i), part, loop->lin);
         if (loop->pattern != NULL)
             assemble_matrix(loop->pattern, i, part->K, loop->lin->K);
         phases_lap(&eq->run->phases, PHASE_ASSEMBLY);
@@ -290,15 +295,15 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .f = f};
     /* inertia counts its evaluations */
     team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
-    memset(lin->residual, 0, (size_t)(m->free + m->driven) * sizeof *lin->residual);
+    memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
         memset(lin->column, 0,
-               (size_t)(lin->conditions * (m->free + m->driven)) * sizeof *lin->column);
+               (size_t)(lin->conditions * model_all_coordinates(m)) * sizeof *lin->column);
     if (lin->K != NULL)
         sparse_zero(lin->K);
-    team_relay(together, (m->elements + loop.window - 1) / loop.window, fill_piece, take_piece,
-               &loop);
+    team_relay(together, (model_elements(m) + loop.window - 1) / loop.window, fill_piece,
+               take_piece, &loop);
     TRY(loop.outcome);
     add_discrete(eq, s, lin);
     loads_add_at_vertices(eq, s, lin->path, lin->residual);

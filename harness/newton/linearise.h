@@ -2,6 +2,7 @@
 #ifndef BEAMWORK_MODEL_LINEARISE_H
 #define BEAMWORK_MODEL_LINEARISE_H
 
+#include "harness/model/mesh.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/run_state.h"
 
@@ -22,6 +23,24 @@ typedef struct model_linearisation {
         *residual; /* [free + driven] right-hand side; of driven coordinates: less their reaction */
     double incompatibility; /* out: max |D(x) - e|/l over elements */
 } model_linearisation;
+/* One element's part of a linear_memory between linearise_state and advance_state. */
+typedef struct model_slot {
+    double *J, *C, *sigma, *incompatibility, *along, /* SLOT_* */
+        *memory; /* sigma = P'(e) + C incompatibility, incompatibility = D(x) - e */
+} model_slot;
+static inline model_slot linearise_slot(const model *m, const linear_memory *memory, int element)
+{
+    model_slot w;
+    const int n = model_strains(m);
+    w.J = memory->slot + (size_t)element * (size_t)model_work_size(m);
+    w.C = w.J + n * model_own_coordinates(m);
+    w.sigma = w.C + n * n;
+    w.incompatibility = w.sigma + n;
+    w.memory = w.incompatibility + n;
+    w.along = w.memory + model_memory(m);
+    return w;
+}
+
 /* Into the memory goes what advance_state takes up. */
 status linearise_state(const equations *, const linear_memory *, const model_state *,
                        model_linearisation *, fault *);

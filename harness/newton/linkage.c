@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
-#include "harness/model/supports_impl.h"
+#include "harness/model/supports.h"
 
 enum { N = 6 };
 
@@ -53,13 +54,13 @@ static void add_joint(linkage *l, int vertex)
     const model *m = l->m;
     const mesh_release *r = release_of(m, vertex);
     const int a = l->number[supports_root(l->part, vertex)],
-              b = l->number[supports_root(l->part, m->vertex[vertex].body)];
+              b = l->number[supports_root(l->part, model_vertex(m, vertex)->body)];
     double at[3], C[N * N];
     for (int i = 0; i < 3; i++)
-        at[i] = m->vertex[vertex].position[i] - m->vertex[0].position[i];
-    supports_rigid(at, m->size, C);
+        at[i] = model_vertex(m, vertex)->position[i] - model_vertex(m, 0)->position[i];
+    supports_rigid(at, model_length(m), C);
     for (int i = 3 * N; i < N * N; i++)
-        C[i] *= m->size;
+        C[i] *= model_length(m);
     leave_out(r->slides, r->slide, C);
     leave_out(r->turns, r->turn, C + 3 * N);
     add_block(l, a, a, 1, C);
@@ -70,7 +71,7 @@ static void add_joint(linkage *l, int vertex)
 
 static void add_holds(linkage *l, int node)
 {
-    const double *origin = l->m->vertex[0].position;
+    const double *origin = model_vertex(l->m, 0)->position;
     const int root = supports_root(l->part, node), part = l->number[root];
     double C[N * N], sum[N * N] = {0};
     if (part == NONE)
@@ -90,12 +91,12 @@ static double motion_of(const linkage *l, int part, const double position[3], do
 {
     double at[3], G[N * N], of_part[N];
     for (int i = 0; i < 3; i++)
-        at[i] = position[i] - l->m->vertex[0].position[i];
+        at[i] = position[i] - model_vertex(l->m, 0)->position[i];
     for (int i = 0; i < N; i++)
         of_part[i] = l->S[(size_t)(N * part + i) * (size_t)(N * l->count)];
-    supports_rigid(at, l->m->size, G);
+    supports_rigid(at, model_length(l->m), G);
     dense_mul_vec(N, N, G, of_part, motion);
-    return vec3_norm(motion) + l->m->size * vec3_norm(motion + 3);
+    return vec3_norm(motion) + model_length(l->m) * vec3_norm(motion + 3);
 }
 
 /* The node that moves most, or the member where all nodes stay. */
@@ -104,20 +105,21 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
     const model *m = l->m;
     double largest = 0, moved[N];
     *node = *member = NONE;
-    for (int i = 0; i < m->elements; i++) {
-        const int vertex = m->element[i].vertex[0];
+    for (int i = 0; i < model_elements(m); i++) {
+        const int vertex = model_element(m, i)->vertex[0];
         const int part = l->number[supports_root(l->part, supports_mover(m, vertex, 1))];
-        const double size = motion_of(l, part, m->vertex[vertex].position, moved);
+        const double size = motion_of(l, part, model_vertex(m, vertex)->position, moved);
         if (size > largest) {
             largest = size;
-            *member = m->element[i].member;
+            *member = model_element(m, i)->member;
             memcpy(motion, moved, sizeof moved);
         }
     }
     double most = 1e-6 * largest;
-    for (int i = 0; i < m->scene->nodes; i++) {
-        const int part = l->number[supports_root(l->part, m->vertex[i].body)];
-        const double size = part != NONE ? motion_of(l, part, m->vertex[i].position, moved) : 0;
+    for (int i = 0; i < model_scene(m)->nodes; i++) {
+        const int part = l->number[supports_root(l->part, model_vertex(m, i)->body)];
+        const double size =
+            part != NONE ? motion_of(l, part, model_vertex(m, i)->position, moved) : 0;
         if (size > most) {
             most = size * (1 + 1e-9); /* of equals the first */
             *node = i;
@@ -136,10 +138,10 @@ static int is_loose(linkage *l)
         free(value);
         return 0;
     }
-    for (int i = l->m->first_release; i < l->m->vertices; i++)
+    for (int i = model_first_release(l->m); i < model_vertices(l->m); i++)
         add_joint(l, i);
-    for (int i = 0; i < l->m->scene->nodes; i++)
-        if (l->m->vertex[i].body == i)
+    for (int i = 0; i < model_scene(l->m)->nodes; i++)
+        if (model_vertex(l->m, i)->body == i)
             add_holds(l, i);
     const int found = LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', n, l->S, n, value) == 0 &&
                       !(value[0] > supports_loose * value[n - 1]);
@@ -150,17 +152,17 @@ static int is_loose(linkage *l)
 int linkage_mechanism(const model *m, int *node, int *member, double motion[6])
 {
     enum { MOST_PARTS = 200 };
-    linkage l = {.m = m, .part = malloc((size_t)m->vertices * sizeof *l.part)};
+    linkage l = {.m = m, .part = malloc((size_t)model_vertices(m) * sizeof *l.part)};
     int found = 0;
-    l.number = malloc((size_t)m->vertices * sizeof *l.number);
-    if (m->releases > 0 && l.part != NULL && l.number != NULL) {
+    l.number = malloc((size_t)model_vertices(m) * sizeof *l.number);
+    if (model_releases(m) > 0 && l.part != NULL && l.number != NULL) {
         supports_join(m, 1, l.part);
-        for (int i = 0; i < m->vertices; i++)
+        for (int i = 0; i < model_vertices(m); i++)
             l.number[i] = NONE;
-        for (int i = 0; i < m->elements; i++)
-            count_part(&l, supports_mover(m, m->element[i].vertex[0], 1));
-        for (int i = m->first_release; i < m->vertices; i++)
-            count_part(&l, m->vertex[i].body);
+        for (int i = 0; i < model_elements(m); i++)
+            count_part(&l, supports_mover(m, model_element(m, i)->vertex[0], 1));
+        for (int i = model_first_release(m); i < model_vertices(m); i++)
+            count_part(&l, model_vertex(m, i)->body);
         found = l.count <= MOST_PARTS && is_loose(&l);
         if (found)
             name_what_moves(&l, node, member, motion);

@@ -8,7 +8,10 @@
 #include "cases/scene/along_path.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/entries.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/applied.h"
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
@@ -20,7 +23,7 @@ static const double potential = 1e-12;
  * all where a motion has to conserve energy; in states that motions start from, too. */
 static int lumps_of(const model *m, int analysis)
 {
-    const scene *s = m->scene;
+    const scene *s = model_scene(m);
     const scene_analysis *a = &s->analysis[analysis];
     int lumps = LUMPS_NOTHING;
     if (a->kind == SCENE_MOTION && !model_spreads(m, analysis))
@@ -35,7 +38,7 @@ static int lumps_of(const model *m, int analysis)
 
 loading loading_of(const model *m, int analysis)
 {
-    const scene *s = m->scene;
+    const scene *s = model_scene(m);
     const scene_analysis *own = &s->analysis[analysis],
                          *a = own->follows == SCENE_NONE || own->kind == SCENE_MOTION
                                   ? own
@@ -107,14 +110,15 @@ static void add_within(const equations *eq, const model_state *s, const scene_lo
                        double scale, double out[])
 {
     const model *m = eq->m;
-    for (int i = m->first_element[load->where]; i < m->first_element[load->where + 1]; i++) {
+    for (int i = model_first_element(m, load->where); i < model_first_element(m, load->where + 1);
+         i++) {
         node_state x[ELEMENT_MAX_NODES];
         double forces[MODEL_MAX_COORDINATES] = {0};
-        kinematics_gather(m, s, &m->element[i], x);
+        kinematics_gather(m, s, model_element(m, i), x);
         if (!distributed_add_one(eq, s, x, i, load, scale, forces, NULL))
             continue;
-        eliminate_forces(m, s, &m->element[i], forces);
-        assemble_vector(&m->element[i], forces, out);
+        eliminate_forces(m, s, model_element(m, i), forces);
+        assemble_vector(model_element(m, i), forces, out);
     }
 }
 
@@ -131,8 +135,8 @@ void loads_add_one(const equations *eq, const model_state *s, const scene_load *
 void loads_add_at_vertices(const equations *eq, const model_state *s, double path, double out[])
 {
     const model *m = eq->m;
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
         if (!distributed_spreads(eq, load))
             add_at_vertices(m, s, load, applied_factor(eq, load, path), out);
     }
@@ -141,24 +145,26 @@ void loads_add_at_vertices(const equations *eq, const model_state *s, double pat
 void loads_add(const equations *eq, const model_state *s, double path, double out[])
 {
     const model *m = eq->m;
-    for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(eq, s, &m->scene->load[i], applied_factor(eq, &m->scene->load[i], path), out);
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        loads_add_one(eq, s, &model_scene(m)->load[i],
+                      applied_factor(eq, &model_scene(m)->load[i], path), out);
 }
 
 void loads_rate(const equations *eq, const model_state *s, double path, double out[])
 {
     const model *m = eq->m;
-    memset(out, 0, (size_t)(m->free + m->driven) * sizeof *out);
-    for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(eq, s, &m->scene->load[i], along_path_rate(&m->scene->load[i], path), out);
+    memset(out, 0, (size_t)model_all_coordinates(m) * sizeof *out);
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        loads_add_one(eq, s, &model_scene(m)->load[i],
+                      along_path_rate(&model_scene(m)->load[i], path), out);
 }
 
 void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
                                  loads_entry take, void *context)
 {
     const model *m = eq->m;
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
         if (!distributed_spreads(eq, load))
             applied_stiffness(m, s, load, applied_factor(eq, load, path), take, context);
     }
@@ -178,16 +184,16 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
 {
     const model *m = eq->m;
     loads_subtract_at_vertices(eq, s, path, K);
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         node_state x[ELEMENT_MAX_NODES];
         double forces[ELEMENT_MAX_COORDINATES] = {0},
                part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
-        kinematics_gather(m, s, &m->element[i], x);
+        kinematics_gather(m, s, model_element(m, i), x);
         if (!distributed_add(eq, s, x, i, path, forces, part))
             continue;
-        for (int k = 0; k < m->coordinates; k++)
+        for (int k = 0; k < model_own_coordinates(m); k++)
             forces[k] = -forces[k];
-        eliminate_matrix(m, s, &m->element[i], forces, part);
+        eliminate_matrix(m, s, model_element(m, i), forces, part);
         assemble_matrix(assemble_of(eq->run->patterns, K), i, part, K);
     }
 }
@@ -228,9 +234,9 @@ static double skew_of(const entries_of_load *e)
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f)
 {
     const model *m = eq->m;
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
-        entries_of_load e = {.free = m->free};
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
+        entries_of_load e = {.free = model_unknowns(m)};
         if (load->kind != SCENE_MOMENT)
             continue;
         applied_stiffness(m, s, load, applied_factor(eq, load, path), into_list, &e);
@@ -239,8 +245,8 @@ status loads_have_potential(const equations *eq, const model_state *s, double pa
                 f, STATUS_REFUSED,
                 "%s, a moment about fixed axes, has no potential at %s, which turns freely about "
                 "two axes across it: hold one of them, or follow a static path",
-                scene_called(m->scene, SCENE_LOADS, i).text,
-                scene_called(m->scene, SCENE_NODES, load->where).text);
+                scene_called(model_scene(m), SCENE_LOADS, i).text,
+                scene_called(model_scene(m), SCENE_NODES, load->where).text);
     }
     return STATUS_OK;
 }
@@ -248,7 +254,7 @@ status loads_have_potential(const equations *eq, const model_state *s, double pa
 void loads_release_moment(const model *m, const model_state *s, int node, const double M[3],
                           sparse *K)
 {
-    const mesh_vertex *v = &m->vertex[node];
+    const mesh_vertex *v = model_vertex(m, node);
     double b[3][3];
     if (v->angles == 0)
         return;
@@ -277,7 +283,7 @@ static void add_at_node(void *context, const applied *what)
 {
     const sum_at_node *sum = context;
     double rho[3], moment[3];
-    if (sum->m->vertex[what->vertex].body != sum->node)
+    if (model_vertex(sum->m, what->vertex)->body != sum->node)
         return;
     kinematics_offset(sum->m, sum->s, what->vertex, rho);
     if (what->offset)
@@ -293,19 +299,19 @@ static void add_at_node(void *context, const applied *what)
 static void add_element_at_node(sum_at_node *sum, int element, double path)
 {
     const model *m = sum->m;
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     double forces[ELEMENT_MAX_COORDINATES] = {0};
     node_state x[ELEMENT_MAX_NODES];
     int meets = 0;
-    for (int k = 0; k < m->nodes; k++)
-        meets |= m->vertex[el->vertex[k]].body == sum->node;
+    for (int k = 0; k < model_nodes(m); k++)
+        meets |= model_vertex(m, el->vertex[k])->body == sum->node;
     if (!meets)
         return;
     kinematics_gather(m, sum->s, el, x);
     if (!distributed_add(sum->eq, sum->s, x, element, path, forces, NULL))
         return;
-    for (int k = 0; k < m->nodes; k++) {
-        if (m->vertex[el->vertex[k]].body != sum->node)
+    for (int k = 0; k < model_nodes(m); k++) {
+        if (model_vertex(m, el->vertex[k])->body != sum->node)
             continue;
         applied one = {.vertex = el->vertex[k]};
         memcpy(one.F, forces + NODE_COORDINATES * k, sizeof one.F);
@@ -318,29 +324,30 @@ void loads_at_node(const equations *eq, const model_state *s, double path, int n
     const model *m = eq->m;
     sum_at_node sum = {eq, m, s, node, F};
     memset(F, 0, 6 * sizeof(double));
-    for (int i = 0; i < m->scene->loads; i++) {
-        const scene_load *load = &m->scene->load[i];
+    for (int i = 0; i < model_scene(m)->loads; i++) {
+        const scene_load *load = &model_scene(m)->load[i];
         if (!distributed_spreads(eq, load))
             applied_each(m, s, load, applied_factor(eq, load, path), add_at_node, &sum);
     }
-    for (int i = 0; i < m->elements; i++)
+    for (int i = 0; i < model_elements(m); i++)
         add_element_at_node(&sum, i, path);
 }
 
 void loads_drive(const equations *eq, const model_state *s, double path, double dx[])
 {
     const model *m = eq->m;
-    for (int d = 0; d < m->scene->drivers; d++)
-        if (m->scene->driver[d].value != NULL && m->driver_coordinate[d] >= m->free)
-            dx[m->driver_coordinate[d]] =
-                loads_driver_value(eq, &m->scene->driver[d], path) - s->driver[d];
-    for (int i = 0; i < m->scene->nodes; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int d = 0; d < model_scene(m)->drivers; d++)
+        if (model_scene(m)->driver[d].value != NULL &&
+            model_driver_coordinate(m, d) >= model_unknowns(m))
+            dx[model_driver_coordinate(m, d)] =
+                loads_driver_value(eq, &model_scene(m)->driver[d], path) - s->driver[d];
+    for (int i = 0; i < model_scene(m)->nodes; i++) {
+        const mesh_vertex *v = model_vertex(m, i);
         if (v->vector_driver[0] == NONE || v->body != i)
             continue;
         double target[3], q[4], turn[3];
         for (int k = 0; k < 3; k++)
-            target[k] = loads_driver_value(eq, &m->scene->driver[v->vector_driver[k]], path);
+            target[k] = loads_driver_value(eq, &model_scene(m)->driver[v->vector_driver[k]], path);
         rotation_exp(target, q);
         rotation_between(&s->q[4 * i], q, turn);
         for (int k = 0; k < 3; k++)
@@ -353,14 +360,14 @@ int loads_conditions(const equations *eq, const model_state *s, double path,
 {
     const model *m = eq->m;
     int count = 0;
-    for (int d = 0; d < m->scene->drivers && count < MODEL_MAX_CONDITIONS; d++) {
-        const scene_driver *u = &m->scene->driver[d];
-        if (u->value != NULL || m->driver_coordinate[d] == NONE)
+    for (int d = 0; d < model_scene(m)->drivers && count < MODEL_MAX_CONDITIONS; d++) {
+        const scene_driver *u = &model_scene(m)->driver[d];
+        if (u->value != NULL || model_driver_coordinate(m, d) == NONE)
             continue;
-        out[count].unknown = m->driver_coordinate[d];
-        out[count].coordinate = m->driver_coordinate[u->condition_driver];
+        out[count].unknown = model_driver_coordinate(m, d);
+        out[count].coordinate = model_driver_coordinate(m, u->condition_driver);
         out[count++].increment =
-            loads_driver_value(eq, &m->scene->driver[u->condition_driver], path) -
+            loads_driver_value(eq, &model_scene(m)->driver[u->condition_driver], path) -
             s->driver[u->condition_driver];
     }
     return count;
@@ -369,18 +376,18 @@ int loads_conditions(const equations *eq, const model_state *s, double path,
 void loads_reference(const equations *eq, double path, double f[])
 {
     const model *m = eq->m;
-    memset(f, 0, (size_t)(m->free + m->driven) * sizeof *f);
-    loads_add(eq, m->rest, path, f);
+    memset(f, 0, (size_t)model_all_coordinates(m) * sizeof *f);
+    loads_add(eq, kinematics_rest(m), path, f);
 }
 
 int loads_begin(const equations *eq)
 {
     const model *m = eq->m;
     int begin = 0;
-    for (int i = 0; i < m->scene->loads; i++)
-        begin |= applied_factor(eq, &m->scene->load[i], 0) != 0;
-    for (int d = 0; d < m->scene->drivers; d++)
-        begin |= m->scene->driver[d].value != NULL &&
-                 loads_driver_value(eq, &m->scene->driver[d], 0) != 0;
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        begin |= applied_factor(eq, &model_scene(m)->load[i], 0) != 0;
+    for (int d = 0; d < model_scene(m)->drivers; d++)
+        begin |= model_scene(m)->driver[d].value != NULL &&
+                 loads_driver_value(eq, &model_scene(m)->driver[d], 0) != 0;
     return begin;
 }

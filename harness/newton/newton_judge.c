@@ -7,8 +7,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
+#include "harness/model/state.h"
 #include "harness/model/turns.h"
 #include "harness/newton/history.h"
 #include "harness/newton/newton.h"
@@ -19,31 +20,32 @@ static status judge_twist(const model *m, const model_state *s, fault *f)
     const double twist = kinematics_largest_twist(m, s, &index);
     if (twist < PI / 4)
         return STATUS_OK;
-    const int member = m->element[index].member, first = m->first_element[member];
+    const int member = model_element(m, index)->member, first = model_first_element(m, member);
     return fault_set(
         f, STATUS_NOT_CONVERGED,
         "element %d of %d of %s is twisted by %.3g rad, more than the eighth of a turn "
         "up to which the torque of %s grows, at path %g: use more elements or smaller "
         "steps",
-        index - first + 1, m->first_element[member + 1] - first,
-        scene_called(m->scene, SCENE_MEMBERS, member).text, twist, m->type->name, s->path);
+        index - first + 1, model_first_element(m, member + 1) - first,
+        scene_called(model_scene(m), SCENE_MEMBERS, member).text, twist, model_type(m)->name,
+        s->path);
 }
 
 /* The element's own turn [rad]: between neighbouring nodes, and for sines against the chord. */
 static status judge_elements(const model *m, const model_state *s, fault *f)
 {
-    const int quarter = (m->type->limits & LIMIT_QUARTER_TURN) != 0;
+    const int quarter = (model_type(m)->limits & LIMIT_QUARTER_TURN) != 0;
     int index;
     const double turn = kinematics_largest_turn(m, s, quarter, &index);
     if (turn < (quarter ? PI / 2 : PI))
         return STATUS_OK;
-    const int member = m->element[index].member, first = m->first_element[member];
+    const int member = model_element(m, index)->member, first = model_first_element(m, member);
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "element %d of %d of %s is turned by %.3g rad, more than the %s turn that %s "
                      "follows, at path %g: use more elements or smaller steps",
-                     index - first + 1, m->first_element[member + 1] - first,
-                     scene_called(m->scene, SCENE_MEMBERS, member).text, turn,
-                     quarter ? "quarter" : "half", m->type->name, s->path);
+                     index - first + 1, model_first_element(m, member + 1) - first,
+                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, turn,
+                     quarter ? "quarter" : "half", model_type(m)->name, s->path);
 }
 
 /* Does this end of a member turn freely about all axes across it? */
@@ -63,10 +65,10 @@ static status judge_tension(const model *m, const model_state *s, fault *f)
 {
     int worst = 0;
     double most = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const double by = m->type->tension(m->kind[m->element[i].kind].data,
-                                           s->sigma + (size_t)i * (size_t)m->strains);
-        const mesh_element *el = &m->element[i];
+    for (int i = 0; i < model_elements(m); i++) {
+        const double by = model_type(m)->tension(model_kind_of(m, i)->data,
+                                                 s->sigma + (size_t)i * (size_t)model_strains(m));
+        const mesh_element *el = model_element(m, i);
         if (by <= most || (swings(m, el, 0) && swings(m, el, el->nodes - 1)))
             continue;
         worst = i;
@@ -74,32 +76,34 @@ static status judge_tension(const model *m, const model_state *s, fault *f)
     }
     if (most < 1)
         return STATUS_OK;
-    const int member = m->element[worst].member, first = m->first_element[member],
-              count = m->first_element[member + 1] - first;
+    const int member = model_element(m, worst)->member, first = model_first_element(m, member),
+              count = model_first_element(m, member + 1) - first;
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "element %d of %d of %s is too long for the axial force in it, by a factor of "
                      "%.4g, at path %g: %s loses its stiffness across it; use %.0f elements (for "
                      "four times the force twice as many) or another formulation",
-                     worst - first + 1, count, scene_called(m->scene, SCENE_MEMBERS, member).text,
-                     most, s->path, m->type->name, floor(count * most) + 1);
+                     worst - first + 1, count,
+                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, most, s->path,
+                     model_type(m)->name, floor(count * most) + 1);
 }
 
 status newton_judge_rest(const model *m, fault *f)
 {
     const double most = 2;
     int index;
-    if (!(m->type->limits & LIMIT_FLAT_ARC))
+    if (!(model_type(m)->limits & LIMIT_FLAT_ARC))
         return STATUS_OK;
     const double rise = kinematics_largest_rise(m, &index);
     if (rise < most)
         return STATUS_OK;
-    const int member = m->element[index].member, first = m->first_element[member],
-              count = m->first_element[member + 1] - first;
+    const int member = model_element(m, index)->member, first = model_first_element(m, member),
+              count = model_first_element(m, member + 1) - first;
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "the arc of element %d of %d of %s rises by %.3g radii of gyration of its "
                      "section, and %s is right below %g: use %.0f elements or another formulation",
-                     index - first + 1, count, scene_called(m->scene, SCENE_MEMBERS, member).text,
-                     rise, m->type->name, most, floor(count * sqrt(rise / most)) + 1);
+                     index - first + 1, count,
+                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, rise,
+                     model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
 /* Near a full turn, with a moment across the turn: that knows no bounds there. */
@@ -118,16 +122,16 @@ static int across(const mesh_discrete *d, const double turn[3])
 
 static status judge_springs(const model *m, const model_state *from, const model_state *s, fault *f)
 {
-    for (int i = 0; i < m->springs; i++) {
+    for (int i = 0; i < model_springs(m); i++) {
         const double *turn = turns_of_spring(m, s, i);
         if (turns_swung(turns_of_spring(m, from, i), turn) ||
-            across(&m->discrete[m->discretes - m->springs + i], turn))
+            across(model_discrete(m, model_discretes(m) - model_springs(m) + i), turn))
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%s is turned by %.4g rad at path %g: on a full turn about a changing "
                              "axis, or with a moment across its turn, its rotation vector has no "
                              "direction; hold its other turns, use smaller steps, or put two in "
                              "series",
-                             scene_called(m->scene, SCENE_SPRINGS, i).text, vec3_norm(turn),
+                             scene_called(model_scene(m), SCENE_SPRINGS, i).text, vec3_norm(turn),
                              s->path);
     }
     return STATUS_OK;
@@ -136,11 +140,11 @@ static status judge_springs(const model *m, const model_state *from, const model
 /* Largest change of what turns a node by prescribed angles [rad]. */
 static double driven_by(const model *m, const model_state *from, const model_state *s, int node)
 {
-    const mesh_vertex *v = &m->vertex[node];
+    const mesh_vertex *v = model_vertex(m, node);
     double largest = 0;
     for (int k = 0; k < 3; k++) {
         const int driver =
-            v->vector_driver[0] != NONE ? v->vector_driver[k] : m->scene->node[node].angle[k];
+            v->vector_driver[0] != NONE ? v->vector_driver[k] : model_scene(m)->node[node].angle[k];
         if (driver >= 0)
             largest = fmax(largest, fabs(s->driver[driver] - from->driver[driver]));
     }
@@ -149,13 +153,13 @@ static double driven_by(const model *m, const model_state *from, const model_sta
 
 static status judge_steps(const model *m, const model_state *from, const model_state *s, fault *f)
 {
-    for (int i = 0; i < m->scene->nodes; i++) {
-        const double most = m->vertex[i].vector_driver[0] != NONE ? PI : 2 * PI,
+    for (int i = 0; i < model_scene(m)->nodes; i++) {
+        const double most = model_vertex(m, i)->vector_driver[0] != NONE ? PI : 2 * PI,
                      step = driven_by(m, from, s, i);
         if (!(step < most * (1 + 1e-9)))
             return fault_set(f, STATUS_NOT_CONVERGED,
                              "%s is driven by %.3g rad in one step at path %g: use smaller steps",
-                             scene_called(m->scene, SCENE_NODES, i).text, step, s->path);
+                             scene_called(model_scene(m), SCENE_NODES, i).text, step, s->path);
     }
     return STATUS_OK;
 }
@@ -163,9 +167,9 @@ static status judge_steps(const model *m, const model_state *from, const model_s
 status newton_accept(const model *m, const model_state *from, model_state *s, fault *f)
 {
     TRY(judge_elements(m, s, f));
-    if (m->type->limits & LIMIT_EIGHTH_TWIST)
+    if (model_type(m)->limits & LIMIT_EIGHTH_TWIST)
         TRY(judge_twist(m, s, f));
-    if (m->type->limits & LIMIT_TENSION)
+    if (model_type(m)->limits & LIMIT_TENSION)
         TRY(judge_tension(m, s, f));
     TRY(judge_springs(m, from, s, f));
     TRY(judge_steps(m, from, s, f));

@@ -8,11 +8,15 @@
 #include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
 #include "harness/model/discrete.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/entries.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/equations_impl.h"
 
 int rotating_frame_lumps(const equations *eq)
 {
-    return eq->m->scene->lumped || eq->loading.lumps != LUMPS_NOTHING;
+    return model_scene(eq->m)->lumped || eq->loading.lumps != LUMPS_NOTHING;
 }
 
 static status inertia_at(const equations *eq, const node_state x[], int i, double path,
@@ -20,19 +24,22 @@ static status inertia_at(const equations *eq, const node_state x[], int i, doubl
 {
     const model *m = eq->m;
     const element_rotating_frame frame = loading_frame(&eq->loading, path);
-    const mesh_kind *kind = &m->kind[m->element[i].kind];
+    const mesh_kind *kind = model_kind_of(m, i);
     const element_rotating_frame *turning = eq->loading.rotates ? &frame : NULL;
     status outcome;
     if (rotating_frame_lumps(eq)) {
-        const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
-        outcome = lumped_element(&whole, m->nodes, m->element[i].share, x, turning, out);
+        const lumped_mass whole =
+            lumped_of(model_section(m, kind->section), model_features(m), kind->length);
+        outcome =
+            lumped_element(&whole, model_nodes(m), model_element(m, i)->share, x, turning, out);
     } else {
-        outcome = m->type->inertia(kind->data, x, turning, out);
+        outcome = model_type(m)->inertia(kind->data, x, turning, out);
     }
     eq->run->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
-        return fault_set(f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
-                         scene_called(m->scene, SCENE_MEMBERS, m->element[i].member).text);
+        return fault_set(
+            f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
+            scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text);
     return STATUS_OK;
 }
 
@@ -46,10 +53,10 @@ status rotating_frame_add(const equations *eq, const node_state x[], int i, doub
         return STATUS_OK;
     TRY(inertia_at(eq, x, i, path,
                    &(inertia_output){.force = centrifugal, .N = K != NULL ? N : NULL}, f));
-    for (int k = 0; k < m->coordinates; k++)
+    for (int k = 0; k < model_own_coordinates(m); k++)
         force[k] -= centrifugal[k];
     if (K != NULL)
-        for (int k = 0; k < m->coordinates * m->coordinates; k++)
+        for (int k = 0; k < model_own_coordinates(m) * model_own_coordinates(m); k++)
             K[k] += N[k];
     return STATUS_OK;
 }
@@ -59,23 +66,23 @@ status rotating_frame_inertia(const equations *eq, const model_state *state, dou
 {
     const element_rotating_frame frame = loading_frame(&eq->loading, path);
     const model *m = eq->m;
-    const model_state *s = state != NULL ? state : m->rest;
+    const model_state *s = state != NULL ? state : kinematics_rest(m);
     const mesh_pattern *p = assemble_of(eq->run->patterns, M);
     double mass[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES],
         gyroscopic[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
     sparse_zero(M);
     if (G != NULL)
         sparse_zero(G);
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         node_state x[ELEMENT_MAX_NODES];
-        kinematics_gather(m, s, &m->element[i], x);
+        kinematics_gather(m, s, model_element(m, i), x);
         TRY(inertia_at(eq, x, i, path,
                        &(inertia_output){.M = mass, .G = G != NULL ? gyroscopic : NULL}, f));
-        eliminate_matrix(m, s, &m->element[i], NULL, mass);
+        eliminate_matrix(m, s, model_element(m, i), NULL, mass);
         assemble_matrix(p, i, mass, M);
         if (G == NULL)
             continue;
-        eliminate_matrix(m, s, &m->element[i], NULL, gyroscopic);
+        eliminate_matrix(m, s, model_element(m, i), NULL, gyroscopic);
         assemble_matrix(p, i, gyroscopic, G);
     }
     discrete_inertia(m, s, &frame, M, G);
@@ -95,13 +102,13 @@ static void in_axes(const mesh_element *el, const double v[3], double out[3])
 double rotating_frame_inner(const model *m, const double x[])
 {
     double sum = 0;
-    for (int e = 0; e < m->elements; e++) {
-        const mesh_element *el = &m->element[e];
-        const double *B = m->kind[el->kind].inner;
+    for (int e = 0; e < model_elements(m); e++) {
+        const mesh_element *el = model_element(m, e);
+        const double *B = model_kind(m, el->kind)->inner;
         double local[ELEMENT_MAX_COORDINATES], own[FIELD_INNER];
         if (B == NULL)
             continue;
-        kinematics_local(m, m->rest, el, x, local);
+        kinematics_local(m, kinematics_rest(m), el, x, local);
         for (int node = 0; node < 2; node++) {
             const int at = NODE_COORDINATES * node;
             in_axes(el, local + at, own + at);
@@ -135,13 +142,13 @@ int rotating_frame_inner_matrix(const equations *eq, sparse *out)
     const mesh_pattern *p = assemble_of(eq->run->patterns, out);
     int any = 0;
     sparse_zero(out);
-    for (int e = 0; e < m->elements; e++) {
-        const double *B = m->kind[m->element[e].kind].inner;
+    for (int e = 0; e < model_elements(m); e++) {
+        const double *B = model_kind_of(m, e)->inner;
         double E[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         if (B == NULL)
             continue;
-        turn_inner(&m->element[e], B, E);
-        eliminate_matrix(m, m->rest, &m->element[e], NULL, E);
+        turn_inner(model_element(m, e), B, E);
+        eliminate_matrix(m, kinematics_rest(m), model_element(m, e), NULL, E);
         assemble_matrix(p, e, E, out);
         any = 1;
     }

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 
 /* Fewer elements than this are done before another thread is awake (measured on the joint and the
  * hexapod). */
@@ -11,11 +12,12 @@ enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
 {
-    out->slot = malloc(((size_t)m->elements * (size_t)m->work_size + 1) * sizeof *out->slot);
+    out->slot =
+        malloc(((size_t)model_elements(m) * (size_t)model_work_size(m) + 1) * sizeof *out->slot);
     return out->slot != NULL
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer",
-                           m->elements);
+                           model_elements(m));
 }
 
 void linear_memory_free(linear_memory *memory)

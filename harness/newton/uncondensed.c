@@ -11,13 +11,16 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/discrete.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
 
 int uncondensed_size(const model *m)
 {
-    return m->free + 2 * m->strains * m->elements;
+    return model_unknowns(m) + 2 * model_strains(m) * model_elements(m);
 }
 
 typedef struct uncondensed {
@@ -37,7 +40,7 @@ static void put(const model *m, uncondensed *s, int row, int column, double valu
             s->A[(size_t)(s->size - s->conditions + c) * (size_t)s->size + (size_t)row] += value;
             return;
         }
-    if (column < m->free)
+    if (column < model_unknowns(m))
         s->A[(size_t)column * (size_t)s->size + (size_t)row] += value;
     else
         s->b[row] -= value * s->drive[column];
@@ -48,35 +51,37 @@ static status add_element(const equations *eq, const model_state *state, int i, 
 {
     const model *m = eq->m;
     enum { E = ELEMENT_MAX_STRAINS, X = MODEL_MAX_COORDINATES };
-    const mesh_element *el = &m->element[i];
-    const element_data *data = m->kind[el->kind].data;
-    const int n = el->columns, strains = m->strains, first_e = m->free + strains * i,
-              first_s = m->free + strains * (m->elements + i);
+    const mesh_element *el = model_element(m, i);
+    const element_data *data = model_kind(m, el->kind)->data;
+    const int n = el->columns, strains = model_strains(m),
+              first_e = model_unknowns(m) + strains * i,
+              first_s = model_unknowns(m) + strains * (model_elements(m) + i);
     const double *e = &state->e[(size_t)i * (size_t)strains],
                  *sigma = &state->sigma[(size_t)i * (size_t)strains];
     double D[E], J[E * X], H[X * X], P[E], C[E * E], force[X] = {0}, along[X] = {0};
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, state, el, x);
-    m->type->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
+    model_type(m)->strain(data, x, &(strain_output){.e = D, .J = J, .s = sigma, .H = H});
     const stress_output stresses = {.sigma = P, .C = C};
     status outcome;
-    if (!m->takes || !distributed_stress(eq, state, x, i, path, &stresses, &outcome))
-        outcome = m->type->stress(data, e, &state->inner[(size_t)i * (size_t)m->inner],
-                                  &(stress_output){.sigma = P, .C = C});
+    if (!model_takes_loads(m) || !distributed_stress(eq, state, x, i, path, &stresses, &outcome))
+        outcome = model_type(m)->stress(data, e, &state->inner[(size_t)i * (size_t)model_inner(m)],
+                                        &(stress_output){.sigma = P, .C = C});
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
-                         scene_called(m->scene, SCENE_MEMBERS, el->member).text, m->type->name);
-    dense_add_transpose_mul(m->coordinates, strains, 1, J, sigma, force);
+                         scene_called(model_scene(m), SCENE_MEMBERS, el->member).text,
+                         model_type(m)->name);
+    dense_add_transpose_mul(model_own_coordinates(m), strains, 1, J, sigma, force);
     TRY(rotating_frame_add(eq, x, i, path, force, H, f));
     distributed_add(eq, state, x, i, path, along, H);
-    for (int k = 0; k < m->coordinates; k++)
+    for (int k = 0; k < model_own_coordinates(m); k++)
         force[k] -= along[k];
     eliminate_matrix(m, state, el, force, H);
     eliminate_forces(m, state, el, force);
     for (int a = 0; a < n; a++) {
-        const int row = el->index[a] < m->free ? el->index[a] : NONE;
+        const int row = el->index[a] < model_unknowns(m) ? el->index[a] : NONE;
         if (row != NONE)
             s->b[row] -= force[a];
         for (int c = 0; c < n; c++)
@@ -84,7 +89,8 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     }
     for (int k = 0; k < strains; k++) {
         double row[X];
-        memcpy(row, J + m->coordinates * k, (size_t)m->coordinates * sizeof *row);
+        memcpy(row, J + model_own_coordinates(m) * k,
+               (size_t)model_own_coordinates(m) * sizeof *row);
         eliminate_forces(m, state, el, row);
         s->b[first_e + k] += e[k] - D[k];
         s->b[first_s + k] += P[k] - sigma[k];
@@ -92,7 +98,7 @@ static status add_element(const equations *eq, const model_state *state, int i, 
         s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)(first_s + k)] += 1;
         for (int c = 0; c < n; c++) {
             put(m, s, first_e + k, el->index[c], row[c]);
-            if (el->index[c] >= 0 && el->index[c] < m->free)
+            if (el->index[c] >= 0 && el->index[c] < model_unknowns(m))
                 s->A[(size_t)(first_s + k) * (size_t)s->size + (size_t)el->index[c]] += row[c];
         }
         for (int l = 0; l < strains; l++)
@@ -111,7 +117,7 @@ typedef struct load_part {
 static void put_load(void *context, int row, int column, double value)
 {
     const load_part *part = context;
-    put(part->m, part->s, row < part->m->free ? row : NONE, column, -value);
+    put(part->m, part->s, row < model_unknowns(part->m) ? row : NONE, column, -value);
 }
 
 static void add_discrete(const equations *eq, const model_state *state, const mesh_discrete *d,
@@ -123,7 +129,7 @@ static void add_discrete(const equations *eq, const model_state *state, const me
     double force[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     discrete_equations(m, state, d, &frame, force, K);
     for (int a = 0; a < n; a++) {
-        const int row = d->el.index[a] < m->free ? d->el.index[a] : NONE;
+        const int row = d->el.index[a] < model_unknowns(m) ? d->el.index[a] : NONE;
         if (row != NONE)
             s->b[row] -= force[a];
         for (int c = 0; c < n; c++)
@@ -139,17 +145,17 @@ status uncondensed_system(const equations *eq, const model_state *state, double 
     uncondensed s = {uncondensed_size(m) + conditions, conditions, A, b, drive, condition};
     memset(A, 0, (size_t)s.size * (size_t)s.size * sizeof *A);
     memset(b, 0, (size_t)s.size * sizeof *b);
-    memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
+    memset(load, 0, (size_t)model_all_coordinates(m) * sizeof *load);
     loads_add_at_vertices(eq, state, path, load);
-    memcpy(b, load, (size_t)m->free * sizeof *b);
-    memset(load, 0, (size_t)(m->free + m->driven) * sizeof *load);
+    memcpy(b, load, (size_t)model_unknowns(m) * sizeof *b);
+    memset(load, 0, (size_t)model_all_coordinates(m) * sizeof *load);
     loads_add(eq, state, path, load);
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         TRY(add_element(eq, state, i, path, &s, f));
     }
     loads_stiffness_at_vertices(eq, state, path, put_load, &(load_part){m, &s});
-    for (int i = 0; i < m->discretes; i++) {
-        add_discrete(eq, state, &m->discrete[i], path, &s);
+    for (int i = 0; i < model_discretes(m); i++) {
+        add_discrete(eq, state, model_discrete(m, i), path, &s);
     }
     for (int c = 0; c < conditions; c++) {
         const int row = s.size - conditions + c;

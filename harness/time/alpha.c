@@ -5,8 +5,9 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/metric.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/time/damping.h"
 #include "harness/time/drive.h"
 #include "harness/time/massive.h"
@@ -90,10 +91,11 @@ static status check_turns(const alpha *s, double time, fault *f)
 {
     const double most = 1;
     const model *m = s->stage.c->model;
-    for (int i = 0; i < m->vertices; i++) {
-        const int *at = &m->vertex[i].coordinate[SCENE_RX];
+    for (int i = 0; i < model_vertices(m); i++) {
+        const int *at = &model_vertex(m, i)->coordinate[SCENE_RX];
         double turn[3];
-        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
+        if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
+            forms_of(m, i) != FORM_BODY)
             continue;
         for (int k = 0; k < 3; k++)
             turn[k] = s->inc[at[k]];

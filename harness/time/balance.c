@@ -5,21 +5,24 @@
 
 #include "harness/model/discrete.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/inertia.h"
 
 static status stored(const model *m, const model_state *s, double *out, fault *f)
 {
     double none[1] = {0};
     *out = 0;
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         double energy = 0;
-        const double *inner = m->inner > 0 ? s->inner + (size_t)i * (size_t)m->inner : none;
-        const status outcome =
-            m->type->stress(m->kind[m->element[i].kind].data, s->e + (size_t)i * (size_t)m->strains,
-                            inner, &(stress_output){.energy = &energy});
+        const double *inner =
+            model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
+        const status outcome = model_type(m)->stress(model_kind_of(m, i)->data,
+                                                     s->e + (size_t)i * (size_t)model_strains(m),
+                                                     inner, &(stress_output){.energy = &energy});
         if (outcome != STATUS_OK)
             return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
-                             m->type->name);
+                             model_type(m)->name);
         *out += energy;
     }
     *out += discrete_stored(m, s);
@@ -51,22 +54,23 @@ static const double coordinate_rounding = 32 * DBL_EPSILON;
 static double rounding_of(const model *m, const mesh_element *el, int index)
 {
     enum { E = ELEMENT_MAX_STRAINS };
-    const size_t first = (size_t)index * (size_t)m->strains;
-    const double part[NODE_COORDINATES] = {m->size, m->size, m->size, 1, 1, 1, 1 / m->size};
+    const size_t first = (size_t)index * (size_t)model_strains(m);
+    const double size = model_length(m),
+                 part[NODE_COORDINATES] = {size, size, size, 1, 1, 1, 1 / size};
     double J[E * ELEMENT_MAX_COORDINATES], C[E * E], sum = 0;
     node_state x[ELEMENT_MAX_NODES];
-    kinematics_gather(m, m->rest, el, x);
-    m->type->strain(m->kind[el->kind].data, x, &(strain_output){.J = J});
-    if (m->type->stress(m->kind[el->kind].data, m->rest->e + first,
-                        m->rest->inner + (size_t)index * (size_t)m->inner,
-                        &(stress_output){.C = C}) != STATUS_OK)
+    kinematics_gather(m, kinematics_rest(m), el, x);
+    model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+    if (model_type(m)->stress(model_kind(m, el->kind)->data, kinematics_rest(m)->e + first,
+                              kinematics_rest(m)->inner + (size_t)index * (size_t)model_inner(m),
+                              &(stress_output){.C = C}) != STATUS_OK)
         return 0;
-    for (int i = 0; i < m->strains; i++) {
+    for (int i = 0; i < model_strains(m); i++) {
         double off = 0;
-        for (int k = 0; k < m->coordinates; k++)
-            off +=
-                fabs(J[i * m->coordinates + k]) * part[k % NODE_COORDINATES] * coordinate_rounding;
-        sum += C[i * m->strains + i] * off * off / 2;
+        for (int k = 0; k < model_own_coordinates(m); k++)
+            off += fabs(J[i * model_own_coordinates(m) + k]) * part[k % NODE_COORDINATES] *
+                   coordinate_rounding;
+        sum += C[i * model_strains(m) + i] * off * off / 2;
     }
     return sum;
 }
@@ -74,12 +78,12 @@ static double rounding_of(const model *m, const mesh_element *el, int index)
 double balance_rounding(const model *m)
 {
     double sum = 0;
-    for (int i = 0; i < m->elements; i++)
-        sum += rounding_of(m, &m->element[i], i);
-    for (int i = m->discretes - m->springs; i < m->discretes; i++)
+    for (int i = 0; i < model_elements(m); i++)
+        sum += rounding_of(m, model_element(m, i), i);
+    for (int i = model_discretes(m) - model_springs(m); i < model_discretes(m); i++)
         for (int k = 0; k < 6; k++) {
-            const double off = coordinate_rounding * (k < 3 ? m->size : 1);
-            sum += m->discrete[i].spring->stiffness[7 * k] * off * off / 2;
+            const double off = coordinate_rounding * (k < 3 ? model_length(m) : 1);
+            sum += model_discrete(m, i)->spring->stiffness[7 * k] * off * off / 2;
         }
     return sum;
 }

@@ -5,8 +5,9 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
+#include "harness/model/state.h"
 #include "harness/time/drive.h"
 #include "harness/time/forms.h"
 #include "harness/time/increment.h"
@@ -87,7 +88,7 @@ static void turn_of(const between *b, int vertex, double t[3])
 
 static void put_turn(const between *b, int vertex, double h)
 {
-    const int *at = b->m->vertex[vertex].coordinate + SCENE_RX;
+    const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     const instant *end[2] = {b->from, b->to};
     double t[2][3] = {{0}}, rate[2][3], second[2][3];
     turn_of(b, vertex, t[1]);
@@ -107,7 +108,7 @@ static void put_turn(const between *b, int vertex, double h)
 /* Ends that are free to turn have no rates of it: evenly. */
 static void put_ball(const between *b, int vertex)
 {
-    const int *at = b->m->vertex[vertex].coordinate + SCENE_RX;
+    const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     double t[3];
     turn_of(b, vertex, t);
     for (int k = 0; k < 3; k++)
@@ -118,10 +119,10 @@ static void put_release(const between *b, int vertex, double h)
 {
     const model *m = b->m;
     const mesh_release *r = release_of(m, vertex);
-    const int *at = m->vertex[vertex].coordinate;
+    const int *at = model_vertex(m, vertex)->coordinate;
     const model_state *from = b->from->state, *to = b->to->state;
     for (int k = 0; k < r->slides; k++) {
-        const int i = 3 * (vertex - m->first_release) + k;
+        const int i = 3 * (vertex - model_first_release(m)) + k;
         put_plain(b, at[k], to->shift[i] - from->shift[i], h);
     }
     for (int k = 0; k < r->turns && r->turns < BALL; k++)
@@ -137,8 +138,8 @@ void between_take(between *b, between_degree degree, const instant *from, const 
     b->degree = degree;
     b->from = from;
     b->to = to;
-    for (int i = 0; i < m->first_release; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int i = 0; i < model_first_release(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
         if (v->body != i)
             continue;
         for (int k = 0; k < 3; k++) {
@@ -151,17 +152,17 @@ void between_take(between *b, between_degree degree, const instant *from, const 
         if (v->angles == 0)
             put_turn(b, i, h);
     }
-    for (int i = m->first_release; i < m->vertices; i++)
+    for (int i = model_first_release(m); i < model_vertices(m); i++)
         put_release(b, i, h);
-    for (int i = 0; i < m->warps; i++)
-        put_plain(b, m->warp[i].coordinate, to->state->warp[i] - from->state->warp[i], h);
+    for (int i = 0; i < model_warps(m); i++)
+        put_plain(b, model_warp(m, i), to->state->warp[i] - from->state->warp[i], h);
 }
 
 /* Body rates of the turns, from those of their vectors. */
 static void turn_rates(const between *b, int vertex, const double inc[], const double rate[],
                        const double second[], instant *at)
 {
-    const int *index = b->m->vertex[vertex].coordinate + SCENE_RX;
+    const int *index = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     double t[3], first[3], then[3], Jr[9], D[9], W[3], Wd[3], more[3];
     for (int k = 0; k < 3; k++) {
         t[k] = index[k] != NONE ? inc[index[k]] : 0;
@@ -190,8 +191,8 @@ static void blend_elements(const between *b, double s, model_state *at)
 {
     const model *m = b->m;
     const model_state *from = b->from->state, *to = b->to->state;
-    const size_t strains = (size_t)m->elements * (size_t)m->strains,
-                 inner = (size_t)m->elements * (size_t)m->inner;
+    const size_t strains = (size_t)model_elements(m) * (size_t)model_strains(m),
+                 inner = (size_t)model_elements(m) * (size_t)model_inner(m);
     blend(strains, s, from->e, to->e, at->e);
     blend(strains, s, from->sigma, to->sigma, at->sigma);
     blend(inner, s, from->inner, to->inner, at->inner);
@@ -200,7 +201,7 @@ static void blend_elements(const between *b, double s, model_state *at)
 void between_places(const between *b, double time, instant *at)
 {
     const model *m = b->m;
-    const int all = m->free + m->driven;
+    const int all = model_all_coordinates(m);
     const double h = b->to->time - b->from->time, s = (time - b->from->time) / h;
     double *inc = b->room, *rate = inc + all, *second = rate + all;
     for (int c = 0; c < all; c++) {
@@ -211,8 +212,8 @@ void between_places(const between *b, double time, instant *at)
     }
     memcpy(at->v, rate, (size_t)all * sizeof *rate);
     memcpy(at->a, second, (size_t)all * sizeof *second);
-    for (int i = 0; i < m->first_release; i++)
-        if (m->vertex[i].body == i && m->vertex[i].angles == 0)
+    for (int i = 0; i < model_first_release(m); i++)
+        if (model_vertex(m, i)->body == i && model_vertex(m, i)->angles == 0)
             turn_rates(b, i, inc, rate, second, at);
     if (b->degree == BETWEEN_CUBIC)
         blend((size_t)all, s, b->from->a, b->to->a, at->a);

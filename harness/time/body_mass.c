@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/inertia.h"
 #include "harness/time/released.h"
 #include "harness/time/spread.h"
@@ -42,10 +44,10 @@ static int place_in(const body_mass *g, int coordinate)
 static void take_vertex(const model *m, int vertex, body_mass *g)
 {
     for (int c = 0; c < 6; c++) {
-        const int at = m->vertex[vertex].coordinate[c];
-        if (at == NONE || at >= m->free || place_in(g, at) != NONE)
+        const int at = model_vertex(m, vertex)->coordinate[c];
+        if (at == NONE || at >= model_unknowns(m) || place_in(g, at) != NONE)
             continue;
-        g->unit[g->count] = c < SCENE_RX ? 1 : 1 / m->size;
+        g->unit[g->count] = c < SCENE_RX ? 1 : 1 / model_length(m);
         g->index[g->count++] = at;
     }
 }
@@ -80,13 +82,13 @@ static double add_mass(const model *m, const carried *all, int index, const mode
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     spread_motion by[ELEMENT_MAX_NODES];
     double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0}, largest = 0;
     spread_parts p;
     int beside = 0;
     for (int k = 0; k < el->nodes; k++)
-        beside |= m->vertex[el->vertex[k]].body == body;
+        beside |= model_vertex(m, el->vertex[k])->body == body;
     if (!beside)
         return 0;
     spread_masses(m, element, s, &p);
@@ -96,10 +98,10 @@ static double add_element(const model *m, int element, int body, const model_sta
     for (int i = 0; i < p.columns; i++)
         for (int j = 0; j < p.columns; j++)
             take(g, el->index[i], el->index[j], K[p.columns * i + j]);
-    for (int at = 0; at < m->coordinates; at += NODE_COORDINATES) {
+    for (int at = 0; at < model_own_coordinates(m); at += NODE_COORDINATES) {
         double sum = 0;
         for (int i = at; i < at + 3; i++)
-            sum += p.acceleration[(m->coordinates + 1) * i];
+            sum += p.acceleration[(model_own_coordinates(m) + 1) * i];
         largest = fmax(largest, sum);
     }
     return largest;
@@ -107,15 +109,15 @@ static double add_element(const model *m, int element, int body, const model_sta
 
 double body_mass_warps(const model *m, const carried *all, int warp, const model_state *s)
 {
-    double mass = all->warping[m->warp[warp].coordinate];
-    for (int i = 0; i < m->elements && all->spread; i++)
-        for (int k = 0; k < m->element[i].nodes; k++) {
+    double mass = all->warping[model_warp(m, warp)];
+    for (int i = 0; i < model_elements(m) && all->spread; i++)
+        for (int k = 0; k < model_element(m, i)->nodes; k++) {
             const int at = NODE_COORDINATES * k + 6;
             spread_parts p;
-            if (m->element[i].warp[k] != warp)
+            if (model_element(m, i)->warp[k] != warp)
                 continue;
             spread_masses(m, i, s, &p);
-            mass += p.acceleration[m->coordinates * at + at];
+            mass += p.acceleration[model_own_coordinates(m) * at + at];
         }
     return mass;
 }
@@ -126,14 +128,14 @@ double body_mass_of(const model *m, const carried *all, int body, const model_st
     double largest = 0;
     g->count = 0;
     take_vertex(m, body, g);
-    for (int i = m->first_release; i < m->vertices; i++)
-        if (m->vertex[i].body == body)
+    for (int i = model_first_release(m); i < model_vertices(m); i++)
+        if (model_vertex(m, i)->body == body)
             take_vertex(m, i, g);
     memset(g->M, 0, (size_t)(g->count * g->count) * sizeof *g->M);
     for (int k = 0; k < all->masses; k++)
-        if (m->vertex[all->mass[k].frame].body == body)
+        if (model_vertex(m, all->mass[k].frame)->body == body)
             largest = fmax(largest, add_mass(m, all, k, s, g));
-    for (int i = 0; i < m->elements && all->spread; i++)
+    for (int i = 0; i < model_elements(m) && all->spread; i++)
         largest = fmax(largest, add_element(m, i, body, s, g));
     return largest;
 }
@@ -142,20 +144,20 @@ double body_mass_of(const model *m, const carried *all, int body, const model_st
 static int most_ends(const model *m, int ends[])
 {
     int most = 0;
-    for (int i = m->first_release; i < m->vertices; i++)
-        if (++ends[m->vertex[i].body] > most)
-            most = ends[m->vertex[i].body];
+    for (int i = model_first_release(m); i < model_vertices(m); i++)
+        if (++ends[model_vertex(m, i)->body] > most)
+            most = ends[model_vertex(m, i)->body];
     return most;
 }
 
 status body_mass_alloc(const model *m, body_mass *out, fault *f)
 {
-    int *ends = calloc((size_t)m->vertices + 1, sizeof *ends);
+    int *ends = calloc((size_t)model_vertices(m) + 1, sizeof *ends);
     const size_t n = ends == NULL ? 0 : 6 + SCENE_RELEASED * (size_t)most_ends(m, ends);
     free(ends);
     memset(out, 0, sizeof *out);
     out->index = calloc(2 * n + 1, sizeof *out->index);
-    out->M = calloc(2 * n * (n + 1) + (size_t)(m->free + m->driven) + 1, sizeof *out->M);
+    out->M = calloc(2 * n * (n + 1) + (size_t)model_all_coordinates(m) + 1, sizeof *out->M);
     if (n == 0 || out->index == NULL || out->M == NULL) {
         body_mass_free(out);
         return fault_set(f, STATUS_FAULT, "out of memory for masses");

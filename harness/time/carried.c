@@ -5,7 +5,8 @@
 
 #include "elements/math/vec3.h"
 #include "elements/shared/lumped.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 
 /* Tensor of a mass at r: mass (r.r 1 - r r^T). */
 static void add_point(double mass, const double r[3], double tensor[9])
@@ -30,8 +31,8 @@ static void shift(double mass, const double moment[3], const double r[3], double
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], carried_mass of[])
 {
-    const mesh_vertex *v = &m->vertex[vertex];
-    const int released = vertex >= m->first_release;
+    const mesh_vertex *v = model_vertex(m, vertex);
+    const int released = vertex >= model_first_release(m);
     const double none[3] = {0, 0, 0}, *offset = released ? none : v->offset;
     carried_mass *to = &of[released ? vertex : v->body];
     double moved[9];
@@ -72,8 +73,9 @@ static void turn(const double triad[9], const double moment[3], const double ten
 void carried_share(const model *m, const mesh_element *el, int node, carried_mass *out,
                    double *warping)
 {
-    const mesh_kind *kind = &m->kind[el->kind];
-    const lumped_mass whole = lumped_of(&m->section[kind->section], m->features, kind->length);
+    const mesh_kind *kind = model_kind(m, el->kind);
+    const lumped_mass whole =
+        lumped_of(model_section(m, kind->section), model_features(m), kind->length);
     const double share = el->share[node];
     double moment[3], tensor[9];
     lump(&whole, share, moment, tensor);
@@ -91,7 +93,7 @@ static void add_element(const model *m, const mesh_element *el, carried_mass of[
         carried_share(m, el, k, &share, &of_warping);
         take(m, el->vertex[k], share.mass, share.moment, share.inertia, of);
         if (el->warp[k] != NONE)
-            warping[m->warp[el->warp[k]].coordinate] += of_warping;
+            warping[model_warp(m, el->warp[k])] += of_warping;
     }
 }
 
@@ -110,7 +112,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
 /* Frames without mass are left out. */
 static void keep_heavy(const model *m, carried_mass of[], carried *out)
 {
-    for (int i = 0; i < m->vertices; i++) {
+    for (int i = 0; i < model_vertices(m); i++) {
         double size = of[i].mass;
         for (int k = 0; k < 3; k++)
             size += of[i].inertia[4 * k];
@@ -126,16 +128,16 @@ static status alloc(const model *m, int spread, carried *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->spread = spread;
-    out->mass = calloc((size_t)m->vertices + 1, sizeof *out->mass);
-    out->warping = calloc((size_t)(m->free + m->driven) + 1, sizeof *out->warping);
+    out->mass = calloc((size_t)model_vertices(m) + 1, sizeof *out->mass);
+    out->warping = calloc((size_t)model_all_coordinates(m) + 1, sizeof *out->warping);
     if (out->mass == NULL || out->warping == NULL) {
         carried_free(out);
         return fault_set(f, STATUS_FAULT, "out of memory for masses");
     }
-    for (int i = 0; i < m->elements && !spread; i++)
-        add_element(m, &m->element[i], out->mass, out->warping);
-    for (int i = 0; i < m->discretes - m->springs; i++)
-        add_body(m, &m->discrete[i], out->mass);
+    for (int i = 0; i < model_elements(m) && !spread; i++)
+        add_element(m, model_element(m, i), out->mass, out->warping);
+    for (int i = 0; i < model_discretes(m) - model_springs(m); i++)
+        add_body(m, model_discrete(m, i), out->mass);
     keep_heavy(m, out->mass, out);
     return STATUS_OK;
 }

@@ -4,7 +4,9 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/forms.h"
 #include "harness/time/turning.h"
 
@@ -29,7 +31,7 @@ void inertia_chart(const model *m, int vertex, const double inc[], const double 
     if (forms_of(m, vertex) != FORM_BODY)
         return;
     for (int i = 0; i < 3; i++)
-        at[i] = inc[m->vertex[vertex].coordinate[SCENE_RX + i]];
+        at[i] = inc[model_vertex(m, vertex)->coordinate[SCENE_RX + i]];
     turning_inverse(at, inverse);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -38,7 +40,7 @@ void inertia_chart(const model *m, int vertex, const double inc[], const double 
 
 void inertia_turns(const model *m, const model_state *s, int vertex, double turn[9], double rate[9])
 {
-    const mesh_vertex *frame = &m->vertex[vertex];
+    const mesh_vertex *frame = model_vertex(m, vertex);
     double b[3][3];
     identity(turn);
     rotation_matrix(&s->q[4 * vertex], rate);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/chunk.h"
 
 enum { MOST = ELEMENT_MAX_STRAINS };
@@ -20,22 +21,24 @@ struct complement {
 static int curved(const model *m, const element_data *data, double length)
 {
     double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
-    const size_t bytes = (size_t)(m->strains * m->strains) * sizeof *C;
-    if (m->type->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = rest}) != STATUS_OK)
+    const size_t bytes = (size_t)(model_strains(m) * model_strains(m)) * sizeof *C;
+    if (model_type(m)->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = rest}) !=
+        STATUS_OK)
         return 1;
-    for (int k = 0; k < m->strains; k++)
+    for (int k = 0; k < model_strains(m); k++)
         e[k] = 0.01 * length / (k + 1);
-    return m->type->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C}) != STATUS_OK ||
+    return model_type(m)->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C}) !=
+               STATUS_OK ||
            memcmp(C, rest, bytes) != 0;
 }
 
 static int wanted(const model *m)
 {
-    const int elsewhere = m->type->stress_many != NULL && m->type->lanes == 0;
-    if (m->inner > 0 || elsewhere)
+    const int elsewhere = model_type(m)->stress_many != NULL && model_type(m)->lanes == 0;
+    if (model_inner(m) > 0 || elsewhere)
         return 0;
-    for (int k = 0; k < m->kinds; k++)
-        if (curved(m, m->kind[k].data, m->kind[k].length))
+    for (int k = 0; k < model_kinds(m); k++)
+        if (curved(m, model_kind(m, k)->data, model_kind(m, k)->length))
             return 1;
     return 0;
 }
@@ -43,7 +46,7 @@ static int wanted(const model *m)
 status complement_alloc(const equations *eq, complement **out, fault *f)
 {
     const model *m = eq->m;
-    const size_t strains = (size_t)m->elements * (size_t)m->strains;
+    const size_t strains = (size_t)model_elements(m) * (size_t)model_strains(m);
     complement *c = NULL;
     *out = NULL;
     if (!wanted(m))
@@ -67,7 +70,8 @@ void complement_free(complement *c)
 void complement_keep(complement *c, const model_state *s)
 {
     if (c != NULL)
-        memcpy(c->before, s->e, (size_t)(c->m->elements * c->m->strains) * sizeof *s->e);
+        memcpy(c->before, s->e,
+               (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
 }
 
 /* An element on its way. */
@@ -103,14 +107,14 @@ static double gap_of(int n, const double goal[], const double sigma[], double ga
 static int evaluate(way *w)
 {
     w->eq->run->counters.stress_evaluations++;
-    return w->m->type->stress(w->m->kind[w->m->element[w->element].kind].data, w->e, NULL,
-                              &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
+    return model_type(w->m)->stress(model_kind_of(w->m, w->element)->data, w->e, NULL,
+                                    &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
 
 /* e += C^-1 gap. Strains that meet no stiffness (no warping) stay. */
 static int move(way *w, double gap[])
 {
-    const int n = w->m->strains;
+    const int n = model_strains(w->m);
     int pivot[MOST];
     double LU[MOST * MOST];
     memcpy(LU, w->C, (size_t)(n * n) * sizeof *LU);
@@ -137,7 +141,7 @@ static int arrive(way *w, const double goal[])
     double before = INFINITY;
     for (int i = 0; i < MOST_ITERATIONS; i++) {
         double gap[MOST];
-        const double off = evaluate(w) ? gap_of(w->m->strains, goal, w->sigma, gap) : NAN;
+        const double off = evaluate(w) ? gap_of(model_strains(w->m), goal, w->sigma, gap) : NAN;
         if (off <= w->near)
             return 1;
         if (!(off <= contracts * before) || !move(w, gap))
@@ -150,7 +154,7 @@ static int arrive(way *w, const double goal[])
 /* From where it is, in parts of the way from its stresses to the goal. */
 static int follow(way *w, const double goal[])
 {
-    const int n = w->m->strains;
+    const int n = model_strains(w->m);
     const double shortest = 1.0 / 256, longest = 0.5;
     double part = longest, begin[MOST], target[MOST], gap[MOST];
     way at = *w;
@@ -179,26 +183,28 @@ static int follow(way *w, const double goal[])
 static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
 {
     const model *m = c->m;
-    const size_t first = (size_t)element * (size_t)m->strains;
+    const size_t first = (size_t)element * (size_t)model_strains(m);
     double C[MOST * MOST], de[MOST], more[MOST];
-    if (c->eq->run->damping == NULL || m->scene->member[m->element[element].member].damping == 0)
+    if (c->eq->run->damping == NULL ||
+        model_scene(m)->member[model_element(m, element)->member].damping == 0)
         return s->sigma + first;
     c->eq->run->counters.stress_evaluations++;
-    if (m->type->stress(m->kind[m->element[element].kind].data, c->before + first, NULL,
-                        &(stress_output){.sigma = room, .C = C}) != STATUS_OK)
+    if (model_type(m)->stress(model_kind_of(m, element)->data, c->before + first, NULL,
+                              &(stress_output){.sigma = room, .C = C}) != STATUS_OK)
         return NULL;
-    for (int k = 0; k < m->strains; k++)
+    for (int k = 0; k < model_strains(m); k++)
         de[k] = s->e[first + (size_t)k] - c->before[first + (size_t)k];
-    dense_mul_vec(m->strains, m->strains, C, de, more);
-    for (int k = 0; k < m->strains; k++)
+    dense_mul_vec(model_strains(m), model_strains(m), C, de, more);
+    for (int k = 0; k < model_strains(m); k++)
         room[k] += more[k];
     return room;
 }
 
 static void find(const complement *c, int element, const double sigma[], double e[])
 {
-    const size_t n = (size_t)c->m->strains;
-    way w = {.eq = c->eq, .m = c->m, .element = element, .near = near_of(c->m->strains, sigma)};
+    const size_t n = (size_t)model_strains(c->m);
+    way w = {
+        .eq = c->eq, .m = c->m, .element = element, .near = near_of(model_strains(c->m), sigma)};
     memcpy(w.e, e, n * sizeof *e);
     if (arrive(&w, sigma)) {
         memcpy(e, w.e, n * sizeof *e);
@@ -220,25 +226,25 @@ static void settled(const complement *c, const model_state *s, int count, const 
     stress_output out[CHUNK_MOST];
     status outcome[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
-        data[k] = m->kind[m->element[index[k]].kind].data;
-        e[k] = &s->e[(size_t)index[k] * (size_t)m->strains];
+        data[k] = model_kind_of(m, index[k])->data;
+        e[k] = &s->e[(size_t)index[k] * (size_t)model_strains(m)];
         out[k] = (stress_output){.sigma = sigma[k]};
     }
     c->eq->run->counters.stress_evaluations += count;
     if (count > 1)
-        m->type->stress_many(count, data, e, inner, out, outcome);
+        model_type(m)->stress_many(count, data, e, inner, out, outcome);
     else
-        outcome[0] = m->type->stress(data[0], e[0], NULL, &out[0]);
+        outcome[0] = model_type(m)->stress(data[0], e[0], NULL, &out[0]);
     for (int k = 0; k < count; k++)
         is[k] = goal[k] == NULL ||
-                (outcome[k] == STATUS_OK &&
-                 gap_of(m->strains, goal[k], sigma[k], gap) <= near_of(m->strains, goal[k]));
+                (outcome[k] == STATUS_OK && gap_of(model_strains(m), goal[k], sigma[k], gap) <=
+                                                near_of(model_strains(m), goal[k]));
 }
 
 /* Returns whether all of them were settled. */
 static int follow_stresses(const complement *c, model_state *s, int first, int end)
 {
-    const size_t n = (size_t)c->m->strains;
+    const size_t n = (size_t)model_strains(c->m);
     unsigned char done[CHUNK_WINDOW] = {0};
     int index[CHUNK_MOST], is[CHUNK_MOST], count, all = 1;
     double room[CHUNK_MOST][MOST];
@@ -261,8 +267,8 @@ void complement_strains(complement *c, model_state *s, int iteration, double cor
     int all = 1;
     if (c == NULL || (iteration > 1 && correction <= c->settled))
         return;
-    for (int first = 0; first < c->m->elements; first += CHUNK_WINDOW) {
-        const int rest = c->m->elements - first;
+    for (int first = 0; first < model_elements(c->m); first += CHUNK_WINDOW) {
+        const int rest = model_elements(c->m) - first;
         all &= follow_stresses(c, s, first, first + (rest < CHUNK_WINDOW ? rest : CHUNK_WINDOW));
     }
     c->settled = all ? correction : 0;

@@ -10,6 +10,7 @@
 #include "elements/math/vec3.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/metric.h"
 #include "harness/newton/chunk.h"
 #include "harness/newton/newton.h"
@@ -55,14 +56,14 @@ static double size_of(const conserving *s)
 {
     const model *m = s->of.c->model;
     double largest = 0;
-    for (int i = 0; i < m->first_release; i++)
-        for (int c = 0; c < 6 && m->vertex[i].body == i; c++) {
-            const int at = m->vertex[i].coordinate[c];
+    for (int i = 0; i < model_first_release(m); i++)
+        for (int c = 0; c < 6 && model_vertex(m, i)->body == i; c++) {
+            const int at = model_vertex(m, i)->coordinate[c];
             if (at != NONE)
-                largest = larger(largest, fabs(s->dx[at]) / (c < 3 ? m->size : 1));
+                largest = larger(largest, fabs(s->dx[at]) / (c < 3 ? model_length(m) : 1));
         }
-    for (int i = 0; i < m->warps; i++)
-        largest = larger(largest, fabs(s->dx[m->warp[i].coordinate]) * m->size);
+    for (int i = 0; i < model_warps(m); i++)
+        largest = larger(largest, fabs(s->dx[model_warp(m, i)]) * model_length(m));
     return largest;
 }
 
@@ -164,16 +165,17 @@ static void release(scheme *base)
  * with an energy that their rates have not. */
 static status check(const model *m, fault *f)
 {
-    for (int i = 0; i < m->scene->nodes; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int i = 0; i < model_scene(m)->nodes; i++) {
+        const mesh_vertex *v = model_vertex(m, i);
         int free = 0;
         for (int k = 0; k < v->angles; k++)
-            free += v->coordinate[SCENE_RX + k] != NONE && v->coordinate[SCENE_RX + k] < m->free;
+            free += v->coordinate[SCENE_RX + k] != NONE &&
+                    v->coordinate[SCENE_RX + k] < model_unknowns(m);
         if (v->angles == 2 && free == 2)
             return fault_set(f, STATUS_REFUSED,
                              "%s turns by two free angles: the conserving scheme takes one, three, "
                              "or driven ones; take alpha or radau",
-                             scene_called(m->scene, SCENE_NODES, i).text);
+                             scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
 }
@@ -182,15 +184,18 @@ static status allocate(conserving *s, fault *f)
 {
     const model *m = s->of.c->model;
     const sparse *pattern;
-    s->strains = m->springs > 0 && m->strains < SPRING_STRAINS ? SPRING_STRAINS : m->strains;
-    const int nodes = m->nodes > 2 || m->springs == 0 ? m->nodes : 2;
+    s->strains = model_springs(m) > 0 && model_strains(m) < SPRING_STRAINS ? SPRING_STRAINS
+                                                                           : model_strains(m);
+    const int nodes = model_nodes(m) > 2 || model_springs(m) == 0 ? model_nodes(m) : 2;
     const size_t all = (size_t)s->all + 1, count = (size_t)deformable_count(s) + 1,
                  strains = (size_t)s->strains,
-                 elastic = s->of.c->run->damping != NULL ? (size_t)(m->elements * m->strains) : 0;
-    s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + m->memory + 1;
+                 elastic = s->of.c->run->damping != NULL
+                               ? (size_t)(model_elements(m) * model_strains(m))
+                               : 0;
+    s->slot_size = s->strains * (NODE_COORDINATES * nodes + s->strains + 3) + model_memory(m) + 1;
     s->step = calloc(6 * all, sizeof *s->step);
     s->W = calloc(count * (2 * strains * strains + 1 + strains + (size_t)s->slot_size) +
-                      (size_t)(3 * SPRING_STRAINS * m->springs) +
+                      (size_t)(3 * SPRING_STRAINS * model_springs(m)) +
                       (size_t)(9 * s->of.masses->masses) + elastic,
                   sizeof *s->W);
     if (s->of.c->options->newton != NEWTON_DISPLACEMENT)
@@ -208,7 +213,7 @@ static status allocate(conserving *s, fault *f)
     s->d = s->energy + count;
     s->slot = s->d + count * strains;
     s->spring = s->slot + count * (size_t)s->slot_size;
-    s->massless = s->spring + (size_t)(3 * SPRING_STRAINS * m->springs);
+    s->massless = s->spring + (size_t)(3 * SPRING_STRAINS * model_springs(m));
     if (elastic > 0)
         s->elastic = s->massless + (size_t)(9 * s->of.masses->masses);
     TRY(conserving_massless(s, f));

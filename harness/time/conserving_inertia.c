@@ -5,6 +5,8 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/model/entries.h"
+#include "harness/model/mesh.h"
 #include "harness/time/carried_step.h"
 #include "harness/time/place.h"
 #include "harness/time/vertex_rates.h"
@@ -14,8 +16,8 @@
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
-    for (int i = 0; i < 3 && frame < m->first_release; i++)
-        count += held[i] = m->vertex[frame].coordinate[i] == NONE;
+    for (int i = 0; i < 3 && frame < model_first_release(m); i++)
+        count += held[i] = model_vertex(m, frame)->coordinate[i] == NONE;
     return count < 3 ? count : 0;
 }
 
@@ -64,8 +66,8 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
     mat3_transpose_mul_vec(out->Rn, out->c, body);
     for (int i = 0; i < 3; i++)
         out->v0[i] = r.v[i] + turned[i];
-    if (one->frame >= m->first_release && from->ends_known) {
-        const double *own = from->ends + 6 * (one->frame - m->first_release);
+    if (one->frame >= model_first_release(m) && from->ends_known) {
+        const double *own = from->ends + 6 * (one->frame - model_first_release(m));
         memcpy(out->v0, own, sizeof out->v0);
         memcpy(out->W0, own + 3, sizeof out->W0);
     }
@@ -141,8 +143,8 @@ void conserving_inertia(conserving *s, const instant *from, const model_state *n
             F[i] = -F[i];
         place_add(s, from->state, now, one->frame, F, K, s->residual);
     }
-    for (int i = 0; i < m->warps; i++) {
-        const int c = m->warp[i].coordinate;
+    for (int i = 0; i < model_warps(m); i++) {
+        const int c = model_warp(m, i);
         const double mass = all->warping[c];
         s->residual[c] -= mass * (2 * s->step[c] / h - 2 * from->v[c]) / h;
         assemble_subtract(&s->S, c, c, -2 * mass / (h * h));

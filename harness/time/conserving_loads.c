@@ -93,8 +93,8 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
 {
     const model *m = s->of.c->model;
     loaded of = {s, from->state, now, out};
-    for (int i = 0; i < m->scene->loads; i++)
-        applied_each(m, now, &m->scene->load[i],
-                     applied_factor(&s->of.c->eq, &m->scene->load[i], from->time + h / 2), take,
-                     &of);
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        applied_each(m, now, &model_scene(m)->load[i],
+                     applied_factor(&s->of.c->eq, &model_scene(m)->load[i], from->time + h / 2),
+                     take, &of);
 }

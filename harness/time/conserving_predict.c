@@ -3,6 +3,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/time/conserving_impl.h"
 #include "harness/time/drive.h"
@@ -10,7 +11,7 @@
 
 static int turns_freely(const model *m, int vertex)
 {
-    return m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
+    return model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
 static void vector_of(const double of[], const int at[3], double out[3])
@@ -31,8 +32,8 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     const model *m = s->of.c->model;
     double c[3], t[3], body[3];
     memcpy(inc, s->step, (size_t)s->all * sizeof *inc);
-    for (int i = 0; i < m->first_release; i++) {
-        const int *at = m->vertex[i].coordinate + SCENE_RX;
+    for (int i = 0; i < model_first_release(m); i++) {
+        const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         frame_rates r;
         if (!turns_freely(m, i))
             continue;
@@ -42,8 +43,8 @@ void conserving_increment(const conserving *s, const model_state *from, double i
         mat3_transpose_mul_vec(r.R, t, body);
         put_vector(body, at, inc);
     }
-    for (int i = m->first_release; i < m->vertices; i++) {
-        const int *at = m->vertex[i].coordinate + SCENE_RX;
+    for (int i = model_first_release(m); i < model_vertices(m); i++) {
+        const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         double R[9];
         if (release_of(m, i)->turns < 3)
             continue;
@@ -78,8 +79,8 @@ void conserving_predict(conserving *s, const instant *from, double h)
         s->step[c] = h * from->v[c];
     drive_at(&s->of.c->eq, from->state, from->time + h, s->step, NULL, NULL);
     memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx); /* drivers may move several nodes */
-    for (int i = m->first_release; i < m->vertices; i++) {
-        const int *at = m->vertex[i].coordinate + SCENE_RX;
+    for (int i = model_first_release(m); i < model_vertices(m); i++) {
+        const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         double R[9], own[3], c[3];
         if (release_of(m, i)->turns < 3)
             continue;
@@ -88,8 +89,8 @@ void conserving_predict(conserving *s, const instant *from, double h)
         mat3_mul_vec(R, own, c);
         put_vector(c, at, s->step);
     }
-    for (int i = 0; i < m->first_release; i++) {
-        const int *at = m->vertex[i].coordinate;
+    for (int i = 0; i < model_first_release(m); i++) {
+        const int *at = model_vertex(m, i)->coordinate;
         frame_rates r;
         double c[3], crossed[3], twice[3];
         if (!turns_freely(m, i))

@@ -4,6 +4,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/time/carried_step.h"
 
@@ -32,8 +33,8 @@ static int turns_freely(const model *m, int vertex)
 {
     int free = 0;
     for (int c = SCENE_RX; c <= SCENE_RZ; c++)
-        free +=
-            m->vertex[vertex].coordinate[c] != NONE && m->vertex[vertex].coordinate[c] < m->free;
+        free += model_vertex(m, vertex)->coordinate[c] != NONE &&
+                model_vertex(m, vertex)->coordinate[c] < model_unknowns(m);
     return free > 0;
 }
 
@@ -64,7 +65,7 @@ static double energy_of(const carried_mass *one, const carried_step *p, const do
 static int is_driven(const model *m, int vertex)
 {
     for (int c = 0; c < 6; c++)
-        if (m->vertex[vertex].coordinate[c] >= m->free)
+        if (model_vertex(m, vertex)->coordinate[c] >= model_unknowns(m))
             return 1;
     return 0;
 }
@@ -94,7 +95,7 @@ double conserving_impulses(const conserving *s, const instant *from, double h, c
 /* Of a sequence of angles: the rates whose angular velocity is nearest to w. */
 static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
 {
-    const mesh_vertex *v = &m->vertex[vertex];
+    const mesh_vertex *v = model_vertex(m, vertex);
     const int n = v->angles;
     double b[3][3], square[9], rate[3];
     if (n == 0)
@@ -113,7 +114,7 @@ static void angle_rates(const model *m, int vertex, instant *to, const double w[
     }
     for (int k = 0; k < n; k++) {
         const int at = v->coordinate[SCENE_RX + k];
-        if (at != NONE && at < m->free)
+        if (at != NONE && at < model_unknowns(m))
             to->v[at] = rate[k];
     }
 }
@@ -146,7 +147,7 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
         double body[3];
         heavy[i] = one->mass > 0;
         heavy[3 + i] = 0;
-        if (m->vertex[one->frame].coordinate[3 + i] == NONE)
+        if (model_vertex(m, one->frame)->coordinate[3 + i] == NONE)
             continue;
         mat3_transpose_mul_vec(p->R1, b[turns++], body);
         heavy[3 + i] = dense_quadratic(3, one->inertia, body) >
@@ -163,14 +164,14 @@ static void released_rates(const conserving *s, const instant *from, double h, i
     const carried *all = s->of.masses;
     for (int k = 0; k < all->masses; k++) {
         const carried_mass *one = &all->mass[k];
-        const int *at = m->vertex[one->frame].coordinate;
+        const int *at = model_vertex(m, one->frame)->coordinate;
         carried_step p;
         int heavy[6];
-        if (one->frame < m->first_release)
+        if (one->frame < model_first_release(m))
             continue;
         carried_step_of(s, from, to->state, h, one, &p);
         without_inertia(one, s->massless + (size_t)(9 * k), &p);
-        double *own = to->ends + 6 * (one->frame - m->first_release);
+        double *own = to->ends + 6 * (one->frame - model_first_release(m));
         memcpy(own, p.v1, sizeof p.v1);
         memcpy(own + 3, p.W1, sizeof p.W1);
         heavy_ones(m, one, &p, to->state, heavy);
@@ -189,14 +190,14 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
     const carried *all = s->of.masses;
-    for (int i = 0, k = 0; i < m->first_release; i++) {
+    for (int i = 0, k = 0; i < model_first_release(m); i++) {
         const carried_mass plain = {.frame = i};
-        const int *at = m->vertex[i].coordinate;
+        const int *at = model_vertex(m, i)->coordinate;
         while (k < all->masses && all->mass[k].frame < i)
             k++;
         const carried_mass *one =
             k < all->masses && all->mass[k].frame == i ? &all->mass[k] : &plain;
-        if (m->vertex[i].body != i)
+        if (model_vertex(m, i)->body != i)
             continue;
         carried_step p;
         double w[3], turned[3];
@@ -205,19 +206,20 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
         mat3_mul_vec(p.R1, p.W1, w);
         vec3_cross(w, p.after, turned);
         for (int c = 0; c < 3; c++) {
-            if (at[c] != NONE && at[c] < m->free)
+            if (at[c] != NONE && at[c] < model_unknowns(m))
                 to->v[at[c]] = p.v1[c] - turned[c];
-            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < m->free && m->vertex[i].angles == 0)
+            if (at[SCENE_RX + c] != NONE && at[SCENE_RX + c] < model_unknowns(m) &&
+                model_vertex(m, i)->angles == 0)
                 to->v[at[SCENE_RX + c]] = p.W1[c];
         }
         angle_rates(m, i, to, w);
     }
-    for (int i = 0; i < m->warps; i++) {
-        const int c = m->warp[i].coordinate;
+    for (int i = 0; i < model_warps(m); i++) {
+        const int c = model_warp(m, i);
         const double mean = s->step[c] / h;
         to->v[c] = all->warping[c] > 0 ? 2 * mean - from->v[c] : mean;
     }
-    if (m->releases > 0)
+    if (model_releases(m) > 0)
         released_rates(s, from, h, to);
     for (int c = 0; c < s->free; c++)
         to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;

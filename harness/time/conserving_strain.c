@@ -6,6 +6,7 @@
 #include "elements/math/dense.h"
 #include "harness/model/discrete.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/turns.h"
 #include "harness/newton/chunk.h"
 #include "harness/time/deformable.h"
@@ -13,7 +14,7 @@
 static const double *inner_of(const model *m, const model_state *s, int i)
 {
     static const double none[1] = {0};
-    return m->inner > 0 ? s->inner + (size_t)i * (size_t)m->inner : none;
+    return model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
 }
 
 /* Of elements of one kind. */
@@ -25,21 +26,22 @@ static status stress_of(const equations *eq, int count, const int index[], const
     const double *inner[CHUNK_MOST];
     status outcome[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
-        data[k] = m->kind[m->element[index[k]].kind].data;
+        data[k] = model_kind_of(m, index[k])->data;
         inner[k] = inner_of(m, s, index[k]);
     }
     eq->run->counters.stress_evaluations += count;
-    if (count > 1 && m->type->stress_many != NULL)
-        m->type->stress_many(count, data, e, inner, out, outcome);
+    if (count > 1 && model_type(m)->stress_many != NULL)
+        model_type(m)->stress_many(count, data, e, inner, out, outcome);
     else
         for (int k = 0; k < count; k++)
-            outcome[k] = m->type->stress(data[k], e[k], inner[k], &out[k]);
+            outcome[k] = model_type(m)->stress(data[k], e[k], inner[k], &out[k]);
     for (int k = 0; k < count; k++)
         if (outcome[k] != STATUS_OK)
             return fault_set(
                 f, outcome[k], "element %d of %s: outside what %s can evaluate", index[k],
-                scene_called(m->scene, SCENE_MEMBERS, m->element[index[k]].member).text,
-                m->type->name);
+                scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, index[k])->member)
+                    .text,
+                model_type(m)->name);
     return STATUS_OK;
 }
 
@@ -56,7 +58,7 @@ static void begin_spring(conserving *s, const instant *from, int i)
     memcpy(of.W, of.spring->spring->stiffness, SPRING_STRAINS * SPRING_STRAINS * sizeof *of.W);
     kinematics_gather(s->of.c->model, from->state, of.el, x);
     spring_strain(of.el->nodes, x,
-                  turns_of_spring(s->of.c->model, from->state, i - s->of.c->model->elements),
+                  turns_of_spring(s->of.c->model, from->state, i - model_elements(s->of.c->model)),
                   &(strain_output){.e = of.e});
     dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, of.W, of.e, of.sigma);
     memcpy(of.sigma + SPRING_STRAINS, of.sigma, SPRING_STRAINS * sizeof *of.sigma);
@@ -68,22 +70,23 @@ status conserving_begin(conserving *s, const instant *from, fault *f)
     const model *m = s->of.c->model;
     const double *e[CHUNK_MOST] = {NULL};
     memset(s->d, 0, (size_t)deformable_count(s) * (size_t)s->strains * sizeof *s->d);
-    for (int i = 0; i < m->elements;) {
+    for (int i = 0; i < model_elements(m);) {
         const int count = deformable_together(s, i);
         stress_output out[CHUNK_MOST];
         int index[CHUNK_MOST] = {0};
         for (int k = 0; k < count; k++) {
             index[k] = i + k;
-            e[k] = from->state->e + (size_t)(i + k) * (size_t)m->strains;
+            e[k] = from->state->e + (size_t)(i + k) * (size_t)model_strains(m);
             out[k] = (stress_output){
                 .energy = &s->energy[i + k],
-                .sigma = s->elastic != NULL ? s->elastic + (size_t)((i + k) * m->strains) : NULL,
+                .sigma =
+                    s->elastic != NULL ? s->elastic + (size_t)((i + k) * model_strains(m)) : NULL,
                 .C = deformable_at(s, from, from->state, i + k).C_before};
         }
         TRY(stress_of(&s->of.c->eq, count, index, e, from->state, out, f));
         i += count;
     }
-    for (int i = m->elements; i < deformable_count(s); i++)
+    for (int i = model_elements(m); i < deformable_count(s); i++)
         begin_spring(s, from, i);
     return STATUS_OK;
 }
@@ -120,11 +123,11 @@ static status stress_together(conserving *s, const instant *from, model_state *n
         out[k] = (stress_output){.energy = &energy[k],
                                  .sigma = of[k].present,
                                  .C = of[k].C,
-                                 .memory = m->memory > 0 ? of[k].memory : NULL};
+                                 .memory = model_memory(m) > 0 ? of[k].memory : NULL};
     }
     TRY(stress_of(&s->of.c->eq, count, index, e, now, out, f));
     for (int k = 0; k < count; k++) {
-        for (int c = 0; c < m->strains * m->strains; c++)
+        for (int c = 0; c < model_strains(m) * model_strains(m); c++)
             of[k].W[c] = (of[k].C_before[c] + of[k].C[c]) / 2;
         take_energy(s, &of[k], energy[k], sum);
     }
@@ -159,12 +162,12 @@ status conserving_stresses(conserving *s, const instant *from, model_state *now,
     const double wild = 0.3, nothing = 1e-16, rounding = 1e-12;
     scalar_parts sum = {0, 0, 0};
     s->largest = 0;
-    for (int i = 0; i < m->elements;) {
+    for (int i = 0; i < model_elements(m);) {
         const int count = deformable_together(s, i);
         TRY(stress_together(s, from, now, i, count, &sum, f));
         i += count;
     }
-    for (int i = m->elements; i < deformable_count(s); i++)
+    for (int i = model_elements(m); i < deformable_count(s); i++)
         stress_spring(s, from, now, i, &sum);
     s->denominator = sum.square;
     const int moves = fabs(sum.square) > nothing * fabs(sum.size);

@@ -3,6 +3,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/larger.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/time/deformable.h"
 #include "harness/time/place.h"
@@ -51,9 +52,10 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
             s->change = fmax(s->change, fabs(next - of.sigma[k]));
             of.sigma[k] = next;
         }
-        if (of.spring == NULL && m->type->update != NULL)
-            largest = larger(largest, m->type->update(m->kind[of.el->kind].data, de, of.memory,
-                                                      &now->inner[(size_t)i * (size_t)m->inner]));
+        if (of.spring == NULL && model_type(m)->update != NULL)
+            largest = larger(
+                largest, model_type(m)->update(model_kind(m, of.el->kind)->data, de, of.memory,
+                                               &now->inner[(size_t)i * (size_t)model_inner(m)]));
     }
     return largest;
 }

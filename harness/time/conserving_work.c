@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/time/deformable.h"
 
@@ -13,8 +14,8 @@ static double worked_on(const conserving *s, const double force[])
     double sum = 0;
     for (int c = 0; c < s->all; c++)
         sum += force[c] * s->step[c];
-    for (int i = 0; i < m->vertices; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int i = 0; i < model_vertices(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
         const mesh_release *r = release_of(m, i);
         const int turns = r == NULL ? (v->body == i ? v->angles : 0) : r->turns < 3 ? r->turns : 0;
         for (int k = 0; k < turns; k++) {
@@ -38,7 +39,7 @@ static int moves_by_drivers(const conserving *s)
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
-    for (int i = 0; i < s->of.c->model->elements && s->of.c->run->damping != NULL; i++) {
+    for (int i = 0; i < model_elements(s->of.c->model) && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, now, i);
         if (of.S != NULL)
             sum += of.damping / s->h * dense_quadratic(of.strains, of.S, of.d);
@@ -79,9 +80,9 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
 void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
-    for (int i = 0; i < m->elements && s->of.c->run->damping != NULL; i++) {
+    for (int i = 0; i < model_elements(m) && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, to->state, i);
-        const int first = i * m->strains;
+        const int first = i * model_strains(m);
         double *r = to->strain + first, *rate2 = to->strain2 + first, more[DEFORMABLE_STRAINS];
         for (int k = 0; k < of.strains; k++) {
             const double mean = of.d[k] / h, r0 = from->strain[first + k],

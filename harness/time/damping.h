@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_DAMPING_H
 #define BEAMWORK_DAMPING_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/newton/run_state.h"
 #include "harness/time/instant.h"
 

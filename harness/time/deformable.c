@@ -4,13 +4,14 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/turns.h"
 #include "harness/newton/chunk.h"
 #include "harness/time/place.h"
 
 int deformable_count(const conserving *s)
 {
-    return s->of.c->model->elements + s->of.c->model->springs;
+    return model_elements(s->of.c->model) + model_springs(s->of.c->model);
 }
 
 int deformable_together(const conserving *s, int first)
@@ -18,8 +19,8 @@ int deformable_together(const conserving *s, int first)
     const model *m = s->of.c->model;
     const int most = chunk_size(m);
     int count = 1;
-    while (count < most && first + count < m->elements &&
-           m->element[first + count].kind == m->element[first].kind)
+    while (count < most && first + count < model_elements(m) &&
+           model_element(m, first + count)->kind == model_element(m, first)->kind)
         count++;
     return count;
 }
@@ -27,30 +28,31 @@ int deformable_together(const conserving *s, int first)
 deformable deformable_at(const conserving *s, const instant *from, model_state *now, int i)
 {
     const model *m = s->of.c->model;
-    const size_t at = (size_t)i, n = (size_t)s->strains, first = at * (size_t)m->strains;
-    const int spring = i - m->elements;
+    const size_t at = (size_t)i, n = (size_t)s->strains, first = at * (size_t)model_strains(m);
+    const int spring = i - model_elements(m);
     deformable of = {
         .index = i, .W = s->W + at * n * n, .C_before = s->C + at * n * n, .d = s->d + at * n};
     if (spring < 0) {
-        of.el = &m->element[i];
-        of.strains = m->strains;
+        of.el = model_element(m, i);
+        of.strains = model_strains(m);
         of.before = (s->elastic != NULL ? s->elastic : from->state->sigma) + first;
         of.e = now->e + first;
         of.sigma = now->sigma + first;
-        of.length = m->kind[of.el->kind].length;
-        of.damping = s->of.c->run->damping != NULL ? m->scene->member[of.el->member].damping : 0;
+        of.length = model_kind(m, of.el->kind)->length;
+        of.damping =
+            s->of.c->run->damping != NULL ? model_scene(m)->member[of.el->member].damping : 0;
         if (of.damping > 0)
             of.S = s->of.c->run->damping->stiffness +
-                   (size_t)of.el->kind * (size_t)m->strains * (size_t)m->strains;
+                   (size_t)of.el->kind * (size_t)model_strains(m) * (size_t)model_strains(m);
     } else {
         double *own = s->spring + (size_t)(3 * SPRING_STRAINS * spring);
-        of.spring = &m->discrete[m->discretes - m->springs + spring];
+        of.spring = model_discrete(m, model_discretes(m) - model_springs(m) + spring);
         of.el = &of.spring->el;
         of.strains = SPRING_STRAINS;
         of.e = own;
         of.sigma = own + SPRING_STRAINS;
         of.before = own + 2 * SPRING_STRAINS;
-        of.length = m->size;
+        of.length = model_length(m);
     }
     of.coordinates = NODE_COORDINATES * of.el->nodes;
     of.J = s->slot + at * (size_t)s->slot_size;
@@ -67,7 +69,7 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
 {
     if (v->of.spring == NULL)
         return;
-    const int spring = v->of.index - m->elements;
+    const int spring = v->of.index - model_elements(m);
     const double *first = turns_of_spring(m, from->state, spring),
                  *last = turns_of_spring(m, now, spring);
     for (int i = 0; i < 3; i++) {
@@ -89,7 +91,7 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     kinematics_gather(m, now, el, v->last);
     for (int j = 0; j < el->nodes; j++) {
         place_step(s, from->state, now, el->vertex[j], dr[j], c[j]);
-        da[j] = el->warp[j] == NONE ? 0 : s->step[m->warp[el->warp[j]].coordinate];
+        da[j] = el->warp[j] == NONE ? 0 : s->step[model_warp(m, el->warp[j])];
     }
     cayley_begin(el->nodes, el->nodes == 1, v->first, dr, c, da, &v->step);
     for (int g = 0; g < DEFORMABLE_POINTS; g++)
@@ -116,7 +118,7 @@ static void strains_alone(const model *m, int point, evaluation *v)
     if (v->of.spring != NULL)
         spring_strain(v->of.el->nodes, nodes_of(v, point), v->turn[point], &out);
     else
-        m->type->strain(m->kind[v->of.el->kind].data, nodes_of(v, point), &out);
+        model_type(m)->strain(model_kind(m, v->of.el->kind)->data, nodes_of(v, point), &out);
 }
 
 static void strains_together(const model *m, int point, int count, evaluation v[])
@@ -125,11 +127,11 @@ static void strains_together(const model *m, int point, int count, evaluation v[
     node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
     strain_output out[CHUNK_MOST];
     for (int k = 0; k < count; k++) {
-        data[k] = m->kind[v[k].of.el->kind].data;
-        memcpy(x + k * m->nodes, nodes_of(&v[k], point), (size_t)m->nodes * sizeof *x);
+        data[k] = model_kind(m, v[k].of.el->kind)->data;
+        memcpy(x + k * model_nodes(m), nodes_of(&v[k], point), (size_t)model_nodes(m) * sizeof *x);
         out[k] = wanted(&v[k], point);
     }
-    m->type->strain_many(count, data, x, out);
+    model_type(m)->strain_many(count, data, x, out);
 }
 
 /* J <- J T_c on the columns of rotations. */

@@ -5,17 +5,18 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/loads.h"
 #include "harness/time/turning.h"
 
 status drive_check(const model *m, fault *f)
 {
-    for (int d = 0; d < m->scene->drivers; d++)
-        if (m->scene->driver[d].value == NULL)
+    for (int d = 0; d < model_scene(m)->drivers; d++)
+        if (model_scene(m)->driver[d].value == NULL)
             return fault_set(f, STATUS_REFUSED,
                              "driver %s is unknown: a motion in time takes known ones",
-                             m->scene->driver[d].name);
+                             model_scene(m)->driver[d].name);
     return STATUS_OK;
 }
 
@@ -24,11 +25,11 @@ static void drive_vector(const equations *eq, const model_state *from, int index
                          double inc[], double v[], double a[])
 {
     const model *m = eq->m;
-    const mesh_vertex *frame = &m->vertex[index];
+    const mesh_vertex *frame = model_vertex(m, index);
     double t[3], rate[3], second[3], Jr[9], D[9], W[3], Wd[3], more[3], q[4], to[4], back[4];
     for (int k = 0; k < 3; k++) {
         double at[3];
-        loads_driver_rates(eq, &m->scene->driver[frame->vector_driver[k]], time, at);
+        loads_driver_rates(eq, &model_scene(m)->driver[frame->vector_driver[k]], time, at);
         t[k] = at[0];
         rate[k] = at[1];
         second[k] = at[2];
@@ -57,7 +58,7 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
               double a[])
 {
     const model *m = eq->m;
-    for (int c = m->free; c < m->free + m->driven; c++) {
+    for (int c = model_unknowns(m); c < model_all_coordinates(m); c++) {
         if (inc != NULL)
             inc[c] = 0;
         if (v != NULL)
@@ -65,12 +66,12 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
         if (a != NULL)
             a[c] = 0;
     }
-    for (int d = 0; d < m->scene->drivers; d++) {
-        const int c = m->driver_coordinate[d];
+    for (int d = 0; d < model_scene(m)->drivers; d++) {
+        const int c = model_driver_coordinate(m, d);
         double at[3];
-        if (c < m->free)
+        if (c < model_unknowns(m))
             continue;
-        loads_driver_rates(eq, &m->scene->driver[d], time, at);
+        loads_driver_rates(eq, &model_scene(m)->driver[d], time, at);
         if (inc != NULL)
             inc[c] = at[0] - from->driver[d];
         if (v != NULL)
@@ -78,7 +79,7 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
         if (a != NULL)
             a[c] = at[2];
     }
-    for (int i = 0; i < m->scene->nodes; i++)
-        if (m->vertex[i].vector_driver[0] != NONE && m->vertex[i].body == i)
+    for (int i = 0; i < model_scene(m)->nodes; i++)
+        if (model_vertex(m, i)->vector_driver[0] != NONE && model_vertex(m, i)->body == i)
             drive_vector(eq, from, i, time, inc, v, a);
 }

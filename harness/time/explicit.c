@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/metric.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/time/explicit_impl.h"
 #include "harness/time/kinks.h"
 
@@ -65,7 +66,7 @@ static status allocate(explicit_scheme *s, fault *f)
 {
     const model *m = s->of.c->model;
     const size_t n = (size_t)s->free + 1, all = (size_t)s->all + 1;
-    s->y = calloc(6 * n + 3 * all + (size_t)m->memory + ELEMENT_MAX_STRAINS, sizeof *s->y);
+    s->y = calloc(6 * n + 3 * all + (size_t)model_memory(m) + ELEMENT_MAX_STRAINS, sizeof *s->y);
     gsl_error_handler_t *before = gsl_set_error_handler_off();
     s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2 * (size_t)s->free + 1);
     gsl_set_error_handler(before);
@@ -77,7 +78,7 @@ static status allocate(explicit_scheme *s, fault *f)
     s->residual = s->inc + all;
     s->weight = s->residual + all;
     s->memory = s->weight + all;
-    s->still = s->memory + m->memory;
+    s->still = s->memory + model_memory(m);
     metric_of(m, s->weight);
     return STATUS_OK;
 }

@@ -6,7 +6,8 @@
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/explicit_impl.h"
 #include "harness/time/inertia.h"
 
@@ -14,7 +15,7 @@
 static int block(const model *m, const carried *masses, int index, const model_state *s,
                  const double v[], int of[6], double M[36])
 {
-    const int *at = m->vertex[masses->mass[index].frame].coordinate;
+    const int *at = model_vertex(m, masses->mass[index].frame)->coordinate;
     inertia_parts p;
     double K[36];
     int row[6], count = 0;
@@ -22,7 +23,7 @@ static int block(const model *m, const carried *masses, int index, const model_s
     inertia_times(p.acceleration, 1, p.rate, K);
     inertia_rows(p.turn, K);
     for (int i = 0; i < 6; i++)
-        if (at[i] != NONE && at[i] < m->free) {
+        if (at[i] != NONE && at[i] < model_unknowns(m)) {
             of[count] = at[i];
             row[count++] = i;
         }
@@ -44,14 +45,14 @@ status explicit_accelerate(const model *m, const carried *masses, const model_st
         if (dense_lu_regular(n, M, pivot) != 0)
             return fault_set(f, STATUS_SINGULAR,
                              "%s: two angles of its rotation turn about one axis",
-                             scene_called(m->scene, SCENE_NODES, masses->mass[k].frame).text);
+                             scene_called(model_scene(m), SCENE_NODES, masses->mass[k].frame).text);
         dense_lu_solve(n, 1, M, pivot, b);
         for (int i = 0; i < n; i++)
             a[of[i]] = b[i];
     }
-    for (int w = 0; w < m->warps; w++) {
-        const int c = m->warp[w].coordinate;
-        if (c < m->free)
+    for (int w = 0; w < model_warps(m); w++) {
+        const int c = model_warp(m, w);
+        if (c < model_unknowns(m))
             a[c] = residual[c] / masses->warping[c];
     }
     return STATUS_OK;
@@ -78,8 +79,8 @@ static int is_heavy(int n, double M[])
 static status refuse(const model *m, int vertex, const char *what, fault *f)
 {
     scene_words whose = {"a node inside a member"};
-    if (vertex < m->scene->nodes)
-        whose = scene_called(m->scene, SCENE_NODES, vertex);
+    if (vertex < model_scene(m)->nodes)
+        whose = scene_called(model_scene(m), SCENE_NODES, vertex);
     return fault_set(f, STATUS_REFUSED,
                      "integrator explicit: the %s of %s has no inertia, so that its acceleration "
                      "is not determined; give what has none a mass or an inertia (members: "
@@ -89,9 +90,10 @@ static status refuse(const model *m, int vertex, const char *what, fault *f)
 
 static status check_vertex(const model *m, int index, const int heavy[], fault *f)
 {
-    const mesh_vertex *v = &m->vertex[index];
+    const mesh_vertex *v = model_vertex(m, index);
     for (int c = 0; c < VERTEX_COORDINATES; c++)
-        if (v->coordinate[c] != NONE && v->coordinate[c] < m->free && !heavy[v->coordinate[c]])
+        if (v->coordinate[c] != NONE && v->coordinate[c] < model_unknowns(m) &&
+            !heavy[v->coordinate[c]])
             return refuse(m, index, c < SCENE_RX ? "place" : "rotation", f);
     return STATUS_OK;
 }
@@ -111,14 +113,14 @@ static void mark(const model *m, const carried *masses, const double rest[], int
             heavy[of[i]] = is_heavy(i + 1, some);
         }
     }
-    for (int w = 0; w < m->warps; w++)
-        heavy[m->warp[w].coordinate] = masses->warping[m->warp[w].coordinate] > 0;
+    for (int w = 0; w < model_warps(m); w++)
+        heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
 status explicit_check(const model *m, const carried *masses, fault *f)
 {
-    const size_t all = (size_t)(m->free + m->driven) + 1;
-    if (m->releases > 0)
+    const size_t all = (size_t)model_all_coordinates(m) + 1;
+    if (model_releases(m) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "integrator explicit: released ends of members have no inertia of their "
                          "own; alpha, conserving and radau take them");
@@ -129,11 +131,11 @@ status explicit_check(const model *m, const carried *masses, fault *f)
                          : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     if (outcome == STATUS_OK)
         mark(m, masses, rest, heavy);
-    for (int i = 0; i < m->vertices && outcome == STATUS_OK; i++)
-        if (m->vertex[i].body == i)
+    for (int i = 0; i < model_vertices(m) && outcome == STATUS_OK; i++)
+        if (model_vertex(m, i)->body == i)
             outcome = check_vertex(m, i, heavy, f);
-    for (int w = 0; w < m->warps && outcome == STATUS_OK; w++)
-        if (m->warp[w].coordinate < m->free && !heavy[m->warp[w].coordinate])
+    for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
+        if (model_warp(m, w) < model_unknowns(m) && !heavy[model_warp(m, w)])
             outcome =
                 fault_set(f, STATUS_REFUSED,
                           "integrator explicit: warping has no inertia; alpha, conserving and "

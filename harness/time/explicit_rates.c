@@ -3,7 +3,9 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/linearise.h"
 #include "harness/time/drive.h"
 #include "harness/time/explicit_impl.h"
@@ -17,8 +19,8 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
 {
     const model *m = s->of.c->model;
     memcpy(rate, v, (size_t)s->free * sizeof *rate);
-    for (int x = 0; x < m->first_release; x++) {
-        const mesh_vertex *frame = &m->vertex[x];
+    for (int x = 0; x < model_first_release(m); x++) {
+        const mesh_vertex *frame = model_vertex(m, x);
         const int *at = frame->coordinate + SCENE_RX;
         double t[3], W[3], inverse[9], turned[3];
         if (frame->body != x || forms_of(m, x) != FORM_BODY || at[0] >= s->free)
@@ -41,12 +43,12 @@ static status settle(const explicit_scheme *s, int i, fault *f)
     enum { MOST = 30 };
     const double none = 1e-15;
     const model *m = s->of.c->model;
-    const element_data *data = m->kind[m->element[i].kind].data;
-    const double *e = s->at->state->e + (size_t)i * (size_t)m->strains;
-    double *inner = s->at->state->inner + (size_t)i * (size_t)m->inner, before = INFINITY;
+    const element_data *data = model_kind_of(m, i)->data;
+    const double *e = s->at->state->e + (size_t)i * (size_t)model_strains(m);
+    double *inner = s->at->state->inner + (size_t)i * (size_t)model_inner(m), before = INFINITY;
     for (int k = 0; k < MOST; k++) {
-        m->type->stress(data, e, inner, &(stress_output){.memory = s->memory});
-        const double change = m->type->update(data, s->still, s->memory, inner);
+        model_type(m)->stress(data, e, inner, &(stress_output){.memory = s->memory});
+        const double change = model_type(m)->update(data, s->still, s->memory, inner);
         if (change < none || (k > 3 && change < 1e-9 && change >= before))
             return STATUS_OK;
         before = change;
@@ -59,11 +61,12 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
 {
     const model *m = s->of.c->model;
     model_linearisation lin = {.path = time, .residual = s->residual};
-    for (int i = 0; i < m->elements && m->inner > 0; i++) {
+    for (int i = 0; i < model_elements(m) && model_inner(m) > 0; i++) {
         node_state x[ELEMENT_MAX_NODES];
-        kinematics_gather(m, s->at->state, &m->element[i], x);
-        m->type->strain(m->kind[m->element[i].kind].data, x,
-                        &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)m->strains});
+        kinematics_gather(m, s->at->state, model_element(m, i), x);
+        model_type(m)->strain(
+            model_kind_of(m, i)->data, x,
+            &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m)});
         TRY(settle(s, i, f));
     }
     TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));

@@ -6,12 +6,13 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 
 /* Components of a rotation about fixed axes that move. */
 static int turns_of(const model *m, int vertex)
 {
-    const mesh_vertex *v = &m->vertex[vertex];
+    const mesh_vertex *v = model_vertex(m, vertex);
     int count = 0;
     for (int c = SCENE_RX; c <= SCENE_RZ; c++)
         count += v->coordinate[c] != NONE;
@@ -20,7 +21,7 @@ static int turns_of(const model *m, int vertex)
 
 rotation_form forms_of(const model *m, int vertex)
 {
-    if (m->vertex[vertex].angles > 0)
+    if (model_vertex(m, vertex)->angles > 0)
         return FORM_SEQUENCE;
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
@@ -30,7 +31,7 @@ static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
     for (int k = 0; k < 3; k++)
-        moving += m->scene->node[vertex].angle[k] != SCENE_HELD;
+        moving += model_scene(m)->node[vertex].angle[k] != SCENE_HELD;
     return moving <= 1;
 }
 
@@ -39,29 +40,29 @@ static status refuse_turns(const model *m, int vertex, fault *f)
 {
     static const char axis[] = "xyz";
     int last = 2, first;
-    while (last > 0 && m->scene->node[vertex].angle[last] == SCENE_HELD)
+    while (last > 0 && model_scene(m)->node[vertex].angle[last] == SCENE_HELD)
         last--;
     first = last > 0 ? last - 1 : 0;
-    while (first > 0 && m->scene->node[vertex].angle[first] == SCENE_HELD)
+    while (first > 0 && model_scene(m)->node[vertex].angle[first] == SCENE_HELD)
         first--;
     return fault_set(
         f, STATUS_REFUSED,
         "%s: a motion in time must know how it lies, which turns about fixed axes do not say: "
         "about %c, then about %c, and back by both leaves it turned about %c; give its rotation as "
         "a sequence of angles or as a vector, or hold one turn more",
-        scene_called(m->scene, SCENE_NODES, vertex).text, axis[first], axis[last],
+        scene_called(model_scene(m), SCENE_NODES, vertex).text, axis[first], axis[last],
         axis[3 - first - last]);
 }
 
 status forms_check(const model *m, fault *f)
 {
-    for (int i = 0; i < m->first_release; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int i = 0; i < model_first_release(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
         if (v->body != i || v->angles > 0)
             continue;
         int driven = 0;
         for (int c = SCENE_RX; c <= SCENE_RZ; c++)
-            driven += v->coordinate[c] >= m->free;
+            driven += v->coordinate[c] >= model_unknowns(m);
         const int turns = turns_of(m, i);
         const int loose = turns == 3 && driven > 0 && v->vector_driver[0] == NONE;
         if (turns == 2 || (loose && !keeps_axis(m, i)))
@@ -75,7 +76,7 @@ status forms_check(const model *m, fault *f)
 static void sequence_rates(const model *m, const model_state *s, int vertex, const double v[],
                            const double a[], frame_rates *out)
 {
-    const mesh_vertex *frame = &m->vertex[vertex];
+    const mesh_vertex *frame = model_vertex(m, vertex);
     double b[3][3], rate[3] = {0, 0, 0};
     kinematics_axes(m, s, vertex, b);
     for (int k = 0; k < frame->angles; k++) {
@@ -99,7 +100,7 @@ static void sequence_rates(const model *m, const model_state *s, int vertex, con
 void forms_rates(const model *m, const model_state *s, int vertex, const double v[],
                  const double a[], frame_rates *out)
 {
-    const mesh_vertex *frame = &m->vertex[vertex];
+    const mesh_vertex *frame = model_vertex(m, vertex);
     memset(out, 0, sizeof *out);
     rotation_matrix(&s->q[4 * vertex], out->R);
     for (int i = 0; i < 3; i++) {
@@ -124,7 +125,7 @@ void forms_rates(const model *m, const model_state *s, int vertex, const double 
 void forms_add_force(const model *m, const model_state *s, int vertex, const double F[6],
                      double out[])
 {
-    const mesh_vertex *frame = &m->vertex[vertex];
+    const mesh_vertex *frame = model_vertex(m, vertex);
     double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (frame->angles > 0)
         kinematics_axes(m, s, vertex, b);

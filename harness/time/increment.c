@@ -5,8 +5,9 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
+#include "harness/model/state.h"
 #include "harness/time/turning.h"
 
 static void three(const mesh_vertex *v, const double of[], double out[3])
@@ -19,7 +20,7 @@ static void three(const mesh_vertex *v, const double of[], double out[3])
 static void apply_vertex(const model *m, const model_state *from, int index, const double inc[],
                          model_state *to)
 {
-    const mesh_vertex *v = &m->vertex[index];
+    const mesh_vertex *v = model_vertex(m, index);
     double d[6], q[4];
     for (int c = 0; c < 6; c++)
         d[c] = v->coordinate[c] == NONE ? 0 : inc[v->coordinate[c]];
@@ -39,7 +40,7 @@ static void turn_ball(const model *m, const model_state *from, int index, const 
                       model_state *to)
 {
     double t[3], q[4];
-    three(&m->vertex[index], inc, t);
+    three(model_vertex(m, index), inc, t);
     rotation_exp(t, q);
     rotation_compose(&from->q[4 * index], q, &to->q[4 * index]);
     rotation_normalise(&to->q[4 * index]);
@@ -48,11 +49,11 @@ static void turn_ball(const model *m, const model_state *from, int index, const 
 void increment_apply(const model *m, const model_state *from, const double inc[], double time,
                      model_state *to)
 {
-    for (int i = 0; i < m->first_release; i++)
-        if (m->vertex[i].body == i)
+    for (int i = 0; i < model_first_release(m); i++)
+        if (model_vertex(m, i)->body == i)
             apply_vertex(m, from, i, inc, to);
-    for (int i = m->first_release; i < m->vertices; i++) {
-        const int r = i - m->first_release;
+    for (int i = model_first_release(m); i < model_vertices(m); i++) {
+        const int r = i - model_first_release(m);
         memcpy(&to->q[4 * i], &from->q[4 * i], 4 * sizeof *to->q);
         memcpy(&to->angle[3 * i], &from->angle[3 * i], 3 * sizeof *to->angle);
         memcpy(&to->shift[3 * r], &from->shift[3 * r], 3 * sizeof *to->shift);
@@ -60,12 +61,12 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
         if (release_of(m, i)->turns == 3)
             turn_ball(m, from, i, inc, to);
     }
-    for (int i = 0; i < m->warps; i++)
-        to->warp[i] = from->warp[i] + inc[m->warp[i].coordinate];
-    for (int d = 0; d < m->scene->drivers; d++)
-        if (m->driver_coordinate[d] != NONE)
-            to->driver[d] = from->driver[d] + inc[m->driver_coordinate[d]];
-    memcpy(to->turn, from->turn, 3 * (size_t)m->turns * sizeof *to->turn);
+    for (int i = 0; i < model_warps(m); i++)
+        to->warp[i] = from->warp[i] + inc[model_warp(m, i)];
+    for (int d = 0; d < model_scene(m)->drivers; d++)
+        if (model_driver_coordinate(m, d) != NONE)
+            to->driver[d] = from->driver[d] + inc[model_driver_coordinate(m, d)];
+    memcpy(to->turn, from->turn, 3 * (size_t)model_turns(m) * sizeof *to->turn);
     kinematics_follow(m, to);
     to->path = time;
 }
@@ -88,23 +89,23 @@ static void add_plainly(const model *m, const mesh_vertex *v, int first, int end
                         double inc[])
 {
     for (int c = first; c < end; c++)
-        if (v->coordinate[c] != NONE && v->coordinate[c] < m->free)
+        if (v->coordinate[c] != NONE && v->coordinate[c] < model_unknowns(m))
             inc[v->coordinate[c]] += dx[v->coordinate[c]];
 }
 
 void increment_add(const model *m, const model_state *now, const double dx[], double inc[])
 {
-    for (int i = 0; i < m->vertices; i++) {
-        const mesh_vertex *v = &m->vertex[i];
+    for (int i = 0; i < model_vertices(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
         const mesh_release *r = release_of(m, i);
         if (r == NULL && v->body != i)
             continue;
         add_plainly(m, v, SCENE_UX, SCENE_RX, dx, inc);
-        if (forms_of(m, i) == FORM_BODY && v->coordinate[SCENE_RX] < m->free)
+        if (forms_of(m, i) == FORM_BODY && v->coordinate[SCENE_RX] < model_unknowns(m))
             add_turn(now, i, v, dx, inc);
         else
             add_plainly(m, v, SCENE_RX, SCENE_RZ + 1, dx, inc);
     }
-    for (int i = 0; i < m->warps; i++)
-        inc[m->warp[i].coordinate] += dx[m->warp[i].coordinate];
+    for (int i = 0; i < model_warps(m); i++)
+        inc[model_warp(m, i)] += dx[model_warp(m, i)];
 }

@@ -5,8 +5,10 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/model/entries.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/released.h"
 #include "harness/time/spread.h"
 #include "harness/time/vertex_rates.h"
@@ -67,14 +69,13 @@ void inertia_subtract(const model *m, const carried *all, const model_state *s, 
         inertia_force(m, &all->mass[k], s, v, a, F);
         for (int i = 0; i < 6; i++)
             F[i] = -F[i];
-        if (all->mass[k].frame >= m->first_release)
+        if (all->mass[k].frame >= model_first_release(m))
             released_add_force(m, s, all->mass[k].frame, F, out);
         else
             forms_add_force(m, s, all->mass[k].frame, F, out);
     }
-    for (int i = 0; i < m->warps && a != NULL; i++)
-        out[m->warp[i].coordinate] -=
-            all->warping[m->warp[i].coordinate] * a[m->warp[i].coordinate];
+    for (int i = 0; i < model_warps(m) && a != NULL; i++)
+        out[model_warp(m, i)] -= all->warping[model_warp(m, i)] * a[model_warp(m, i)];
 }
 
 static void skew(const double v[3], double A[9])
@@ -171,7 +172,7 @@ void inertia_rows(const double turn[9], double K[36])
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
-    const int body = m->vertex[vertex].body;
+    const int body = model_vertex(m, vertex)->body;
     released of;
     double of_body[9], of_ball[9], one[9], motion[6 * KINEMATICS_MOST], rates[36],
         K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
@@ -199,11 +200,11 @@ void inertia_add_tangent(const equations *eq, const carried *all, const model_st
         spread_add_tangent(eq, s, v, a, with, S);
     for (int k = 0; k < all->masses; k++) {
         const int vertex = all->mass[k].frame;
-        const int *at = m->vertex[vertex].coordinate;
+        const int *at = model_vertex(m, vertex)->coordinate;
         inertia_parts p;
         double N[9], E[9], rates[36], K[36], more[36];
         inertia_frame(m, all, k, s, v, a, &p);
-        if (vertex >= m->first_release) {
+        if (vertex >= model_first_release(m)) {
             released_tangent(m, vertex, s, &p, with, S);
             continue;
         }
@@ -220,8 +221,8 @@ void inertia_add_tangent(const equations *eq, const carried *all, const model_st
             for (int j = 0; j < 6; j++)
                 assemble_subtract(S, at[i], at[j], -K[6 * i + j]);
     }
-    for (int i = 0; i < m->warps; i++) {
-        const int c = m->warp[i].coordinate;
+    for (int i = 0; i < model_warps(m); i++) {
+        const int c = model_warp(m, i);
         assemble_subtract(S, c, c, -with->b * all->warping[c]);
     }
 }
@@ -239,8 +240,8 @@ void inertia_of(const model *m, const carried *all, const model_state *s, const 
         double w_c[3], p[3], Jw[3], c_v[3], position[3], r_p[3];
         inertia_rates(m, s, one->frame, v, NULL, &r);
         at_frame(one, r.R, &at);
-        if (ends != NULL && one->frame >= m->first_release)
-            released_moving(ends + 6 * (one->frame - m->first_release), one->mass, at.c, &r);
+        if (ends != NULL && one->frame >= model_first_release(m))
+            released_moving(ends + 6 * (one->frame - model_first_release(m)), one->mass, at.c, &r);
         kinematics_position(m, s, one->frame, position);
         vec3_cross(r.w, at.c, w_c);
         mat3_mul_vec(at.J, r.w, Jw);
@@ -255,8 +256,8 @@ void inertia_of(const model *m, const carried *all, const model_state *s, const 
             out->angular[i] += r_p[i] + Jw[i] + c_v[i];
         }
     }
-    for (int i = 0; i < m->warps; i++) {
-        const int c = m->warp[i].coordinate;
+    for (int i = 0; i < model_warps(m); i++) {
+        const int c = model_warp(m, i);
         out->kinetic += all->warping[c] * v[c] * v[c] / 2;
     }
 }

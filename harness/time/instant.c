@@ -5,12 +5,13 @@
 #include <string.h>
 
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/damping.h"
 
 static size_t strains_of(const model *m)
 {
     const model_size size = model_sizes(m);
-    return damping_acts(m->scene) ? (size_t)size.elements * (size_t)size.strains : 0;
+    return damping_acts(model_scene(m)) ? (size_t)size.elements * (size_t)size.strains : 0;
 }
 
 static size_t coordinates_of(const model *m)
@@ -21,7 +22,7 @@ static size_t coordinates_of(const model *m)
 
 size_t instant_ends(const model *m)
 {
-    return 6 * (size_t)m->releases;
+    return 6 * (size_t)model_releases(m);
 }
 
 status instant_alloc(const model *m, instant *out, fault *f)

@@ -11,7 +11,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/history.h"
 #include "harness/time/damping.h"
 #include "harness/time/drive.h"
@@ -25,16 +26,16 @@ static const double softness = 1e-12;
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
-    const mesh_vertex *frame = &m->vertex[index];
+    const mesh_vertex *frame = model_vertex(m, index);
     double b[3][3], A[9] = {0}, rest[3], right[3] = {0};
     int of[3], pivot[3], n = 0;
     kinematics_axes(m, s, index, b);
     memcpy(rest, spin, sizeof rest);
     for (int k = 0; k < frame->angles; k++) {
         const int c = frame->coordinate[SCENE_RX + k];
-        if (c != NONE && c < m->free)
+        if (c != NONE && c < model_unknowns(m))
             of[n++] = k;
-        for (int i = 0; i < 3 && c >= m->free; i++)
+        for (int i = 0; i < 3 && c >= model_unknowns(m); i++)
             rest[i] -= b[k][i] * v[c];
     }
     for (int i = 0; i < n; i++) {
@@ -65,17 +66,17 @@ static void velocity_of(const model *m, const model_state *s, int index, const s
 static void start_vertex(const model *m, const model_state *s, int index, const scene_start *field,
                          double v[])
 {
-    const mesh_vertex *frame = &m->vertex[index];
-    const int own = index < m->first_release; /* a released end: only the turns of a ball */
+    const mesh_vertex *frame = model_vertex(m, index);
+    const int own = index < model_first_release(m); /* a released end: only the turns of a ball */
     double R[9], velocity[3], body[3];
     velocity_of(m, s, index, field, velocity);
     rotation_matrix(&s->q[4 * index], R);
     mat3_transpose_mul_vec(R, field->spin, body);
     for (int i = 0; i < 3; i++) {
         const int c = frame->coordinate[i], t = frame->coordinate[SCENE_RX + i];
-        if (c != NONE && c < m->free && own)
+        if (c != NONE && c < model_unknowns(m) && own)
             v[c] = velocity[i];
-        if (t != NONE && t < m->free && frame->angles == 0 &&
+        if (t != NONE && t < model_unknowns(m) && frame->angles == 0 &&
             (own || forms_of(m, index) == FORM_BODY))
             v[t] = body[i];
     }
@@ -88,21 +89,21 @@ static status check_field(const model *m, const model_state *s, const scene_star
                           const double v[], fault *f)
 {
     const double nothing = 1e-6, spin = vec3_norm(field->spin);
-    for (int i = 0; i < m->first_release; i++) {
+    for (int i = 0; i < model_first_release(m); i++) {
         frame_rates r;
         double velocity[3];
-        if (m->vertex[i].body != i)
+        if (model_vertex(m, i)->body != i)
             continue;
         velocity_of(m, s, i, field, velocity);
         forms_rates(m, s, i, v, NULL, &r);
         for (int k = 0; k < 3; k++)
-            if (fabs(r.v[k] - velocity[k]) > nothing * spin * m->size ||
+            if (fabs(r.v[k] - velocity[k]) > nothing * spin * model_length(m) ||
                 fabs(r.w[k] - field->spin[k]) > nothing * spin)
                 return fault_set(
                     f, STATUS_REFUSED,
                     "%s is held or driven otherwise than the axes turn that the motion starts "
                     "from: drive it so that it turns with them from 0 s on",
-                    scene_called(m->scene, SCENE_NODES, i).text);
+                    scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
 }
@@ -111,13 +112,13 @@ static status check_field(const model *m, const model_state *s, const scene_star
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;
-    for (int d = 0; d < m->scene->drivers; d++) {
-        const int c = m->driver_coordinate[d];
-        if (c >= m->free && fabs(inc[c]) > nothing * (1 + m->size))
+    for (int d = 0; d < model_scene(m)->drivers; d++) {
+        const int c = model_driver_coordinate(m, d);
+        if (c >= model_unknowns(m) && fabs(inc[c]) > nothing * (1 + model_length(m)))
             return fault_set(f, STATUS_REFUSED,
                              "driver %s begins %g away from where the state has it: let its value "
                              "at 0 s be that of the state",
-                             m->scene->driver[d].name, inc[c]);
+                             model_scene(m)->driver[d].name, inc[c]);
     }
     return STATUS_OK;
 }
@@ -182,8 +183,8 @@ status launch_again(analysis_context *c, const carried *masses, const scene_moti
 
 static void set_field(const model *m, const model_state *s, const scene_start *field, double v[])
 {
-    for (int i = 0; i < m->vertices; i++)
-        if (m->vertex[i].body == i || i >= m->first_release)
+    for (int i = 0; i < model_vertices(m); i++)
+        if (model_vertex(m, i)->body == i || i >= model_first_release(m))
             start_vertex(m, s, i, field, v);
 }
 

@@ -6,7 +6,8 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/forms.h"
 #include "harness/time/massless.h"
 
@@ -15,10 +16,10 @@ enum { BLOCK = 9, BLOCKS = 2 };
 /* All three of a block are free coordinates of a body's own. */
 static int is_whole(const model *m, int i, int block)
 {
-    const int *at = m->vertex[i].coordinate + 3 * block;
-    int whole = m->vertex[i].body == i;
+    const int *at = model_vertex(m, i)->coordinate + 3 * block;
+    int whole = model_vertex(m, i)->body == i;
     for (int k = 0; k < 3; k++)
-        whole &= at[k] != NONE && at[k] < m->free;
+        whole &= at[k] != NONE && at[k] < model_unknowns(m);
     return whole;
 }
 
@@ -26,22 +27,22 @@ static int is_whole(const model *m, int i, int block)
 static status column(const model *m, const carried *masses, const model_state *s, int block, int k,
                      double dx[], massive *h, fault *f)
 {
-    memset(dx, 0, (size_t)m->free * sizeof *dx);
-    for (int i = 0; i < m->first_release; i++)
+    memset(dx, 0, (size_t)model_unknowns(m) * sizeof *dx);
+    for (int i = 0; i < model_first_release(m); i++)
         if (is_whole(m, i, block))
-            dx[m->vertex[i].coordinate[3 * block + k]] = 1;
+            dx[model_vertex(m, i)->coordinate[3 * block + k]] = 1;
     TRY(massless_motion(m, masses, s, dx, f));
-    for (int i = 0; i < m->first_release; i++)
+    for (int i = 0; i < model_first_release(m); i++)
         for (int r = 0; r < 3 && is_whole(m, i, block); r++)
             h->light[BLOCK * (BLOCKS * i + block) + 3 * r + k] =
-                dx[m->vertex[i].coordinate[3 * block + r]];
+                dx[model_vertex(m, i)->coordinate[3 * block + r]];
     return STATUS_OK;
 }
 
 /* R^T P R: turns of what is not a sequence of angles. */
 static void own_axes(const model *m, const model_state *s, massive *h)
 {
-    for (int i = 0; i < m->first_release; i++) {
+    for (int i = 0; i < model_first_release(m); i++) {
         double R[9], PR[9], *P = h->light + BLOCK * (BLOCKS * i + 1);
         if (!is_whole(m, i, 1) || forms_of(m, i) != FORM_BODY)
             continue;
@@ -58,8 +59,8 @@ status massive_of(const model *m, const carried *masses, const model_state *s, m
     h->ready = 1;
     if (count == 0)
         return STATUS_OK;
-    double *dx = calloc((size_t)m->free + 1, sizeof *dx);
-    h->light = calloc((size_t)m->first_release * BLOCKS * BLOCK + 1, sizeof *h->light);
+    double *dx = calloc((size_t)model_unknowns(m) + 1, sizeof *dx);
+    h->light = calloc((size_t)model_first_release(m) * BLOCKS * BLOCK + 1, sizeof *h->light);
     status outcome = dx != NULL && h->light != NULL
                          ? STATUS_OK
                          : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
@@ -79,9 +80,9 @@ void massive_free(massive *h)
 double massive_norm(const massive *h, const model *m, const double weight[], double e[])
 {
     double square = 0;
-    for (int i = 0; i < m->first_release && h->light != NULL; i++)
+    for (int i = 0; i < model_first_release(m) && h->light != NULL; i++)
         for (int block = 0; block < BLOCKS; block++) {
-            const int *at = m->vertex[i].coordinate + 3 * block;
+            const int *at = model_vertex(m, i)->coordinate + 3 * block;
             double of[3], light[3];
             if (!is_whole(m, i, block))
                 continue;
@@ -91,7 +92,7 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
             for (int k = 0; k < 3; k++)
                 e[at[k]] -= light[k];
         }
-    for (int c = 0; c < m->free; c++)
+    for (int c = 0; c < model_unknowns(m); c++)
         square += weight[c] * e[c] * e[c];
     return sqrt(square);
 }

@@ -7,7 +7,8 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/body_mass.h"
 #include "harness/time/forms.h"
 
@@ -92,10 +93,10 @@ static int visit(const model *m, const carried *all, int body, const model_state
 static int warping(const model *m, const carried *all, const model_state *s, wish *of)
 {
     int heavy = 0;
-    for (int i = 0; i < m->warps; i++) {
-        const int c = m->warp[i].coordinate;
+    for (int i = 0; i < model_warps(m); i++) {
+        const int c = model_warp(m, i);
         const double mass = body_mass_warps(m, all, i, s);
-        if (c >= m->free)
+        if (c >= model_unknowns(m))
             continue;
         heavy += mass > 0;
         if (of->task == STIFFEST && mass > 0)
@@ -115,10 +116,10 @@ static status walk(const model *m, const carried *all, const model_state *s, wis
     int heavy = 0;
     body_mass g;
     TRY(body_mass_alloc(m, &g, f));
-    for (int i = 0; i < m->first_release; i++)
-        if (m->vertex[i].body == i)
+    for (int i = 0; i < model_first_release(m); i++)
+        if (model_vertex(m, i)->body == i)
             heavy += visit(m, all, i, s, &g, of);
-    *out = m->free - heavy - warping(m, all, s, of);
+    *out = model_unknowns(m) - heavy - warping(m, all, s, of);
     body_mass_free(&g);
     return STATUS_OK;
 }
@@ -158,11 +159,12 @@ status massless_stiffest(const model *m, const carried *all, const model_state *
 /* Turns of bodies between spatial axes and their own. */
 static void turn_axes(const model *m, const model_state *s, int own_to_space, double a[])
 {
-    for (int i = 0; i < m->vertices; i++) {
-        const int *at = m->vertex[i].coordinate + SCENE_RX;
+    for (int i = 0; i < model_vertices(m); i++) {
+        const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         double R[9], turning[3], turned[3];
-        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY ||
-            at[0] >= m->free || at[1] >= m->free || at[2] >= m->free)
+        if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
+            forms_of(m, i) != FORM_BODY || at[0] >= model_unknowns(m) ||
+            at[1] >= model_unknowns(m) || at[2] >= model_unknowns(m))
             continue;
         for (int k = 0; k < 3; k++)
             turning[k] = a[at[k]];
@@ -183,14 +185,14 @@ void massless_own_axes(const model *m, const model_state *s, double a[])
 
 status massless_drop(const model *m, const carried *all, const model_state *s, double a[], fault *f)
 {
-    const size_t size = (size_t)m->free * sizeof *a;
+    const size_t size = (size_t)model_unknowns(m) * sizeof *a;
     double *light = malloc(size + 1);
     if (light == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     turn_axes(m, s, 1, a);
     memcpy(light, a, size);
     const status outcome = massless_motion(m, all, s, light, f);
-    for (int c = 0; c < m->free; c++)
+    for (int c = 0; c < model_unknowns(m); c++)
         a[c] -= light[c];
     massless_own_axes(m, s, a);
     free(light);

@@ -6,7 +6,7 @@
 
 #include "elements/math/larger.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/newton/history.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"

@@ -6,13 +6,14 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 
 enum { FIRST_TURN = 6, BALL = 3 };
 
 int place_plain(const model *m, int vertex)
 {
-    return m->vertex[vertex].body == vertex && m->vertex[vertex].angles == 0;
+    return model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
 /* What is being built, with the derivatives by the columns as [3 x columns]. */
@@ -89,8 +90,8 @@ static void turn(const double b[3], double angle, int column, double x[3], doubl
 /* c of the body: three coordinates, or a sequence of angles. */
 static void begin(const double step[], chain *by, place *p)
 {
-    const int at = by->m->vertex[by->vertex].body;
-    const mesh_vertex *body = &by->m->vertex[at];
+    const int at = model_vertex(by->m, by->vertex)->body;
+    const mesh_vertex *body = model_vertex(by->m, at);
     double b[3][3];
     for (int i = 0; i < 6; i++)
         p->measure[i] = body->coordinate[i] != NONE ? step[body->coordinate[i]] : 0;
@@ -115,7 +116,7 @@ static void begin(const double step[], chain *by, place *p)
 static void turns(const double step[], chain *by, place *p)
 {
     const mesh_release *r = by->release;
-    const int *own = by->m->vertex[by->vertex].coordinate + SCENE_RX;
+    const int *own = model_vertex(by->m, by->vertex)->coordinate + SCENE_RX;
     double b[3][3];
     if (r->turns == BALL) {
         memset(by->dc, 0, sizeof by->dc);
@@ -156,7 +157,7 @@ static void direction(const double before[3], const double after[3], const chain
 static void slides(const double step[], chain *by, place *p)
 {
     const mesh_release *r = by->release;
-    const int *own = by->m->vertex[by->vertex].coordinate, n = p->columns;
+    const int *own = model_vertex(by->m, by->vertex)->coordinate, n = p->columns;
     double before[3][3], after[3][3], first[3], last[3], change[3 * PLACE_MOST];
     release_slide_axes(by->m, by->from, by->vertex, before, first);
     release_slide_axes(by->m, by->now, by->vertex, after, last);
@@ -225,7 +226,8 @@ static void turning_rows(const chain *by, const double moment[3], const double d
 /* Rows of the angles of the body, whose mean axes turn with those before them: a' . M. */
 static void angle_rows(const chain *by, const double moment[3], place *p)
 {
-    const int n = p->columns, angles = by->m->vertex[by->m->vertex[by->vertex].body].angles;
+    const int n = p->columns,
+              angles = model_vertex(by->m, model_vertex(by->m, by->vertex)->body)->angles;
     for (int k = 0; k < angles; k++)
         for (int i = 0; i < 3; i++)
             for (int c = 0; c < n; c++)
@@ -290,7 +292,7 @@ void place_step(const conserving *s, const model_state *from, const model_state 
                 double dr[3], double c[3])
 {
     const model *m = s->of.c->model;
-    const int *at = m->vertex[vertex].coordinate;
+    const int *at = model_vertex(m, vertex)->coordinate;
     place p;
     double all[6];
     if (place_plain(m, vertex)) {

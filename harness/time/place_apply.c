@@ -1,5 +1,7 @@
 #include <string.h>
 
+#include "harness/model/entries.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
 #include "harness/time/place.h"
 
@@ -53,11 +55,11 @@ void place_matrix(const place *p, int n, int at, int own, double K[])
 /* Global coordinates of the columns. */
 static int index_place(const model *m, int vertex, int index[PLACE_MOST])
 {
-    const mesh_vertex *v = &m->vertex[vertex];
+    const mesh_vertex *v = model_vertex(m, vertex);
     const mesh_release *r = release_of(m, vertex);
     int n = SIX;
     for (int i = 0; i < SIX; i++)
-        index[i] = m->vertex[v->body].coordinate[i];
+        index[i] = model_vertex(m, v->body)->coordinate[i];
     for (int k = 0; r != NULL && k < r->turns; k++)
         index[n++] = v->coordinate[SCENE_RX + k];
     for (int k = 0; r != NULL && k < r->slides; k++)

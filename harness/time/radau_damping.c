@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/newton/equations_impl.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/mesh.h"
+#include "harness/newton/linearise.h"
 #include "harness/time/damping.h"
 #include "harness/time/radau_impl.h"
 
@@ -18,13 +20,14 @@ typedef struct damped {
 static void take(radau *r, const instant *from, int stage, int element, damped *out)
 {
     const model *m = r->of.c->model;
-    const mesh_element *el = &m->element[element];
-    const size_t first = (size_t)element * (size_t)m->strains;
+    const mesh_element *el = model_element(m, element);
+    const size_t first = (size_t)element * (size_t)model_strains(m);
     const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
-    for (int k = 0; k < m->strains; k++) {
+    for (int k = 0; k < model_strains(m); k++) {
         double *row = out->J + k * el->columns;
         memset(row, 0, (size_t)el->columns * sizeof *row);
-        memcpy(row, w.J + k * m->coordinates, (size_t)m->coordinates * sizeof *row);
+        memcpy(row, w.J + k * model_own_coordinates(m),
+               (size_t)model_own_coordinates(m) * sizeof *row);
         eliminate_forces(m, r->stage[stage].state, el, row);
         out->gained[k] = r->stage[stage].state->e[first + (size_t)k] + w.incompatibility[k] -
                          from->state->e[first + (size_t)k];
@@ -36,17 +39,17 @@ static void add_stress(radau *r, const damped all[STAGES], double h, double eta,
                        int stage, int element)
 {
     const model *m = r->of.c->model;
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     double rate[ELEMENT_MAX_STRAINS] = {0}, more[ELEMENT_MAX_STRAINS],
            force[MODEL_MAX_COORDINATES] = {0};
     for (int j = 0; j < STAGES; j++)
-        for (int k = 0; k < m->strains; k++)
+        for (int k = 0; k < model_strains(m); k++)
             rate[k] += eta * r->B[STAGES * stage + j] / h * all[j].gained[k];
-    dense_mul_vec(m->strains, m->strains, S, rate, more);
+    dense_mul_vec(model_strains(m), model_strains(m), S, rate, more);
     const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
-    for (int k = 0; k < m->strains; k++)
+    for (int k = 0; k < model_strains(m); k++)
         w.sigma[k] += more[k];
-    dense_add_transpose_mul(el->columns, m->strains, 1, all[stage].J, more, force);
+    dense_add_transpose_mul(el->columns, model_strains(m), 1, all[stage].J, more, force);
     for (int c = 0; c < el->columns; c++)
         if (el->index[c] != NONE && el->index[c] < r->free)
             r->residual[(size_t)stage * (size_t)r->free + (size_t)el->index[c]] -= force[c];
@@ -57,15 +60,15 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
                        int element)
 {
     const model *m = r->of.c->model;
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     const int n = el->columns;
     for (int k = 0; k < STAGES; k++) {
         double SJ[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
-        dense_mul(m->strains, m->strains, n, S, all[k].J, SJ);
+        dense_mul(model_strains(m), model_strains(m), n, S, all[k].J, SJ);
         for (int i = 0; i < STAGES; i++) {
             const double part = eta * r->B[STAGES * i + k] / h;
             double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
-            dense_add_transpose_mul(n, m->strains, n, all[i].J, SJ, K);
+            dense_add_transpose_mul(n, model_strains(m), n, all[i].J, SJ, K);
             for (int row = 0; row < n; row++)
                 for (int column = 0; column < n; column++)
                     stages_add(&r->S, i, k, el->index[row], el->index[column],
@@ -77,10 +80,11 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
 void radau_damp(radau *r, int fresh, const instant *from, double h)
 {
     const model *m = r->of.c->model;
-    const size_t n = (size_t)m->strains;
-    for (int i = 0; i < m->elements && r->of.c->run->damping != NULL; i++) {
-        const double eta = m->scene->member[m->element[i].member].damping;
-        const double *S = r->of.c->run->damping->stiffness + (size_t)m->element[i].kind * n * n;
+    const size_t n = (size_t)model_strains(m);
+    for (int i = 0; i < model_elements(m) && r->of.c->run->damping != NULL; i++) {
+        const double eta = model_scene(m)->member[model_element(m, i)->member].damping;
+        const double *S =
+            r->of.c->run->damping->stiffness + (size_t)model_element(m, i)->kind * n * n;
         damped all[STAGES];
         if (eta == 0)
             continue;
@@ -98,7 +102,7 @@ static void sum_strains(const radau *r, const instant *from, const double weight
                         double out[])
 {
     const model *m = r->of.c->model;
-    const size_t count = (size_t)m->elements * (size_t)m->strains;
+    const size_t count = (size_t)model_elements(m) * (size_t)model_strains(m);
     for (size_t k = 0; k < count; k++) {
         out[k] = 0;
         for (int j = 0; j < STAGES; j++)

@@ -5,6 +5,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/linearise.h"
 #include "harness/time/inertia.h"
 #include "harness/time/kinks.h"
@@ -16,7 +18,7 @@ static void add_frame(radau *r, int index, double h, int i)
 {
     const model *m = r->of.c->model;
     const int vertex = r->of.masses->mass[index].frame;
-    const int *at = m->vertex[vertex].coordinate;
+    const int *at = model_vertex(m, vertex)->coordinate;
     inertia_parts p;
     inertia_frame(m, r->of.masses, index, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
     for (int k = 0; k < STAGES; k++) {
@@ -46,7 +48,7 @@ static void add_released(radau *r, int index, double h, int i)
 {
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const model *m = r->of.c->model;
-    const int vertex = r->of.masses->mass[index].frame, body = m->vertex[vertex].body;
+    const int vertex = r->of.masses->mass[index].frame, body = model_vertex(m, vertex)->body;
     inertia_parts p;
     released of;
     inertia_frame(m, r->of.masses, index, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
@@ -81,8 +83,8 @@ static void add_warps(radau *r, double h)
     const model *m = r->of.c->model;
     double B2[STAGES * STAGES];
     dense_mul(STAGES, STAGES, STAGES, r->B, r->B, B2);
-    for (int w = 0; w < m->warps; w++) {
-        const int c = m->warp[w].coordinate;
+    for (int w = 0; w < model_warps(m); w++) {
+        const int c = model_warp(m, w);
         for (int x = 0; x < STAGES * STAGES; x++)
             if (r->of.masses->warping[c] > 0)
                 stages_add(&r->S, x / STAGES, x % STAGES, c, c,
@@ -107,7 +109,7 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
         TRY(linearise_state(&r->of.c->eq, &one->memory, one->state, &lin, f));
         inertia_subtract(m, r->of.masses, one->state, one->v, one->a, r->dx);
         r->of.c->run->counters.inertia_evaluations +=
-            r->of.masses->spread ? m->elements * (1 + fresh) : 0;
+            r->of.masses->spread ? model_elements(m) * (1 + fresh) : 0;
         memcpy(r->residual + (size_t)i * (size_t)r->free, r->dx,
                (size_t)r->free * sizeof *r->residual);
         if (fresh)
@@ -119,7 +121,7 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
         return STATUS_OK;
     for (int i = 0; i < STAGES; i++)
         for (int k = 0; k < r->of.masses->masses; k++)
-            if (r->of.masses->mass[k].frame < r->of.c->model->first_release)
+            if (r->of.masses->mass[k].frame < model_first_release(r->of.c->model))
                 add_frame(r, k, h, i);
             else
                 add_released(r, k, h, i);

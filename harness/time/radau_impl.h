@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_RADAU_IMPL_H
 #define BEAMWORK_RADAU_IMPL_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/newton/arrival.h"
 #include "harness/time/complement.h"
 #include "harness/time/scheme.h"

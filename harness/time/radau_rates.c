@@ -8,6 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/model/mesh.h"
 #include "harness/time/charts.h"
 #include "harness/time/forms.h"
 #include "harness/time/radau_impl.h"
@@ -40,9 +41,9 @@ static void three(const int at[6], const double of[], double out[3])
 
 static int is_free_turn(const model *m, int vertex)
 {
-    const mesh_vertex *v = &m->vertex[vertex];
-    return (v->body == vertex || vertex >= m->first_release) && v->angles == 0 &&
-           forms_of(m, vertex) == FORM_BODY && v->coordinate[SCENE_RX] < m->free;
+    const mesh_vertex *v = model_vertex(m, vertex);
+    return (v->body == vertex || vertex >= model_first_release(m)) && v->angles == 0 &&
+           forms_of(m, vertex) == FORM_BODY && v->coordinate[SCENE_RX] < model_unknowns(m);
 }
 
 double radau_time(const radau *r, const instant *from, double h, int stage,
@@ -62,8 +63,8 @@ void radau_rates(radau *r, const instant *from, double h)
                 one->rate[c] += r->B[STAGES * i + j] * r->stage[j].inc[c] / h;
             one->v[c] = one->rate[c];
         }
-        for (int x = 0; x < m->vertices; x++) {
-            const int *at = m->vertex[x].coordinate;
+        for (int x = 0; x < model_vertices(m); x++) {
+            const int *at = model_vertex(m, x)->coordinate;
             double t[3], rate[3], Jr[9], W[3];
             if (!is_free_turn(m, x))
                 continue;
@@ -96,8 +97,8 @@ static void gains(const radau *r, int vertex, double h, int j, int k, double *tr
     if (!is_free_turn(m, vertex))
         return;
     double t[3], rate[3], D[9];
-    three(m->vertex[vertex].coordinate, r->stage[j].inc, t);
-    three(m->vertex[vertex].coordinate, r->stage[j].rate, rate);
+    three(model_vertex(m, vertex)->coordinate, r->stage[j].inc, t);
+    three(model_vertex(m, vertex)->coordinate, r->stage[j].rate, rate);
     turning_jacobian(t, turn);
     turning_derivative(t, rate, D);
     for (int i = 0; i < 9; i++)

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
+#include "harness/model/entries.h"
+#include "harness/model/mesh.h"
 #include "harness/time/radau_impl.h"
 #include "harness/time/spread.h"
 
@@ -11,12 +13,12 @@
 static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
                        spread_motion *rates, spread_motion *accelerations)
 {
-    const int vertex = p->el->vertex[node], body = r->of.c->model->vertex[vertex].body;
+    const int vertex = p->el->vertex[node], body = model_vertex(r->of.c->model, vertex)->body;
     radau_relation of;
     radau_relate(r, body, h, i, k, &of);
     rates->plain = of.rate;
     accelerations->plain = of.acceleration;
-    if (vertex < r->of.c->model->first_release) {
+    if (vertex < model_first_release(r->of.c->model)) {
         mat3_mul(p->rate[node], of.turn_rate, rates->turn);
         mat3_mul(p->rate[node], of.turn_acceleration, accelerations->turn);
         return;
@@ -53,6 +55,6 @@ static void add_element(radau *r, int element, double h, int i)
 void radau_spread(radau *r, double h)
 {
     for (int i = 0; i < STAGES; i++)
-        for (int e = 0; e < r->of.c->model->elements; e++)
+        for (int e = 0; e < model_elements(r->of.c->model); e++)
             add_element(r, e, h, i);
 }

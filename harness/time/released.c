@@ -10,7 +10,10 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/release.h"
+#include "harness/model/state.h"
 
 enum { BALL = 3 };
 
@@ -32,7 +35,7 @@ static void add_cross_twice(const double w[3], const double r[3], double out[3])
 void released_columns(const model *m, const model_state *s, int vertex, released *out)
 {
     const mesh_release *r = release_of(m, vertex);
-    const int body = m->vertex[vertex].body;
+    const int body = model_vertex(m, vertex)->body;
     out->count = kinematics_node_jacobian(m, s, vertex, KINEMATICS_MOST, out->index, out->T);
     out->own = out->count - (r != NULL ? r->turns + r->slides : 0);
     out->body = forms_of(m, body) == FORM_BODY ? out->own - 3 : NONE;
@@ -79,10 +82,10 @@ void released_rates(const model *m, const model_state *s, int vertex, const doub
     frame_rates at;
     double p[3], end[3], place[3], q[3], sliding[3] = {0, 0, 0};
     released_columns(m, s, vertex, &of);
-    forms_rates(m, s, m->vertex[vertex].body, v, a, &at);
+    forms_rates(m, s, model_vertex(m, vertex)->body, v, a, &at);
     kinematics_offset(m, s, vertex, p);
     kinematics_position(m, s, vertex, end);
-    kinematics_position(m, s, m->vertex[vertex].body, place);
+    kinematics_position(m, s, model_vertex(m, vertex)->body, place);
     *out = at;
     rotation_matrix(&s->q[4 * vertex], out->R);
     add_turns(r, &of, v, a, out);

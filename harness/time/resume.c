@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/model/turns.h"
 #include "harness/numerics/memory.h"
 #include "harness/time/damping.h"
@@ -21,8 +22,8 @@ static void measure(const model *m, const instant *now, outcome_end *out)
 {
     out->between = (size_t)turns_between_count(m);
     out->states = now->state->size - 3 * out->between;
-    out->coordinates = (size_t)m->free + (size_t)m->driven;
-    out->strains = now->strain != NULL ? (size_t)m->elements * (size_t)m->strains : 0;
+    out->coordinates = (size_t)model_all_coordinates(m);
+    out->strains = now->strain != NULL ? (size_t)model_elements(m) * (size_t)model_strains(m) : 0;
     out->released = now->ends_known ? instant_ends(m) : 0;
 }
 

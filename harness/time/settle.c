@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/history.h"
 #include "harness/newton/linearise.h"
@@ -102,12 +103,12 @@ static int creeping(const model *m, double h, unsigned char of[])
 {
     const double part = 1e-3;
     int count = 0;
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
-        if (m->scene->member[el->member].damping < part * h)
+    for (int i = 0; i < model_elements(m); i++) {
+        const mesh_element *el = model_element(m, i);
+        if (model_scene(m)->member[el->member].damping < part * h)
             continue;
         for (int c = 0; c < el->columns; c++)
-            if (el->index[c] != NONE && el->index[c] < m->free) {
+            if (el->index[c] != NONE && el->index[c] < model_unknowns(m)) {
                 count += !of[el->index[c]];
                 of[el->index[c]] = 1;
             }
@@ -120,7 +121,8 @@ static status give_way(stage *s, const double zero[], double h, double softness,
                        double moved[], fault *f)
 {
     const model *m = s->c->model;
-    memcpy(now->strain2, now->state->e, (size_t)(m->elements * m->strains) * sizeof *now->strain2);
+    memcpy(now->strain2, now->state->e,
+           (size_t)(model_elements(m) * model_strains(m)) * sizeof *now->strain2);
     damping_follow(&s->c->eq, 1 / (softness * h), now->strain, now->strain2);
     return balance(s, zero, now, moved, f);
 }

@@ -5,7 +5,8 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/lumped.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/forms.h"
 #include "harness/time/inertia.h"
 #include "harness/time/spread.h"
@@ -23,11 +24,11 @@ static void add_at(const double rho[3], const double F[6], double out[6])
 static void add_spread(const model *m, const model_state *s, const shares_motion *motion, int node,
                        const double place[3], double F[6])
 {
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
+    for (int i = 0; i < model_elements(m); i++) {
+        const mesh_element *el = model_element(m, i);
         double taken[ELEMENT_MAX_COORDINATES], rho[3];
         for (int k = 0, known = 0; k < el->nodes; k++) {
-            if (m->vertex[el->vertex[k]].body != node)
+            if (model_vertex(m, el->vertex[k])->body != node)
                 continue;
             if (!known++)
                 spread_force(m, i, s, motion->v, motion->a, taken);
@@ -51,7 +52,7 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     for (int k = 0; k < all.masses; k++) {
         const int frame = all.mass[k].frame;
         double one[6];
-        if (m->vertex[frame].body != node)
+        if (model_vertex(m, frame)->body != node)
             continue;
         inertia_force(m, &all.mass[k], s, motion->v, motion->a, one);
         kinematics_position(m, s, frame, rho);
@@ -67,7 +68,7 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     double taken[ELEMENT_MAX_COORDINATES], warping;
     frame_rates r;
     carried_share(m, el, k, share, &warping);
@@ -78,21 +79,21 @@ static void force_of(const model *m, const model_state *s, const shares_motion *
     }
     vertex_rates(m, s, el->vertex[k], motion->v, motion->a, &r);
     inertia_force_at(share, &r, F);
-    F[6] = el->warp[k] != NONE ? warping * motion->a[m->warp[el->warp[k]].coordinate] : 0;
+    F[6] = el->warp[k] != NONE ? warping * motion->a[model_warp(m, el->warp[k])] : 0;
 }
 
 /* Forces per length at the nodes, interpolated between them. */
 void shares_along(const model *m, const model_state *s, const shares_motion *motion, int element,
                   double density[ELEMENT_MAX_NODES][6])
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     const double *part = motion->spread ? lumped_shares(el->nodes) : el->share;
     for (int k = 0; k < el->nodes; k++) {
         carried_mass share;
         double F[7];
         force_of(m, s, motion, element, k, F, &share);
         for (int i = 0; i < 6; i++)
-            density[k][i] = share.mass > 0 ? F[i] / (part[k] * m->kind[el->kind].length) : 0;
+            density[k][i] = share.mass > 0 ? F[i] / (part[k] * model_kind(m, el->kind)->length) : 0;
     }
 }
 
@@ -101,7 +102,7 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     double place[2][3], moment[3];
     for (int e = 0; e < 2; e++)
         kinematics_position(m, s, el->vertex[e], place[e]);
@@ -120,7 +121,7 @@ static void add_couple(const model *m, const model_state *s, int element, double
 void shares_ends(const model *m, const model_state *s, const shares_motion *motion, int element,
                  double ends[2][7])
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     double whole[2][7];
     for (int e = 0; e < 2; e++) {
         const int k = e ? el->nodes - 1 : 0;

@@ -7,8 +7,11 @@
 #include "elements/math/offset.h"
 #include "elements/math/vec3.h"
 #include "harness/model/assemble.h"
+#include "harness/model/eliminate.h"
+#include "harness/model/entries.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/released.h"
 #include "harness/time/vertex_rates.h"
 
@@ -27,7 +30,7 @@ static void gather(const model *m, const mesh_element *el, const model_state *s,
     for (int k = 0; k < el->nodes; k++) {
         double *rate = out->rate + NODE_COORDINATES * k,
                *acceleration = out->acceleration + NODE_COORDINATES * k;
-        const int warp = el->warp[k] != NONE ? m->warp[el->warp[k]].coordinate : NONE;
+        const int warp = el->warp[k] != NONE ? model_warp(m, el->warp[k]) : NONE;
         frame_rates r;
         vertex_rates(m, s, el->vertex[k], v, a, &r);
         memcpy(rate, r.v, sizeof r.v);
@@ -47,8 +50,8 @@ static void nothing_known(int count, double *A)
 
 static void evaluate(const model *m, int element, const node_state x[], inertia_output *out)
 {
-    const int n = m->coordinates;
-    if (m->type->inertia(m->kind[m->element[element].kind].data, x, NULL, out) == STATUS_OK)
+    const int n = model_own_coordinates(m);
+    if (model_type(m)->inertia(model_kind_of(m, element)->data, x, NULL, out) == STATUS_OK)
         return;
     nothing_known(n, out->taken);
     nothing_known(n * n, out->M);
@@ -60,7 +63,7 @@ void spread_force(const model *m, int element, const model_state *s, const doubl
                   const double a[], double F[])
 {
     moving_element e;
-    gather(m, &m->element[element], s, v, a, &e);
+    gather(m, model_element(m, element), s, v, a, &e);
     evaluate(m, element, e.x,
              &(inertia_output){.rate = e.rate, .acceleration = e.acceleration, .taken = F});
 }
@@ -68,13 +71,13 @@ void spread_force(const model *m, int element, const model_state *s, const doubl
 void spread_subtract(const model *m, const model_state *s, const double v[], const double a[],
                      double out[])
 {
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         double F[MODEL_MAX_COORDINATES];
         spread_force(m, i, s, v, a, F);
-        for (int k = 0; k < m->coordinates; k++)
+        for (int k = 0; k < model_own_coordinates(m); k++)
             F[k] = -F[k];
-        eliminate_forces(m, s, &m->element[i], F);
-        assemble_vector(&m->element[i], F, out);
+        eliminate_forces(m, s, model_element(m, i), F);
+        assemble_vector(model_element(m, i), F, out);
     }
 }
 
@@ -143,7 +146,7 @@ static void to_bodies(const model *m, const mesh_element *el, const model_state 
     for (int k = 0; k < el->nodes; k++) {
         const int vertex = el->vertex[k], at = NODE_COORDINATES * k;
         double rho[3];
-        if (m->vertex[vertex].body != vertex && vertex < m->first_release) {
+        if (model_vertex(m, vertex)->body != vertex && vertex < model_first_release(m)) {
             kinematics_offset(m, s, vertex, rho);
             carry(n, at, e, rho, p->acceleration, p->velocity, p->place);
             offset_matrix(n, at, rho, NULL, p->acceleration);
@@ -158,7 +161,7 @@ static void to_bodies(const model *m, const mesh_element *el, const model_state 
 static void set_turns(const model *m, const mesh_element *el, const model_state *s, spread_parts *p)
 {
     for (int k = 0; k < el->nodes; k++)
-        inertia_turns(m, s, m->vertex[el->vertex[k]].body, p->turn[k], p->rate[k]);
+        inertia_turns(m, s, model_vertex(m, el->vertex[k])->body, p->turn[k], p->rate[k]);
 }
 
 static void begin_parts(const mesh_element *el, const model_state *s, spread_parts *out)
@@ -171,7 +174,7 @@ static void begin_parts(const mesh_element *el, const model_state *s, spread_par
 void spread_element(const model *m, int element, const model_state *s, const double v[],
                     const double a[], spread_parts *out)
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     moving_element e;
     double F[MOST];
     gather(m, el, s, v, a, &e);
@@ -207,7 +210,7 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
         const double plain = moves != NULL ? moves[k].plain : 1,
                      *turn = moves != NULL ? moves[k].turn : p->turn[k];
         T[p->columns * (at + 6) + at + 6] = plain;
-        if (el->vertex[k] < m->first_release) {
+        if (el->vertex[k] < model_first_release(m)) {
             for (int i = 0; i < 3; i++) {
                 T[p->columns * (at + i) + at + i] = plain;
                 for (int j = 0; j < 3; j++)
@@ -282,16 +285,18 @@ static const double at_rest[MOST];
 
 void spread_masses(const model *m, int element, const model_state *s, spread_parts *out)
 {
-    const mesh_element *el = &m->element[element];
+    const mesh_element *el = model_element(m, element);
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, s, el, x);
     begin_parts(el, s, out);
     evaluate(m, element, x, &(inertia_output){.M = out->acceleration, .rate = at_rest});
     for (int k = 0; k < el->nodes; k++)
-        if (m->vertex[el->vertex[k]].body != el->vertex[k] && el->vertex[k] < m->first_release) {
+        if (model_vertex(m, el->vertex[k])->body != el->vertex[k] &&
+            el->vertex[k] < model_first_release(m)) {
             double rho[3];
             kinematics_offset(m, s, el->vertex[k], rho);
-            offset_matrix(m->coordinates, NODE_COORDINATES * k, rho, NULL, out->acceleration);
+            offset_matrix(model_own_coordinates(m), NODE_COORDINATES * k, rho, NULL,
+                          out->acceleration);
         }
     set_turns(m, el, s, out);
 }
@@ -299,7 +304,7 @@ void spread_masses(const model *m, int element, const model_state *s, spread_par
 void spread_place(const model *m, const spread_parts *p, spread_motion place[])
 {
     for (int k = 0; k < p->el->nodes; k++) {
-        const int plain = p->el->vertex[k] < m->first_release;
+        const int plain = p->el->vertex[k] < model_first_release(m);
         place[k].plain = 1;
         memcpy(place[k].turn, plain ? p->turn[k] : one, sizeof place[k].turn);
         memcpy(place[k].ball, one, sizeof place[k].ball);
@@ -312,9 +317,9 @@ static void motions_of(const model *m, const mesh_element *el, const inertia_rel
 {
     for (int k = 0; k < el->nodes; k++) {
         double N[9];
-        const int body = m->vertex[el->vertex[k]].body;
+        const int body = model_vertex(m, el->vertex[k])->body;
         rates[k].plain = 1;
-        if (el->vertex[k] >= m->first_release) {
+        if (el->vertex[k] >= model_first_release(m)) {
             inertia_turn(m, body, p->state, with->inc, rates[k].turn);
             inertia_turn(m, el->vertex[k], p->state, with->inc, rates[k].ball);
             continue;
@@ -329,13 +334,13 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
 {
     const model *m = eq->m;
     const mesh_pattern *pattern = assemble_of(eq->run->patterns, S);
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
+    for (int i = 0; i < model_elements(m); i++) {
+        const mesh_element *el = model_element(m, i);
         spread_parts p;
         spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
         double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
         spread_element(m, i, s, v, a, &p);
-        const int all = m->coordinates * m->coordinates;
+        const int all = model_own_coordinates(m) * model_own_coordinates(m);
         for (int k = 0; k < all; k++)
             p.acceleration[k] = with->b * p.acceleration[k] + with->g * p.velocity[k];
         spread_place(m, &p, place);
@@ -350,14 +355,14 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
 void spread_add_balance(const model *m, const model_state *s, const double v[], double *kinetic,
                         double momentum[3], double angular[3])
 {
-    for (int i = 0; i < m->elements; i++) {
-        const mesh_element *el = &m->element[i];
+    for (int i = 0; i < model_elements(m); i++) {
+        const mesh_element *el = model_element(m, i);
         moving_element e;
         double M[MOST * MOST], p[MOST];
         gather(m, el, s, v, NULL, &e);
         evaluate(m, i, e.x, &(inertia_output){.M = M, .rate = e.rate});
-        dense_mul_vec(m->coordinates, m->coordinates, M, e.rate, p);
-        *kinetic += dense_dot(m->coordinates, e.rate, p) / 2;
+        dense_mul_vec(model_own_coordinates(m), model_own_coordinates(m), M, e.rate, p);
+        *kinetic += dense_dot(model_own_coordinates(m), e.rate, p) / 2;
         for (int k = 0; k < el->nodes; k++) {
             const double *own = p + NODE_COORDINATES * k;
             double moment[3];

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model_impl.h"
+#include "harness/model/entries.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 
 /* Free coordinates that the mass of a coordinate couples it with, ascending; how many. */
 static int coupled(const model *m, const int frame_of[], const double warping[], int c, int list[6])
@@ -14,8 +16,8 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
         return warping[c] > 0;
     }
     for (int p = 0; p < 6; p++) {
-        const int other = m->vertex[frame_of[c]].coordinate[p];
-        if (other == NONE || other >= m->free)
+        const int other = model_vertex(m, frame_of[c])->coordinate[p];
+        if (other == NONE || other >= model_unknowns(m))
             continue;
         int at = count++;
         for (; at > 0 && list[at - 1] > other; at--)
@@ -30,7 +32,7 @@ static int fill(const equations *eq, const sparse *single, const int frame_of[],
                 const carried *masses, stages_matrix *out, int *row)
 {
     const model *m = eq->m;
-    const int n = out->n, full = m->releases > 0 || eq->run->damping != NULL ||
+    const int n = out->n, full = model_releases(m) > 0 || eq->run->damping != NULL ||
                                  masses->spread; /* they couple nodes */
     const double *warping = masses->warping;
     int count = 0;
@@ -60,12 +62,12 @@ static status make(const equations *eq, const carried *masses, const sparse *sin
                    stages_matrix *out, fault *f)
 {
     const model *m = eq->m;
-    for (int c = 0; c < m->free; c++)
+    for (int c = 0; c < model_unknowns(m); c++)
         frame_of[c] = NONE;
     for (int k = 0; k < masses->masses; k++)
         for (int p = 0; p < 6; p++) {
-            const int c = m->vertex[masses->mass[k].frame].coordinate[p];
-            if (c != NONE && c < m->free)
+            const int c = model_vertex(m, masses->mass[k].frame)->coordinate[p];
+            if (c != NONE && c < model_unknowns(m))
                 frame_of[c] = masses->mass[k].frame;
         }
     const size_t count = (size_t)fill(eq, single, frame_of, masses, out, NULL),
@@ -87,8 +89,8 @@ status stages_alloc(const equations *eq, const carried *masses, const sparse *si
 {
     const model *m = eq->m;
     memset(out, 0, sizeof *out);
-    out->n = m->free;
-    int *frame_of = malloc(((size_t)m->free + 1) * sizeof *frame_of);
+    out->n = model_unknowns(m);
+    int *frame_of = malloc(((size_t)model_unknowns(m) + 1) * sizeof *frame_of);
     const status outcome = frame_of != NULL
                                ? make(eq, masses, single, frame_of, out, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for stages");

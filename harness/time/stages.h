@@ -3,7 +3,9 @@
 #ifndef BEAMWORK_STAGES_H
 #define BEAMWORK_STAGES_H
 
-#include "harness/model/model_impl.h"
+#include "harness/model/entries.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/run_state.h"
 #include "harness/time/carried.h"
 

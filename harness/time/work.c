@@ -6,7 +6,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/applied.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"
@@ -16,7 +17,7 @@
 static int is_driven(const model *m, const mesh_element *el)
 {
     for (int k = 0; k < el->columns; k++)
-        if (el->index[k] >= m->free)
+        if (el->index[k] >= model_unknowns(m))
             return 1;
     return 0;
 }
@@ -27,13 +28,13 @@ status work_alloc(const equations *eq, const carried *masses, work *w, fault *f)
     *w = (work){.eq = eq,
                 .m = m,
                 .masses = masses,
-                .force = calloc(2 * (size_t)(m->free + m->driven) + 1, sizeof *w->force),
-                .element = calloc((size_t)m->elements + 1, sizeof *w->element)};
+                .force = calloc(2 * (size_t)model_all_coordinates(m) + 1, sizeof *w->force),
+                .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
     if (w->force == NULL || w->element == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the work of a motion");
-    w->holding = w->force + m->free + m->driven;
-    for (int i = 0; i < m->elements; i++)
-        if (is_driven(m, &m->element[i]))
+    w->holding = w->force + model_all_coordinates(m);
+    for (int i = 0; i < model_elements(m); i++)
+        if (is_driven(m, model_element(m, i)))
             w->element[w->elements++] = i;
     return STATUS_OK;
 }
@@ -48,11 +49,12 @@ void work_free(work *w)
 static double product(const work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
-    double sum = dense_dot(m->free + m->driven, w->force, along);
-    for (int i = 0; i < m->vertices; i++) {
-        const int *at = &m->vertex[i].coordinate[SCENE_RX];
+    double sum = dense_dot(model_all_coordinates(m), w->force, along);
+    for (int i = 0; i < model_vertices(m); i++) {
+        const int *at = &model_vertex(m, i)->coordinate[SCENE_RX];
         double R[9], own[3], moment[3], turned[3];
-        if ((m->vertex[i].body != i && i < m->first_release) || forms_of(m, i) != FORM_BODY)
+        if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
+            forms_of(m, i) != FORM_BODY)
             continue;
         rotation_matrix(&s->q[4 * i], R);
         for (int k = 0; k < 3; k++) {
@@ -69,24 +71,25 @@ static double product(const work *w, const model_state *s, const double along[])
 static void hold(work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;
-    const int all = m->free + m->driven;
+    const int all = model_all_coordinates(m);
     memset(w->holding, 0, (size_t)all * sizeof *w->holding);
     inertia_subtract(m, w->masses, s, v, a, w->holding);
     for (int c = 0; c < all; c++)
         w->holding[c] = -w->holding[c];
     linearise_add_internal(w->eq, s, w->elements, w->element, w->holding);
-    memcpy(w->force + m->free, w->holding + m->free, (size_t)m->driven * sizeof *w->force);
+    memcpy(w->force + model_unknowns(m), w->holding + model_unknowns(m),
+           (size_t)model_driven(m) * sizeof *w->force);
 }
 
 double work_power(work *w, const model_state *s, const double v[], const double a[], double time,
                   const double along[])
 {
     const model *m = w->m;
-    memset(w->force, 0, (size_t)(m->free + m->driven) * sizeof *w->force);
-    for (int i = 0; i < m->scene->loads; i++)
-        loads_add_one(w->eq, s, &m->scene->load[i], applied_factor(w->eq, &m->scene->load[i], time),
-                      w->force);
-    if (m->driven > 0)
+    memset(w->force, 0, (size_t)model_all_coordinates(m) * sizeof *w->force);
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        loads_add_one(w->eq, s, &model_scene(m)->load[i],
+                      applied_factor(w->eq, &model_scene(m)->load[i], time), w->force);
+    if (model_driven(m) > 0)
         hold(w, s, v, a);
     return product(w, s, along);
 }

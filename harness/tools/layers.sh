@@ -36,6 +36,11 @@ rule harness 'reference/|reports/|elements/(beamw|sheet|geometrically_exact|coll
 for room in ${floors%% study *}; do
     rule "harness/$room" 'cases/format/' 'what solves reads no files'
 done
+# What an _impl.h holds is the inside of its folder; tests of that folder may look in.
+hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' elements cases harness --include='*.c' --include='*.h' 2>/dev/null |
+    awk -F '[:"]' '{ home = $4; file = $1; sub("/[^/]*$", "", home); sub("/(test/)?[^/]*$", "", file) }
+        file != home { print $0 "   <- this is the inside of " home }' || true)
+[ -z "$hits" ] || { echo "$hits"; bad=1; }
 # The harness walks generated lists: neither a formulation nor a case is named in it.
 for file in elements/*.c cases/*.c; do
     [ -f "$file" ] || continue

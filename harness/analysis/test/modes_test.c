@@ -8,7 +8,8 @@
 #include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 #include "harness/formulations/formulation.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/modes.h"
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
@@ -45,15 +46,16 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
     const int count = model_member_vertices(m, member, vertex);
     for (int i = 0; i < count; i++) {
         const double value = size * sin(waves * PI * (i + 0.3) / (count - 1 + 0.6));
-        const mesh_vertex *v = &m->vertex[vertex[i]];
+        const mesh_vertex *v = model_vertex(m, vertex[i]);
         if (k < WARPING)
             for (int c = 0; c < 3; c++)
                 x[v->coordinate[3 * (k / 3) + c]] += R[3 * c + k % 3] * value;
         else
-            for (int e = m->first_element[member]; e < m->first_element[member + 1]; e++)
-                for (int end = 0; end < m->nodes; end++)
-                    if (m->element[e].vertex[end] == vertex[i])
-                        x[m->warp[m->element[e].warp[end]].coordinate] = value;
+            for (int e = model_first_element(m, member); e < model_first_element(m, member + 1);
+                 e++)
+                for (int end = 0; end < model_nodes(m); end++)
+                    if (model_element(m, e)->vertex[end] == vertex[i])
+                        x[model_warp(m, model_element(m, e)->warp[end])] = value;
     }
 }
 
@@ -65,7 +67,7 @@ typedef struct part {
 static void compare(const model *m, const scene *s, const double R[9], int parts, const part *p,
                     scene_family family, int half_waves, const char *what)
 {
-    double *x = calloc((size_t)(m->free + m->driven) + 1, sizeof *x);
+    double *x = calloc((size_t)model_all_coordinates(m) + 1, sizeof *x);
     mode_shape shape = {SCENE_ANY, 0};
     fault f = {""};
     for (int i = 0; i < parts; i++)

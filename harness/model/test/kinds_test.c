@@ -61,7 +61,7 @@ static int solve(const element_type *type, int count, const link links[], double
     status outcome = model_alloc(&what, &m, &f);
     const int offered = ask_offered(&s, type);
     if (outcome == STATUS_OK) {
-        *kinds = m->kinds;
+        *kinds = m->mesh.kinds;
         outcome = solve_scene(&s, m, NULL, &r, &f);
         value[0] = r.quantity[0].value;
         value[1] = r.quantity[1].value;

@@ -15,7 +15,7 @@ enum { ELEMENTS = 3, BODIES = 6 }; /* of seven vertices one is held */
 static void one_motion(const model *m, int vertex, int component, double size)
 {
     static const double amount = 0.3;
-    const int turns = component >= SCENE_RX, n = m->free + m->driven;
+    const int turns = component >= SCENE_RX, n = m->mesh.free + m->mesh.driven;
     const double share = turns ? 1.0 / BODIES : 1.0 / BODIES / (size * size);
     double *weight = calloc((size_t)n + 1, sizeof *weight), turn[3] = {0}, step[4];
     model_state *a, *b;
@@ -27,7 +27,7 @@ static void one_motion(const model *m, int vertex, int component, double size)
         weight[i] = 17;
     metric_of(m, weight);
     gsl_test(weight[n] != 17, "what stands behind the weights is left alone");
-    gsl_test_rel(weight[m->vertex[vertex].coordinate[component]], share, 1e-14,
+    gsl_test_rel(weight[m->mesh.vertex[vertex].coordinate[component]], share, 1e-14,
                  "vertex %d, component %d: weight", vertex, component);
     if (turns) {
         turn[component - SCENE_RX] = amount;
@@ -51,8 +51,8 @@ int main(void)
     model *m = NULL;
     if (corner("beamw", ELEMENTS, 1, &s, &m)) {
         int bodies = 0;
-        for (int v = 0; v < m->vertices; v++) {
-            const mesh_vertex *here = &m->vertex[v];
+        for (int v = 0; v < m->mesh.vertices; v++) {
+            const mesh_vertex *here = &m->mesh.vertex[v];
             if (here->body != v || here->coordinate[0] == NONE)
                 continue;
             bodies++;

@@ -59,7 +59,8 @@ static void kinds(const element_type *type)
         model *m = meshed(&s, type, ELEMENTS, &f);
         gsl_test(m == NULL, "%s, %s: %s", type->name, row[i].what, f.text);
         if (m != NULL)
-            gsl_test_int(m->kinds, row[i].kinds, "%s: kinds where %s", type->name, row[i].what);
+            gsl_test_int(m->mesh.kinds, row[i].kinds, "%s: kinds where %s", type->name,
+                         row[i].what);
         model_free(m);
         scene_free(&s);
     }
@@ -76,7 +77,7 @@ static void middles(const element_type *type)
     gsl_test(m == NULL, "%s: %s", type->name, f.text);
     for (int i = 0; m != NULL && i < ELEMENTS; i++) {
         const double width = 0.03 - 0.02 * (i + 0.5) / ELEMENTS;
-        gsl_test_rel(m->section[m->kind[m->element[i].kind].section].width, width, 1e-14,
+        gsl_test_rel(m->section[m->mesh.kind[m->mesh.element[i].kind].section].width, width, 1e-14,
                      "%s: width of element %d", type->name, i);
     }
     model_free(m);

@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/model/supports_impl.h"
+#include "harness/model/supports.h"
 
 int main(void)
 {

@@ -8,6 +8,7 @@
 #include "elements/test/random.h"
 #include "elements/test/worst.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/model/test/corner.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/extrapolate.h"
@@ -28,7 +29,7 @@ static void fill(const model *m, int degree, double path, model_state *s)
         }
         s->block[k] = value;
     }
-    for (int v = 0; v < m->vertices; v++) {
+    for (int v = 0; v < model_vertices(m); v++) {
         double turn[3], angle = 0;
         for (int p = 1; p <= degree; p++)
             angle += 0.3 / p * pow(path, p);
@@ -42,15 +43,15 @@ static void fill(const model *m, int degree, double path, model_state *s)
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;
-    for (int v = 0; v < m->vertices; v++) {
+    for (int v = 0; v < model_vertices(m); v++) {
         double turn[3];
-        if (m->vertex[v].body != v)
+        if (model_vertex(m, v)->body != v)
             continue;
         rotation_between(&a->q[4 * v], &b->q[4 * v], turn);
         for (int c = 0; c < 3; c++)
             worst = worst_of(worst, fmax(fabs(a->u[3 * v + c] - b->u[3 * v + c]), fabs(turn[c])));
     }
-    for (int i = 0; i < m->elements * m->strains; i++)
+    for (int i = 0; i < model_elements(m) * model_strains(m); i++)
         worst = worst_of(worst, fmax(fabs(a->e[i] - b->e[i]), fabs(a->sigma[i] - b->sigma[i])));
     return worst;
 }

@@ -1,5 +1,7 @@
 /* What runs between two instants comes to both of them: places, shifts, angles, warping, rates and
  * accelerations, of bodies, sequences of angles and released ends, turned by half a radian. */
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/between.h"
 
 #include "elements/test/worst.h"
@@ -23,26 +25,26 @@ static double apart(size_t count, const double a[], const double b[])
 static double rates_apart(const model *m, const double a[], const double b[])
 {
     double largest = 0;
-    for (int i = 0; i < m->vertices; i++)
+    for (int i = 0; i < model_vertices(m); i++)
         for (int k = 0; k < 6; k++) {
-            const int c = m->vertex[i].coordinate[k];
-            const int ball = i >= m->first_release && forms_of(m, i) == FORM_BODY;
-            if (c != NONE &&
-                (m->vertex[i].body == i || (i >= m->first_release && !(ball && k > 2))))
+            const int c = model_vertex(m, i)->coordinate[k];
+            const int ball = i >= model_first_release(m) && forms_of(m, i) == FORM_BODY;
+            if (c != NONE && (model_vertex(m, i)->body == i ||
+                              (i >= model_first_release(m) && !(ball && k > 2))))
                 largest = worst_of(largest, fabs(a[c] - b[c]));
         }
-    for (int i = 0; i < m->warps; i++)
-        largest = worst_of(largest, fabs(a[m->warp[i].coordinate] - b[m->warp[i].coordinate]));
+    for (int i = 0; i < model_warps(m); i++)
+        largest = worst_of(largest, fabs(a[model_warp(m, i)] - b[model_warp(m, i)]));
     return largest;
 }
 
 static double places_apart(const model *m, const model_state *a, const model_state *b)
 {
-    const size_t n = (size_t)m->vertices;
+    const size_t n = (size_t)model_vertices(m);
     double largest = apart(3 * n, a->u, b->u);
     largest = worst_of(largest, apart(3 * n, a->angle, b->angle));
-    largest = worst_of(largest, apart(3 * (size_t)m->releases, a->shift, b->shift));
-    largest = worst_of(largest, apart((size_t)m->warps, a->warp, b->warp));
+    largest = worst_of(largest, apart(3 * (size_t)model_releases(m), a->shift, b->shift));
+    largest = worst_of(largest, apart((size_t)model_warps(m), a->warp, b->warp));
     for (size_t i = 0; i < n; i++) {
         double sum = 0;
         for (int k = 0; k < 4; k++)
@@ -83,14 +85,14 @@ static void run(const moving_one *o, between_degree degree)
         const double places = places_apart(o->m, at.state, expected->state),
                      rates = rates_apart(o->m, at.v, expected->v),
                      second = rates_apart(o->m, at.a, expected->a);
-        gsl_test(!(places < 1e-13), "%s: places at end %d (%g)", o->m->type->name, k, places);
-        gsl_test(!(rates < 1e-12), "%s: rates at end %d (%g)", o->m->type->name, k, rates);
-        gsl_test(!(second < 1e-10), "%s: accelerations at end %d (%g)", o->m->type->name, k,
+        gsl_test(!(places < 1e-13), "%s: places at end %d (%g)", model_type(o->m)->name, k, places);
+        gsl_test(!(rates < 1e-12), "%s: rates at end %d (%g)", model_type(o->m)->name, k, rates);
+        gsl_test(!(second < 1e-10), "%s: accelerations at end %d (%g)", model_type(o->m)->name, k,
                  second);
     }
     between_at(&inside, 1 + h / 2, &at);
     gsl_test(!(places_apart(o->m, at.state, from.state) > 0.01), "%s: half of the way",
-             o->m->type->name);
+             model_type(o->m)->name);
     between_free(&inside);
     run_state_end(&loaded);
     instant_free(&from);

@@ -7,7 +7,8 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/complement.h"
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
@@ -32,9 +33,10 @@ static model *leaf(const element_type *type, scene *s)
 
 static void evaluate(const model *m, int i, const double e[], double sigma[], double C[])
 {
-    const element_data *data = m->kind[m->element[i].kind].data;
-    gsl_test(m->type->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C}) != STATUS_OK,
-             "%s: evaluated", m->type->name);
+    const element_data *data = model_kind_of(m, i)->data;
+    gsl_test(model_type(m)->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C}) !=
+                 STATUS_OK,
+             "%s: evaluated", model_type(m)->name);
 }
 
 static double largest(int n, const double a[], const double b[])
@@ -49,13 +51,13 @@ static double largest(int n, const double a[], const double b[])
  * that a linear law has for them. */
 static void load(const model *m, int i, double angle, double sigma[], double e[])
 {
-    const double l = m->kind[m->element[i].kind].length;
+    const double l = model_kind_of(m, i)->length;
     double rest[MOST] = {0}, none[MOST], C[MOST * MOST];
     evaluate(m, i, rest, none, C);
-    for (int k = 0; k < m->strains; k++)
+    for (int k = 0; k < model_strains(m); k++)
         e[k] = k == 4 || k == 5 ? (k == 4 ? 0.5 : 0.4) * angle * l : 0;
     e[1] = 0.02 * angle * l;
-    dense_mul_vec(m->strains, m->strains, C, e, sigma);
+    dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
 }
 
 static long looks(const equations *eq, complement *c, model_state *s, int iteration,
@@ -85,7 +87,7 @@ static void take(const element_type *type, double angle)
     equations eq = {.m = m, .run = &run};
     model_state *state;
     complement *c;
-    const size_t n = (size_t)m->strains;
+    const size_t n = (size_t)model_strains(m);
     gsl_test(kinematics_state_alloc(m, &state, &f) != STATUS_OK ||
                  complement_alloc(&eq, &c, &f) != STATUS_OK || c == NULL,
              "%s has stresses that are not linear", type->name);
@@ -97,20 +99,20 @@ static void take(const element_type *type, double angle)
     complement_strains(c, state, 1, 1);
     for (int i = 0; i < ELEMENTS; i++) {
         const double *e = &state->e[(size_t)i * n], *goal = &state->sigma[(size_t)i * n],
-                     *first = &linear[(size_t)i * n], size = largest(m->strains, goal, NULL);
+                     *first = &linear[(size_t)i * n], size = largest(model_strains(m), goal, NULL);
         double sigma[MOST], C[MOST * MOST];
         if (i == 3) {
             gsl_test(memcmp(e, first, n * sizeof *e) != 0, "what agrees keeps its bits");
             continue;
         }
         evaluate(m, i, first, sigma, C);
-        gsl_test(!(largest(m->strains, sigma, goal) > 10 * size),
+        gsl_test(!(largest(model_strains(m), sigma, goal) > 10 * size),
                  "%s: linear strains have false stresses (%g of %g N)", type->name,
-                 largest(m->strains, sigma, goal), size);
+                 largest(model_strains(m), sigma, goal), size);
         evaluate(m, i, e, sigma, C);
-        gsl_test(!(largest(m->strains, sigma, goal) <= 0.1 * size),
+        gsl_test(!(largest(model_strains(m), sigma, goal) <= 0.1 * size),
                  "%s, %g rad: stresses as given (%g of %g N)", type->name, angle,
-                 largest(m->strains, sigma, goal), size);
+                 largest(model_strains(m), sigma, goal), size);
         gsl_test(!(fabs(e[4] / first[4] - 1) < 0.2 && fabs(e[5] / first[5] - 1) < 0.2),
                  "%s, %g rad: bent as much (%g, %g)", type->name, angle, e[4] / first[4],
                  e[5] / first[5]);
@@ -136,7 +138,7 @@ static void keep(void)
     complement *c;
     if (kinematics_state_alloc(m, &state, &f) == STATUS_OK &&
         complement_alloc(&eq, &c, &f) == STATUS_OK) {
-        const size_t n = (size_t)(ELEMENTS * m->strains);
+        const size_t n = (size_t)(ELEMENTS * model_strains(m));
         double before[ELEMENTS * MOST];
         complement_keep(c, state);
         for (size_t i = 0; i < n; i++) {

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "cases/shared/timed.h"
+#include "harness/model/mesh.h"
 #include "harness/time/test/flight.h"
 
 static const double y_axis[] = {0, 1, 0};
@@ -64,7 +65,7 @@ static double roughest(double h)
         for (int k = 0; k < 3; k++)
             angular = fmax(angular, i * h < 2 ? 0 : fabs(now.angular[k] - kept.angular[k]));
         for (int k = 0; k < 6; k++) {
-            const double rate = f.now.v[f.m->vertex[k / 3].coordinate[SCENE_RX + k % 3]];
+            const double rate = f.now.v[model_vertex(f.m, k / 3)->coordinate[SCENE_RX + k % 3]];
             rough = fmax(rough, fabs(rate - before[k]));
             before[k] = rate;
         }

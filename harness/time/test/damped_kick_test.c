@@ -4,6 +4,7 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/newton/linearise.h"
 #include "harness/time/inertia.h"
 #include "harness/time/massless.h"
@@ -99,13 +100,13 @@ static double middle(double step)
 /* Forces on what has no inertia [N m], the largest of them. */
 static double out_of_balance(flying *f)
 {
-    const size_t all = (size_t)(f->m->free + f->m->driven) + 1;
+    const size_t all = (size_t)model_all_coordinates(f->m) + 1;
     double *residual = calloc(all, sizeof *residual), most = 0;
     model_linearisation lin = {.path = f->now.time, .residual = residual};
     const status outcome = linearise_state(&f->c.eq, &f->run.memory, f->now.state, &lin, &f->why);
     inertia_subtract(f->m, &f->masses, f->now.state, f->now.v, f->now.a, residual);
     massless_forces(f->m, &f->masses, f->now.state, residual, &f->why);
-    for (int c = 0; c < f->m->free; c++)
+    for (int c = 0; c < model_unknowns(f->m); c++)
         most = fmax(most, fabs(residual[c]));
     free(residual);
     return outcome == STATUS_OK ? most : NAN;
@@ -115,7 +116,7 @@ static double out_of_balance(flying *f)
 static double changed(const flying *f, const double before[])
 {
     double most = 0, size = 0;
-    for (int c = 0; c < f->m->free; c++) {
+    for (int c = 0; c < model_unknowns(f->m); c++) {
         most = fmax(most, fabs(f->now.v[c] - before[c]));
         size = fmax(size, fabs(before[c]));
     }
@@ -139,11 +140,11 @@ static void launch_there(const char *then, double least, double most)
     for (int i = 0; i < steps; i++) /* on the instant, or the load is that behind it */
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
-    for (int k = 0; k < f.m->elements * f.m->strains; k++)
+    for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
         f.now.state->e[k] *= 1 + 1e-9; /* as iterations leave them */
     kinematics_frame(f.m, f.now.state, 1, r, before);
-    double *rates = malloc((size_t)f.m->free * sizeof *rates);
-    memcpy(rates, f.now.v, (size_t)f.m->free * sizeof *rates);
+    double *rates = malloc((size_t)model_unknowns(f.m) * sizeof *rates);
+    memcpy(rates, f.now.v, (size_t)model_unknowns(f.m) * sizeof *rates);
     gsl_test(launch_again(&f.c, &f.masses, scene_motion_of(&s.analysis[0]), &f.now, &f.next,
                           &f.why) != STATUS_OK,
              "goes on: %s", f.why.text);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/swung.h"
 
@@ -21,7 +22,7 @@ static void add_beam(scene *s)
 
 static double *strains_in(flying *f, double h)
 {
-    const size_t n = (size_t)(f->m->elements * f->m->strains);
+    const size_t n = (size_t)(model_elements(f->m) * model_strains(f->m));
     double *out = malloc(n * sizeof *out);
     gsl_test(flying_try(f, h) != STATUS_OK, "a step of %g s: %s", h, f->why.text);
     memcpy(out, kinematics_strains(f->next.state), n * sizeof *out);
@@ -49,7 +50,7 @@ int main(void)
              f.why.text);
     for (int i = 0; i < 300; i++)
         gsl_test(flying_step(&f, h) != STATUS_OK, "step %d: %s", i, f.why.text);
-    const int n = f.m->elements * f.m->strains;
+    const int n = model_elements(f.m) * model_strains(f.m);
     double *rate = calloc((size_t)n, sizeof *rate), *later = strains_in(&f, d),
            *before = strains_in(&f, -d);
     damping_rates(f.m, f.now.state, f.now.v, rate, &f.why);

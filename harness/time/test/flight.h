@@ -11,8 +11,9 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/formulation.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
 #include "harness/model/spring.h"
+#include "harness/model/state.h"
 #include "harness/model/turns.h"
 #include "harness/newton/history.h"
 #include "harness/time/conserving.h"
@@ -114,21 +115,21 @@ static inline double flight_strain_energy(const flight *f)
     const model *m = f->m;
     const model_state *s = f->now.state;
     double sum = 0, none[1] = {0};
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < model_elements(m); i++) {
         double energy = 0;
-        const double *inner = m->inner > 0 ? s->inner + (size_t)(i * m->inner) : none;
-        m->type->stress(m->kind[m->element[i].kind].data, s->e + (size_t)(i * m->strains), inner,
-                        &(stress_output){.energy = &energy});
+        const double *inner = model_inner(m) > 0 ? s->inner + (size_t)(i * model_inner(m)) : none;
+        model_type(m)->stress(model_kind_of(m, i)->data, s->e + (size_t)(i * model_strains(m)),
+                              inner, &(stress_output){.energy = &energy});
         sum += energy;
     }
-    for (int i = m->discretes - m->springs; i < m->discretes; i++) {
+    for (int i = model_discretes(m) - model_springs(m); i < model_discretes(m); i++) {
         double e[SPRING_STRAINS];
         node_state x[ELEMENT_MAX_NODES];
-        kinematics_gather(m, s, &m->discrete[i].el, x);
-        spring_strain(m->discrete[i].el.nodes, x,
-                      turns_of_spring(m, s, i - (m->discretes - m->springs)),
+        kinematics_gather(m, s, &model_discrete(m, i)->el, x);
+        spring_strain(model_discrete(m, i)->el.nodes, x,
+                      turns_of_spring(m, s, i - (model_discretes(m) - model_springs(m))),
                       &(strain_output){.e = e});
-        sum += dense_quadratic(SPRING_STRAINS, m->discrete[i].spring->stiffness, e) / 2;
+        sum += dense_quadratic(SPRING_STRAINS, model_discrete(m, i)->spring->stiffness, e) / 2;
     }
     return sum;
 }

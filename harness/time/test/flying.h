@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "harness/formulations/formulation.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/newton/history.h"
 #include "harness/newton/loads.h"
 #include "harness/time/damping.h"
@@ -95,8 +96,10 @@ static inline status flying_step(flying *f, double h)
 /* All numbers of an instant; returns how many there are, numbers NULL: only that. */
 static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
 {
-    const size_t n = (size_t)(f->m->free + f->m->driven), size = at->state->size,
-                 rates = at->strain != NULL ? 2 * (size_t)(f->m->elements * f->m->strains) : 0,
+    const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,
+                 rates = at->strain != NULL
+                             ? 2 * (size_t)(model_elements(f->m) * model_strains(f->m))
+                             : 0,
                  ends = instant_ends(f->m);
     if (numbers != NULL) {
         memcpy(numbers, at->v, n * sizeof *numbers);

@@ -5,6 +5,8 @@
 
 #include "elements/test/sections.h"
 #include "harness/formulations/registry.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/test/flight.h"
 #include "harness/tools/kit/ask.h"
 
@@ -73,9 +75,9 @@ static void swing(flight *f)
 {
     const model *m = f->m;
     const double speed = present->speed;
-    for (int i = 0; i < m->first_release; i++) {
-        const double x = 2 * m->vertex[i].position[0] / length - 1;
-        const int *at = m->vertex[i].coordinate;
+    for (int i = 0; i < model_first_release(m); i++) {
+        const double x = 2 * model_vertex(m, i)->position[0] / length - 1;
+        const int *at = model_vertex(m, i)->coordinate;
         for (int k = 1; k < 3; k++)
             f->now.v[at[k]] += speed * (3 * x * x - 1) / 2;
         f->now.v[at[SCENE_RY]] -= speed * 6 * x / length;

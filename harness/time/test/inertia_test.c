@@ -1,6 +1,8 @@
 /* Forces of inertia of everything that carries mass (off-centre bodies, beams beside their nodes,
  * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
  * along a motion; kinetic energy is that of all masses one by one. */
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/inertia.h"
 #include "harness/time/vertex_rates.h"
 
@@ -11,10 +13,10 @@
 static void in_space(const moving_one *o, const double v[], double out[])
 {
     memcpy(out, v, (size_t)o->all * sizeof *out);
-    for (int i = 0; i < o->m->vertices; i++) {
-        const int *at = o->m->vertex[i].coordinate + SCENE_RX;
+    for (int i = 0; i < model_vertices(o->m); i++) {
+        const int *at = model_vertex(o->m, i)->coordinate + SCENE_RX;
         double R[9], own[3], turned[3];
-        if ((o->m->vertex[i].body != i && i < o->m->first_release) ||
+        if ((model_vertex(o->m, i)->body != i && i < model_first_release(o->m)) ||
             forms_of(o->m, i) != FORM_BODY)
             continue;
         rotation_matrix(&o->now->q[4 * i], R);
@@ -93,8 +95,8 @@ static void virtual_work(const moving_one *o)
         inertia_rates(o->m, o->now, o->masses.mass[k].frame, other, NULL, &r);
         found += vec3_dot(F, r.v) + vec3_dot(F + 3, r.w);
     }
-    for (int i = 0; i < o->m->warps; i++) {
-        const int c = o->m->warp[i].coordinate;
+    for (int i = 0; i < model_warps(o->m); i++) {
+        const int c = model_warp(o->m, i);
         found += o->masses.warping[c] * o->a[c] * other[c];
     }
     near("virtual work", given, found, 1e-11);
@@ -115,11 +117,12 @@ static double energy_of(double of, const double beside[3], const double J[9], co
 /* Velocity of any vertex in its own axes. */
 static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
 {
-    const mesh_vertex *at = &o->m->vertex[vertex];
+    const mesh_vertex *at = model_vertex(o->m, vertex);
     frame_rates r;
     double rho[3], moved[3];
-    inertia_rates(o->m, o->now, vertex < o->m->first_release ? at->body : vertex, o->v, NULL, &r);
-    if (vertex < o->m->first_release && at->body != vertex) {
+    inertia_rates(o->m, o->now, vertex < model_first_release(o->m) ? at->body : vertex, o->v, NULL,
+                  &r);
+    if (vertex < model_first_release(o->m) && at->body != vertex) {
         kinematics_offset(o->m, o->now, vertex, rho);
         vec3_cross(r.w, rho, moved);
         for (int i = 0; i < 3; i++)
@@ -134,11 +137,11 @@ static void kinetic_energy(const moving_one *o)
 {
     inertia_balance all;
     double sum = 0, v[3], W[3];
-    for (int i = 0; i < o->m->elements; i++)
-        for (int k = 0; k < o->m->element[i].nodes; k++) {
-            const mesh_element *el = &o->m->element[i];
-            const section *c = &o->m->section[o->m->kind[el->kind].section];
-            const double l = o->m->kind[el->kind].length * el->share[k],
+    for (int i = 0; i < model_elements(o->m); i++)
+        for (int k = 0; k < model_element(o->m, i)->nodes; k++) {
+            const mesh_element *el = model_element(o->m, i);
+            const section *c = model_section(o->m, model_kind(o->m, el->kind)->section);
+            const double l = model_kind(o->m, el->kind)->length * el->share[k],
                          m = c->matrices ? l : l * c->density, none[3] = {0, 0, 0},
                          J[9] = {m * (c->matrices ? about[0] : c->Ip), 0, 0, 0,
                                  m * (c->matrices ? about[1] : c->Iy), 0, 0, 0,
@@ -150,14 +153,14 @@ static void kinetic_energy(const moving_one *o)
             sum += energy_of(m * (c->matrices ? mass : c->A), c->matrices ? centre : none, J, turn,
                              along);
             if (el->warp[k] != NONE) {
-                const double rate = o->v[o->m->warp[el->warp[k]].coordinate];
+                const double rate = o->v[model_warp(o->m, el->warp[k])];
                 sum += m * c->Iw * rate * rate / 2;
             }
         }
-    for (int i = 0; i < o->m->discretes - o->m->springs; i++) {
-        const scene_body *b = o->m->discrete[i].body;
+    for (int i = 0; i < model_discretes(o->m) - model_springs(o->m); i++) {
+        const scene_body *b = model_discrete(o->m, i)->body;
         const double *I = b->inertia, J[9] = {I[0], I[3], I[5], I[3], I[1], I[4], I[5], I[4], I[2]};
-        own_rates(o, o->m->discrete[i].el.vertex[0], v, W);
+        own_rates(o, model_discrete(o->m, i)->el.vertex[0], v, W);
         sum += energy_of(b->mass, b->centre, J, W, v);
     }
     inertia_of(o->m, &o->masses, o->now, o->v, NULL, &all);

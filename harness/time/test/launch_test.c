@@ -4,6 +4,7 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/swung.h"
 
@@ -39,7 +40,7 @@ static void launched(int driven)
     const int tip = add_beam(&s, driven);
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &at) != STATUS_OK, "begins: %s",
              at.why.text);
-    for (int i = 0; i < at.m->vertices; i++) {
+    for (int i = 0; i < model_vertices(at.m); i++) {
         frame_rates r;
         double place[3], turn[4], velocity[3], left[3];
         kinematics_frame(at.m, at.now.state, i, place, turn);
@@ -57,7 +58,7 @@ static void launched(int driven)
                      vec3_norm(left));
             continue;
         }
-        const int *c = &at.m->vertex[i].coordinate[SCENE_RX];
+        const int *c = &model_vertex(at.m, i)->coordinate[SCENE_RX];
         double b[3][3];
         kinematics_axes(at.m, at.now.state, i, b);
         gsl_test_abs(at.now.v[c[0]], driven_rate, none, "the driven angle");

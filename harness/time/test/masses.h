@@ -14,7 +14,8 @@
 #include "elements/test/random.h"
 #include "harness/formulations/formulation.h"
 #include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/carried.h"
 #include "harness/time/increment.h"
 
@@ -127,7 +128,7 @@ static inline void begin(moving_one *o, const element_type *type, int released)
     gsl_test(kinematics_state_alloc(o->m, &o->rest, &f) != STATUS_OK ||
                  kinematics_state_alloc(o->m, &o->now, &f) != STATUS_OK,
              "%s", f.text);
-    o->all = o->m->free + o->m->driven;
+    o->all = model_all_coordinates(o->m);
     gsl_test(o->all > MOST, "%d coordinates", o->all);
     some(o->all, 0.4, &seed, o->inc);
     some(o->all, 1, &seed, o->v);

@@ -7,6 +7,7 @@
 #include "cases/shared/timed.h"
 #include "elements/math/dense.h"
 #include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
 
@@ -127,7 +128,7 @@ static void start_again(void)
     outcome = launch_again(&f.c, &f.masses, motion, &f.now, &f.next, &f.why);
     gsl_test(outcome != STATUS_OK, "%s", f.why.text);
     double moved = 0, changed = 0, largest = 0, forces[2][100] = {{0}};
-    for (int i = 0; i < f.m->vertices; i++) {
+    for (int i = 0; i < model_vertices(f.m); i++) {
         double p[3], q[3];
         kinematics_position(f.m, before.state, i, p);
         kinematics_position(f.m, f.now.state, i, q);
@@ -137,7 +138,7 @@ static void start_again(void)
     }
     inertia_subtract(f.m, &f.masses, f.now.state, f.now.v, before.a, forces[0]);
     inertia_subtract(f.m, &f.masses, f.now.state, f.now.v, f.now.a, forces[1]);
-    for (int c = 0; c < f.m->free; c++) {
+    for (int c = 0; c < model_unknowns(f.m); c++) {
         changed = fmax(changed, fabs(forces[0][c] - forces[1][c]));
         largest = fmax(largest, fabs(forces[1][c]));
     }

@@ -1,12 +1,13 @@
 /* What of forces works on what has no inertia: warping amplitudes with and without mass. */
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+#include "harness/model/state.h"
 #include "harness/time/massless.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>
 
 #include "harness/formulations/formulation.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/model_impl.h"
 
 enum { MOST = 80 };
 
@@ -41,14 +42,14 @@ static void warps(unsigned omit, int heavy)
         return;
     }
     const model_state *rest = kinematics_rest(m);
-    for (int c = 0; c < m->free; c++)
+    for (int c = 0; c < model_unknowns(m); c++)
         force[c] = motion[c] = given[c] = 2;
     massless_count(m, &masses, rest, &massless, &f);
     massless_forces(m, &masses, rest, force, &f);
     massless_motion(m, &masses, rest, motion, &f);
     massless_accelerate(m, &masses, rest, given, a, &f);
-    for (int w = 0; w < m->warps; w++) {
-        const int c = m->warp[w].coordinate;
+    for (int w = 0; w < model_warps(m); w++) {
+        const int c = model_warp(m, w);
         const double mass = masses.warping[c];
         gsl_test((mass > 0) != heavy, "warping %d has mass: %g", w, mass);
         gsl_test_abs(force[c], heavy ? 0 : 2, 0, "force on warping %d, heavy: %d", w, heavy);

@@ -5,6 +5,9 @@
 
 #include "harness/formulations/registry.h"
 #include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
+#include "harness/model/test/turned_end.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"
@@ -71,19 +74,6 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The rod's last end is joined to the hub turned by a vector. */
-static void join_turned(const model *m, const double vector[3], mesh_triad own[ELEMENT_MAX_NODES],
-                        mesh_triad *before)
-{
-    mesh_element *last = &m->element[m->elements - 1];
-    double q[4], R[9];
-    rotation_exp(vector, q);
-    rotation_matrix(q, R);
-    memcpy(own, before, (size_t)last->nodes * sizeof *own);
-    mat3_mul(R, before[last->nodes - 1], own[last->nodes - 1]);
-    last->triad = own;
-}
-
 /* Rates of a steady turn, and their derivatives. */
 static void turn_rates(const flight *f)
 {
@@ -91,10 +81,10 @@ static void turn_rates(const flight *f)
     double w[3];
     for (int i = 0; i < 3; i++)
         w[i] = rate * present.axis[i];
-    for (int i = 0; i < m->first_release; i++) {
-        const int *at = m->vertex[i].coordinate;
+    for (int i = 0; i < model_first_release(m); i++) {
+        const int *at = model_vertex(m, i)->coordinate;
         double r[3], v[3], a[3], R[9], W[3];
-        if (m->vertex[i].body != i)
+        if (model_vertex(m, i)->body != i)
             continue;
         kinematics_position(m, f->now.state, i, r);
         vec3_cross(w, r, v);
@@ -122,7 +112,7 @@ static double settle(flight *f)
     sparse K;
     factor *of = NULL;
     double correction = INFINITY;
-    const size_t all = (size_t)(m->free + m->driven) + 1;
+    const size_t all = (size_t)model_all_coordinates(m) + 1;
     double *residual = calloc(all, sizeof *residual);
     memset(&K, 0, sizeof K);
     if (residual == NULL ||
@@ -139,7 +129,7 @@ static double settle(flight *f)
         if (linearise_state(&f->c.eq, &f->run.memory, f->now.state, &lin, &f->why) != STATUS_OK)
             break;
         inertia_subtract(m, &f->masses, f->now.state, f->now.v, f->now.a, residual);
-        memset(residual + m->free, 0, (size_t)m->driven * sizeof *residual);
+        memset(residual + model_unknowns(m), 0, (size_t)model_driven(m) * sizeof *residual);
         if (factor_numeric(of, &K, &f->why) != STATUS_OK)
             break;
         factor_solve(of, residual);
@@ -156,11 +146,12 @@ static double settle(flight *f)
 static void pull(flight *f)
 {
     model *m = f->m;
-    double *dx = calloc((size_t)(m->free + m->driven) + 1, sizeof *dx);
-    for (int d = 0; d < m->scene->drivers; d++)
-        if (m->driver_coordinate[d] >= m->free)
-            dx[m->driver_coordinate[d]] =
-                loads_driver_value(&f->c.eq, &m->scene->driver[d], 0) - f->now.state->driver[d];
+    double *dx = calloc((size_t)model_all_coordinates(m) + 1, sizeof *dx);
+    for (int d = 0; d < model_scene(m)->drivers; d++)
+        if (model_driver_coordinate(m, d) >= model_unknowns(m))
+            dx[model_driver_coordinate(m, d)] =
+                loads_driver_value(&f->c.eq, &model_scene(m)->driver[d], 0) -
+                f->now.state->driver[d];
     increment_apply(m, f->now.state, dx, 0, f->next.state);
     instant_copy(m, &f->next, &f->now);
     free(dx);
@@ -169,7 +160,7 @@ static void pull(flight *f)
 /* Largest change of a strain over the steps, by the largest strain. */
 static double spin_change(flight *f, const double begin[], int *iterations)
 {
-    const int count = f->m->elements * f->m->strains;
+    const int count = model_elements(f->m) * model_strains(f->m);
     double largest = 0, change = 0;
     for (int i = 0; i < STEPS; i++) {
         if (flight_step(f, present.h) != STATUS_OK)
@@ -199,15 +190,16 @@ static void check(const char *name, const double axis[3], double turn)
         flight_end(&f);
         return;
     }
-    mesh_triad *before = f.m->element[f.m->elements - 1].triad;
+    mesh_triad *before = model_element(f.m, model_elements(f.m) - 1)->triad;
     pull(&f);
     for (int part_of = 1; part_of <= STAGES; part_of++) {
         const double part = (double)part_of / STAGES, vector[3] = {twist * part, 0, bend * part};
-        join_turned(f.m, vector, own, before);
+        turned_end(f.m, vector, own, before);
         correction = settle(&f);
     }
-    double *begin = malloc(sizeof *begin * (size_t)(f.m->elements * f.m->strains));
-    memcpy(begin, f.now.state->e, sizeof *begin * (size_t)(f.m->elements * f.m->strains));
+    double *begin = malloc(sizeof *begin * (size_t)(model_elements(f.m) * model_strains(f.m)));
+    memcpy(begin, f.now.state->e,
+           sizeof *begin * (size_t)(model_elements(f.m) * model_strains(f.m)));
     const double change = spin_change(&f, begin, &iterations);
     gsl_test(!(correction < 1e-12), "%s, %g rad: in balance (%.1e) %s", name, turn, correction,
              f.why.text);

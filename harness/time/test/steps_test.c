@@ -5,6 +5,7 @@
 
 #include "cases/shared/timed.h"
 #include "elements/test/worst.h"
+#include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
 
@@ -40,11 +41,11 @@ static void reverse(void)
     for (int i = 0; i < 2 * STEPS; i++)
         gsl_test(flying_step(&f, i < STEPS ? 0.02 : -0.02) != STATUS_OK, "step %d: %s", i,
                  f.why.text);
-    const size_t n = (size_t)f.m->free;
+    const size_t n = (size_t)model_unknowns(f.m);
     double *last = flying_all(&f);
     for (size_t i = 0; i < n; i++)
         largest = fmax(largest, fabs(last[i] - first[i]));
-    for (int i = 0; i < 3 * f.m->vertices; i++)
+    for (int i = 0; i < 3 * model_vertices(f.m); i++)
         largest = fmax(largest, fabs(f.now.state->u[i]));
     gsl_test(!(largest < 1e-10), "the trapezoidal rule runs back (%g)", largest);
     free(first);

@@ -5,7 +5,7 @@
 
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/registry.h"
-#include "harness/model/model_impl.h"
+#include "harness/model/state.h"
 #include "harness/time/test/moving.h"
 
 extern const case_type case_pendulum;

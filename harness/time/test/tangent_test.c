@@ -2,6 +2,8 @@
  * follow the increments of a step of finite turns. */
 #include "elements/test/worst.h"
 #include "harness/model/assemble.h"
+#include "harness/model/kinematics.h"
+#include "harness/model/mesh.h"
 #include "harness/time/inertia.h"
 #include "harness/time/test/masses.h"
 
@@ -27,9 +29,9 @@ static void force_at(const moving_one *o, const double inc[], const double from[
 /* Moments in the exponential chart: half of their product with the increment comes on top. */
 static void add_chart(const moving_one *o, const double out[], int column, double slope[])
 {
-    for (int i = 0; i < o->m->first_release; i++) {
-        const int *at = o->m->vertex[i].coordinate + SCENE_RX;
-        if (o->m->vertex[i].body != i)
+    for (int i = 0; i < model_first_release(o->m); i++) {
+        const int *at = model_vertex(o->m, i)->coordinate + SCENE_RX;
+        if (model_vertex(o->m, i)->body != i)
             continue;
         for (int k = 0; k < 3; k++) {
             if (at[k] != column)
@@ -65,7 +67,7 @@ static void tangent(const moving_one *o)
              "%s", f.text);
     inertia_add_tangent(&eq, &o->masses, o->now, o->v, o->a, &with, &S);
     force_at(o, o->inc, o->inc, here);
-    for (int c = 0; c < o->m->free; c++) {
+    for (int c = 0; c < model_unknowns(o->m); c++) {
         double side[2][MOST], slope[MOST];
         for (int k = 0; k < 2; k++) {
             double dx[MOST] = {0}, inc[MOST];
@@ -74,10 +76,10 @@ static void tangent(const moving_one *o)
             increment_add(o->m, o->now, dx, inc);
             force_at(o, inc, o->inc, side[k]);
         }
-        for (int r = 0; r < o->m->free; r++)
+        for (int r = 0; r < model_unknowns(o->m); r++)
             slope[r] = (side[1][r] - side[0][r]) / (2 * small);
         add_chart(o, here, c, slope);
-        for (int r = 0; r < o->m->free; r++)
+        for (int r = 0; r < model_unknowns(o->m); r++)
             largest = worst_of(largest, fabs(entry(&S, r, c) + slope[r]));
     }
     gsl_test(!(largest < 1e-8), "the tangent is the derivative (%g)", largest);

@@ -1,0 +1,24 @@
+/* A model whose last end is turned against its node, which no scene asks for. */
+#ifndef BEAMWORK_TEST_TURNED_END_H
+#define BEAMWORK_TEST_TURNED_END_H
+
+#include <string.h>
+
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "harness/model/model_impl.h"
+
+/* By a vector, from how the ends of the last element were before; own: its triads from here on. */
+static inline void turned_end(model *m, const double vector[3], mesh_triad own[ELEMENT_MAX_NODES],
+                              mesh_triad *before)
+{
+    mesh_element *last = &m->mesh.element[m->mesh.elements - 1];
+    double q[4], R[9];
+    rotation_exp(vector, q);
+    rotation_matrix(q, R);
+    memcpy(own, before, (size_t)last->nodes * sizeof *own);
+    mat3_mul(R, before[last->nodes - 1], own[last->nodes - 1]);
+    last->triad = own;
+}
+
+#endif
