@@ -11,11 +11,11 @@
 #include "cases/scene/unit.h"
 #include "cases/scene/warping.h"
 
-static const char *const list_name[LISTS] = {"sections", "nodes", "members",  "springs",
-                                             "motions",  "loads", "analyses", "quantities"};
+static const char *const list_name[SCENE_LISTS] = {"sections", "nodes", "members",  "springs",
+                                                   "motions",  "loads", "analyses", "quantities"};
 
 /* A name of an entry that others can use, once. */
-static void check_name(const builder *b, builder_list list, int i)
+static void check_name(const builder *b, scene_list list, int i)
 {
     const unrolled *entry = &b->list[list].entry[i];
     const size_t length = strlen(entry->name);
@@ -31,7 +31,7 @@ static void check_name(const builder *b, builder_list list, int i)
         }
 }
 
-static void list_own(builder *b, builder_list i)
+static void list_own(builder *b, scene_list i)
 {
     const int before = b->mistakes->count + b->mistakes->more;
     b->list[i].count = unroll_entries(document_find(b->root, list_name[i]), b->names, b->arena,
@@ -41,19 +41,19 @@ static void list_own(builder *b, builder_list i)
 
 void build_sections(builder *b)
 {
-    list_own(b, LIST_SECTIONS);
+    list_own(b, SCENE_SECTIONS);
     builder_sections(b);
 }
 
 /* Entries of the scene's own lists but sections, and behind them those of its instances. */
 static void list_entries(builder *b)
 {
-    static const builder_list placed[PLACEMENT_LISTS] = {LIST_NODES, LIST_MEMBERS, LIST_SPRINGS,
-                                                         LIST_LOADS};
+    static const scene_list placed[PLACEMENT_LISTS] = {SCENE_NODES, SCENE_MEMBERS, SCENE_SPRINGS,
+                                                       SCENE_LOADS};
     unrolled *list[PLACEMENT_LISTS];
     int count[PLACEMENT_LISTS];
-    for (int i = LIST_SECTIONS + 1; i < LISTS; i++)
-        list_own(b, (builder_list)i);
+    for (int i = SCENE_SECTIONS + 1; i < SCENE_LISTS; i++)
+        list_own(b, (scene_list)i);
     for (int k = 0; k < PLACEMENT_LISTS; k++) {
         list[k] = b->list[placed[k]].entry;
         count[k] = b->list[placed[k]].count;
@@ -66,9 +66,9 @@ static void list_entries(builder *b)
         b->list[placed[k]].count = count[k];
         b->list[placed[k]].incomplete |= incomplete;
     }
-    for (int i = 0; i < LISTS; i++)
+    for (int i = 0; i < SCENE_LISTS; i++)
         for (int k = 0; k < b->list[i].count; k++)
-            check_name(b, (builder_list)i, k);
+            check_name(b, (scene_list)i, k);
 }
 
 /* What earlier versions had in its place: what it does not list is left out, but for warping, which
@@ -148,9 +148,9 @@ static void read_meshes(builder *b)
 /* Where the entry stands that a refusal speaks of ("node tip: ..."), and what it says of it. */
 static void tell_refusal(const builder *b, const char *text)
 {
-    static const char *const word[LISTS] = {"section ", "node ", "member ",   "spring ",
-                                            "driver ",  "load ", "analysis ", "quantity "};
-    for (int k = 0; k < LISTS; k++) {
+    static const char *const word[SCENE_LISTS] = {"section ", "node ", "member ",   "spring ",
+                                                  "driver ",  "load ", "analysis ", "quantity "};
+    for (int k = 0; k < SCENE_LISTS; k++) {
         const size_t length = strlen(word[k]);
         if (strncmp(text, word[k], length) != 0)
             continue;
@@ -200,7 +200,7 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
         m->out_of_memory = 1;
         return;
     }
-    if (b.list[LIST_MEMBERS].count == 0 && !b.list[LIST_MEMBERS].incomplete)
+    if (b.list[SCENE_MEMBERS].count == 0 && !b.list[SCENE_MEMBERS].incomplete)
         document_mistake(m, root, 0,
                          "the scene has no members; add members: {NAME: {from, to, section, y}}");
     builder_nodes(&b);

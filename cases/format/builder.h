@@ -8,19 +8,7 @@
 #include "cases/format/placement.h"
 #include "cases/format/units.h"
 #include "cases/format/unroll.h"
-#include "cases/scene/names.h"
-
-typedef enum builder_list {
-    LIST_SECTIONS,
-    LIST_NODES,
-    LIST_MEMBERS,
-    LIST_SPRINGS,
-    LIST_MOTIONS,
-    LIST_LOADS,
-    LIST_ANALYSES,
-    LIST_QUANTITIES,
-    LISTS
-} builder_list;
+#include "cases/scene/entry.h"
 
 typedef struct builder {
     arena *arena;
@@ -33,7 +21,7 @@ typedef struct builder {
         unrolled *entry;
         int count;
         int incomplete;  /* 1: entries were left out after mistakes */
-    } list[LISTS];       /* in the order of the scene's indices */
+    } list[SCENE_LISTS]; /* in the order of the scene's indices */
     const char **shared; /* names of warping coordinates that members share */
     int shares;
     int unsaid_warping; /* of ends of which nothing is said */
@@ -51,12 +39,13 @@ typedef struct fields {
 fields fields_of(builder *b, const unrolled *entry);
 fields fields_below(const fields *f, const char *key);
 int fields_have(const fields *f, const char *key);
+/* All values of the table that are in the struct of the entry; those of a map that is not there
+ * stay as they are. */
+void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
 /* out[count] is left as it is, and 0 returned, where there is none. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
-/* The same of a direction, which turns with the instance it is in. */
-int fields_direction(const fields *f, const char *key, double out[3]);
 /* A list or range: how many; 0 where there is none; *out is the arena's. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
@@ -67,15 +56,15 @@ int fields_word_of(const fields *f, const document_node *word, const char *what,
 /* Bits of one word or of a list of them. */
 unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Index of the entry that is named; SCENE_NONE where there is none. */
-int fields_entry(const fields *f, const char *key, builder_list list);
-int fields_entry_of(const fields *f, const document_node *name, builder_list list);
+int fields_entry(const fields *f, const char *key, scene_list list);
+int fields_entry_of(const fields *f, const document_node *name, scene_list list);
 /* Is there an entry of that name? Nothing is told. */
-int fields_names(const fields *f, const char *key, builder_list list);
+int fields_names(const fields *f, const char *key, scene_list list);
 /* "ux|uy|uz|rx|ry|rz" */
 extern const char fields_components[];
 
 /* Gives an entry of the scene the name that entry i of a list has. */
-void builder_call(builder *b, scene_list what, int index, builder_list list, int i);
+void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
 void builder_nodes(builder *b);

@@ -35,7 +35,7 @@ static void add_rotation(const fields *f)
 
 static void add_compliance(const fields *f, int index)
 {
-    const scene_compliance what = {.node = fields_entry(f, "node", LIST_NODES),
+    const scene_compliance what = {.node = fields_entry(f, "node", SCENE_NODES),
                                    .moments = (scene_moments)fields_word(
                                        f, "moments", SCENE_MOMENTS_CHOICES, SCENE_MOMENTS_SPATIAL),
                                    .released = fields_words(f, "released", fields_components)};
@@ -48,7 +48,7 @@ static void add_continuation(const fields *f)
     const fields control = fields_below(f, "control"), spin = fields_below(f, "spin");
     const int count = fields_values(f, "to", &to);
     const double step = fields_number(f, "step", 1);
-    const scene_control how = {.node = fields_entry(&control, "node", LIST_NODES),
+    const scene_control how = {.node = fields_entry(&control, "node", SCENE_NODES),
                                .component = fields_word(&control, "component", "ux|uy|uz", 0),
                                .by_arc = fields_word(f, "by", "coordinate|arc", 0),
                                .step = step,
@@ -61,8 +61,8 @@ static void add_continuation(const fields *f)
 
 void builder_analyses(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
-        const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
+    for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
+        const fields entry = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
         scene_analysis_kind kind = SCENE_LINEAR;
         while (kind < SCENE_MOTION && !fields_have(&entry, scene_analysis_name(kind)))
             kind++;
@@ -94,7 +94,7 @@ void builder_analyses(builder *b)
             add_rotation(&f);
             break;
         }
-        builder_call(b, SCENE_ANALYSES, index, LIST_ANALYSES, i);
+        builder_call(b, SCENE_ANALYSES, index, i);
     }
 }
 

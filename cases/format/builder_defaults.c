@@ -50,8 +50,8 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
         if (s->node[node].translation[k] != SCENE_FREE)
             continue;
         snprintf(name, sizeof name, "%s%s%s_%s",
-                 prefixed ? b->list[LIST_ANALYSES].entry[analysis].name : "", prefixed ? "_" : "",
-                 b->list[LIST_NODES].entry[node].name, component[k]);
+                 prefixed ? b->list[SCENE_ANALYSES].entry[analysis].name : "", prefixed ? "_" : "",
+                 b->list[SCENE_NODES].entry[node].name, component[k]);
         scene_quantity *q =
             scene_add_quantity(s, name, "m", analysis, scene_coordinate(node, SCENE_UX + k));
         q->near_zero = 1e-6 * size_of(s);
@@ -75,7 +75,7 @@ static void add_energy(builder *b, int analysis, int prefixed)
 {
     char name[SCENE_NAME + 8];
     snprintf(name, sizeof name, "%s%senergy",
-             prefixed ? b->list[LIST_ANALYSES].entry[analysis].name : "", prefixed ? "_" : "");
+             prefixed ? b->list[SCENE_ANALYSES].entry[analysis].name : "", prefixed ? "_" : "");
     scene_add_quantity(b->scene, name, "J", analysis, scene_balance_of(SCENE_ENERGY));
 }
 
@@ -89,7 +89,7 @@ static void add_quantities(builder *b)
             add_states(b, i, s->analyses > 1);
             break;
         case SCENE_BUCKLING:
-            scene_add_quantity(s, b->list[LIST_ANALYSES].entry[i].name, "1", i,
+            scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i,
                                scene_critical_factor(1, 0));
             break;
         case SCENE_MOTION:
@@ -98,19 +98,19 @@ static void add_quantities(builder *b)
             break;
         case SCENE_MODAL:
         case SCENE_ROTATION:
-            scene_add_quantity(s, b->list[LIST_ANALYSES].entry[i].name, "Hz", i,
+            scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "Hz", i,
                                scene_frequency(0, SCENE_ANY));
             break;
         case SCENE_COMPLIANCE:
             for (int k = 0; k < 3; k++) {
                 char name[SCENE_NAME + 8];
-                snprintf(name, sizeof name, "%s_k_%c", b->list[LIST_ANALYSES].entry[i].name,
+                snprintf(name, sizeof name, "%s_k_%c", b->list[SCENE_ANALYSES].entry[i].name,
                          "xyz"[k]);
                 scene_add_quantity(s, name, "N/m", i, scene_stiffness_entry(SCENE_UX + k));
             }
             break;
         case SCENE_CONTINUATION:
-            scene_add_quantity(s, b->list[LIST_ANALYSES].entry[i].name, "1", i, scene_factor_at());
+            scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i, scene_factor_at());
             break;
         }
 }

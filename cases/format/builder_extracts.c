@@ -8,7 +8,7 @@ static int order_of(const fields *f)
 
 static scene_extract displacement(const fields *f)
 {
-    return scene_coordinate(fields_entry(f, "node", LIST_NODES),
+    return scene_coordinate(fields_entry(f, "node", SCENE_NODES),
                             fields_word(f, "component", fields_components, 0));
 }
 
@@ -34,7 +34,7 @@ static int reaction_component(const fields *f, int node)
 
 static scene_extract reaction(const fields *f)
 {
-    const int node = fields_entry(f, "node", LIST_NODES);
+    const int node = fields_entry(f, "node", SCENE_NODES);
     return scene_reaction(node, reaction_component(f, node));
 }
 
@@ -85,7 +85,7 @@ static scene_extract critical_point(const fields *f)
 
 static scene_extract motion(const fields *f)
 {
-    return scene_driver_value(fields_entry(f, "motion", LIST_MOTIONS));
+    return scene_driver_value(fields_entry(f, "motion", SCENE_DRIVERS));
 }
 
 /* Of a member's length. */
@@ -111,7 +111,7 @@ static scene_extract beside(const fields *f, scene_extract what)
 
 static scene_extract internal(const fields *f)
 {
-    const int member = fields_entry(f, "member", LIST_MEMBERS);
+    const int member = fields_entry(f, "member", SCENE_MEMBERS);
     const scene_resultant what =
         (scene_resultant)fields_word(f, "resultant", SCENE_RESULTANT_CHOICES, 0);
     if (fields_have(f, "along"))
@@ -142,7 +142,7 @@ static void check_points(const fields *f, int member)
 
 static scene_extract stress(const fields *f)
 {
-    const int member = fields_entry(f, "member", LIST_MEMBERS);
+    const int member = fields_entry(f, "member", SCENE_MEMBERS);
     const scene_stress_measure what =
         (scene_stress_measure)fields_word(f, "measure", SCENE_STRESS_CHOICES, 0);
     check_points(f, member);
@@ -157,21 +157,21 @@ static int axis_word(const fields *f, const char *key)
 
 static scene_extract rate(const fields *f)
 {
-    return scene_rate(fields_entry(f, "node", LIST_NODES),
+    return scene_rate(fields_entry(f, "node", SCENE_NODES),
                       fields_word(f, "component", fields_components, 0));
 }
 
 static scene_extract orientation(const fields *f)
 {
-    return scene_orientation_entry(fields_entry(f, "node", LIST_NODES), axis_word(f, "row"),
+    return scene_orientation_entry(fields_entry(f, "node", SCENE_NODES), axis_word(f, "row"),
                                    axis_word(f, "column"));
 }
 
 static scene_extract relative(const fields *f)
 {
-    return scene_relative_to(fields_entry(f, "node", LIST_NODES),
+    return scene_relative_to(fields_entry(f, "node", SCENE_NODES),
                              fields_word(f, "component", fields_components, 0),
-                             fields_entry(f, "from", LIST_NODES));
+                             fields_entry(f, "from", SCENE_NODES));
 }
 
 static scene_extract energy(const fields *f)

@@ -3,15 +3,6 @@
 
 #include "cases/format/builder.h"
 
-static const char *const key_of[] = {"force", "moment", "distributed", "distributed_moment",
-                                     "gravity"};
-
-/* In the axes of a member, which turn with an instance by themselves. */
-static int along_member(const fields *f, const char *key, double out[3])
-{
-    return fields_vector(f, key, 3, out);
-}
-
 /* Adds one load of the scene, as the entry describes it; its index. */
 static int add(const fields *f, const scene_load *what)
 {
@@ -38,8 +29,8 @@ static int is_on_all(const fields *f)
 {
     const document_node *on = document_find(f->map, "on");
     return fields_have(f, "gravity") && on != NULL && on->kind == DOCUMENT_TEXT &&
-           strcmp(on->text, "all") == 0 && !fields_names(f, "on", LIST_MEMBERS) &&
-           !fields_names(f, "on", LIST_NODES);
+           strcmp(on->text, "all") == 0 && !fields_names(f, "on", SCENE_MEMBERS) &&
+           !fields_names(f, "on", SCENE_NODES);
 }
 
 static int is_heavy(const scene *s, const scene_member *m)
@@ -97,8 +88,8 @@ static void check_weight(const fields *f, const scene_load *what)
 /* The entry whose gravity is on all; -1: none. */
 static int whole_of(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
+    for (int i = 0; i < b->list[SCENE_LOADS].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_LOADS].entry[i]);
         if (is_on_all(&f))
             return i;
     }
@@ -114,7 +105,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
                          "its weight is in '%.40s' already, which is on all; leave one out",
-                         f->b->list[LIST_LOADS].entry[whole].name);
+                         f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
 /* A force or a moment with a place within a member is of another kind than one at a node. */
@@ -164,7 +155,6 @@ static void check_keys(const fields *f, int given)
 static void read_range(const fields *f, int given, scene_load *what)
 {
     check_keys(f, given);
-    what->lumped = fields_word(f, "lumped", "false|true|no|yes", 0) % 2;
     if (scene_load_within(what))
         what->range[0] = what->range[1] = part_of(f, "where", 0);
     if (given != SCENE_DISTRIBUTED && given != SCENE_DISTRIBUTED_MOMENT)
@@ -181,8 +171,8 @@ static void read_range(const fields *f, int given, scene_load *what)
 /* The node or the member that a load is on. */
 static int place_of(const fields *f, const scene_load *what)
 {
-    const int node = fields_names(f, "on", LIST_NODES),
-              member = fields_names(f, "on", LIST_MEMBERS), within = scene_load_within(what);
+    const int node = fields_names(f, "on", SCENE_NODES),
+              member = fields_names(f, "on", SCENE_MEMBERS), within = scene_load_within(what);
     const char *on = fields_text(f, "on", "");
     if (what->lumped && (!scene_load_along(what) || within))
         mistake_at(f, "lumped",
@@ -202,26 +192,33 @@ static int place_of(const fields *f, const scene_load *what)
                          on);
         return SCENE_NONE;
     }
-    return fields_entry(f, "on", scene_load_along(what) ? LIST_MEMBERS : LIST_NODES);
+    return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
+}
+
+/* In the axes of the scene, unless it is in those of a member, which turn with an instance by
+ * themselves. */
+static void turn_load(const fields *f, scene_load *what)
+{
+    if (what->axes == SCENE_AXES_MEMBER)
+        return;
+    placement_turn(f->placed, what->vector);
+    placement_turn(f->placed, what->last);
+    placement_turn(f->placed, what->at);
 }
 
 void builder_loads(builder *b)
 {
     const int whole = whole_of(b);
-    for (int i = 0; i < b->list[LIST_LOADS].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_LOADS].entry[i]);
+    for (int i = 0; i < b->list[SCENE_LOADS].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_LOADS].entry[i]);
         int given = SCENE_FORCE;
-        while (given < SCENE_GRAVITY && !fields_have(&f, key_of[given]))
+        while (given < SCENE_GRAVITY && !fields_have(&f, entry_load[given].name))
             given++;
         scene_load what = scene_load_of(kind_of(&f, given), SCENE_NONE, 0, 0, 0);
-        what.axes =
-            fields_word(&f, "axes", "fixed|member", 0) == 1 ? SCENE_AXES_MEMBER : SCENE_AXES_FIXED;
-        what.follower = fields_word(&f, "follower", "false|true|no|yes", 0) % 2;
-        int (*const vector_of)(const fields *, const char *, double[3]) =
-            what.axes == SCENE_AXES_MEMBER ? along_member : fields_direction;
-        vector_of(&f, key_of[given], what.vector);
-        vector_of(&f, "at", what.at);
-        what.varies = vector_of(&f, "to_value", what.last);
+        fields_read(&f, entry_load, &what);
+        fields_vector(&f, entry_load[given].name, 3, what.vector);
+        what.varies = fields_vector(&f, "to_value", 3, what.last);
+        turn_load(&f, &what);
         read_range(&f, given, &what);
         if (what.kind == SCENE_GRAVITY)
             check_gravity(&f, &what, whole);
@@ -229,16 +226,16 @@ void builder_loads(builder *b)
             const int first = b->scene->loads;
             weigh_all(&f, &what);
             for (int k = first; k < b->scene->loads; k++)
-                builder_call(b, SCENE_LOADS, k, LIST_LOADS, i);
+                builder_call(b, SCENE_LOADS, k, i);
             continue;
         }
-        if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", LIST_MEMBERS) &&
-            fields_names(&f, "on", LIST_NODES))
+        if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", SCENE_MEMBERS) &&
+            fields_names(&f, "on", SCENE_NODES))
             what = at_centre(&what);
         what.where = place_of(&f, &what);
         if (what.kind == SCENE_WEIGHT)
             check_weight(&f, &what);
-        builder_call(b, SCENE_LOADS, add(&f, &what), LIST_LOADS, i);
+        builder_call(b, SCENE_LOADS, add(&f, &what), i);
     }
 }
 
@@ -263,9 +260,8 @@ static void turn_stiffness(const placement *placed, double K[36])
 
 void builder_springs(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_SPRINGS].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_SPRINGS].entry[i]);
-        const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
+    for (int i = 0; i < b->list[SCENE_SPRINGS].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_SPRINGS].entry[i]);
         double *given, stiffness[36] = {0};
         const int count = fields_values(&f, "stiffness", &given);
         if (count == 36)
@@ -278,7 +274,9 @@ void builder_springs(builder *b)
                              "stiffness: %d numbers; give six, or the 36 of a matrix", count);
         else
             turn_stiffness(f.placed, stiffness);
-        builder_call(b, SCENE_SPRINGS, scene_add_spring(b->scene, p, q, stiffness), LIST_SPRINGS,
-                     i);
+        const int index = scene_add_spring(b->scene, SCENE_NONE, SCENE_NONE, stiffness);
+        builder_call(b, SCENE_SPRINGS, index, i);
+        if (index >= 0)
+            fields_read(&f, entry_spring, &b->scene->spring[index]);
     }
 }

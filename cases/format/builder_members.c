@@ -72,12 +72,11 @@ static void check_taper(const fields *f, const document_node *n, const int profi
 }
 
 /* One name, or [at from, at to]. */
-static void read_sections(const fields *f, int profile[2])
+static void read_sections(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "section");
-    profile[0] = profile[1] = SCENE_NONE;
     if (n->kind != DOCUMENT_LIST) {
-        profile[0] = profile[1] = fields_entry_of(f, n, LIST_SECTIONS);
+        m->section = m->section_q = fields_entry_of(f, n, SCENE_SECTIONS);
         return;
     }
     if (n->count != 2) {
@@ -85,9 +84,9 @@ static void read_sections(const fields *f, int profile[2])
                          "section: the name of one, or [at from, at to] of two");
         return;
     }
-    for (int k = 0; k < 2; k++)
-        profile[k] = fields_entry_of(f, n->item[k], LIST_SECTIONS);
-    check_taper(f, n, profile);
+    m->section = fields_entry_of(f, n->item[0], SCENE_SECTIONS);
+    m->section_q = fields_entry_of(f, n->item[1], SCENE_SECTIONS);
+    check_taper(f, n, (const int[]){m->section, m->section_q});
 }
 
 /* One word or a list of them, in their order. */
@@ -112,25 +111,18 @@ static void read_released(const fields *f, const char *key, int member, int end)
 
 void builder_members(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_MEMBERS].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_MEMBERS].entry[i]);
-        double y[3] = {0};
-        fields_direction(&f, "y", y);
-        const int p = fields_entry(&f, "from", LIST_NODES), q = fields_entry(&f, "to", LIST_NODES);
-        int profile[2];
-        read_sections(&f, profile);
-        const int index = scene_add_member(b->scene, p, q, profile[0], y);
-        builder_call(b, SCENE_MEMBERS, index, LIST_MEMBERS, i);
-        scene_member *m = scene_member_at(b->scene, index);
+    for (int i = 0; i < b->list[SCENE_MEMBERS].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_MEMBERS].entry[i]);
         const fields release = fields_below(&f, "release");
-        m->section_q = profile[1];
+        const int index = scene_add_member(b->scene, SCENE_NONE, SCENE_NONE, SCENE_NONE,
+                                           (const double[3]){0, 0, 0});
+        scene_member *m = scene_member_at(b->scene, index);
+        builder_call(b, SCENE_MEMBERS, index, i);
+        fields_read(&f, entry_member, m);
+        read_sections(&f, m);
         read_warping(&f, m);
         read_released(&release, "from", index, 0);
         read_released(&release, "to", index, 1);
-        fields_vector(&f, "curvature", 3, m->curvature);
-        fields_vector(&f, "strain", 3, m->strain);
-        m->damping = fields_number(&f, "damping", 0);
-        m->divisions = fields_whole(&f, "divisions", 0, 0, 10000000);
     }
 }
 
@@ -172,8 +164,8 @@ static void check_given(const fields *f)
 
 void builder_motions(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_MOTIONS].count; i++) {
-        const unrolled *entry = &b->list[LIST_MOTIONS].entry[i];
+    for (int i = 0; i < b->list[SCENE_DRIVERS].count; i++) {
+        const unrolled *entry = &b->list[SCENE_DRIVERS].entry[i];
         const fields f = fields_of(b, entry), condition = fields_below(&f, "such_that");
         double *path, *value;
         if (fields_have(&f, "unit"))
@@ -188,9 +180,9 @@ void builder_motions(builder *b)
             continue;
         }
         check_given(&f);
-        scene_add_unknown_driver(b->scene, entry->name,
-                                 fields_entry(&condition, "node", LIST_NODES),
-                                 fields_word(&condition, "component", fields_components, 0),
-                                 fields_entry(&condition, "motion", LIST_MOTIONS));
+        const int driver =
+            scene_add_unknown_driver(b->scene, entry->name, SCENE_NONE, SCENE_UX, SCENE_NONE);
+        if (driver >= 0)
+            fields_read(&f, entry_driver, &b->scene->driver[driver]);
     }
 }

@@ -6,7 +6,7 @@
 
 int builder_about(const fields *f, int index)
 {
-    const int follows = fields_entry(f, "about", LIST_ANALYSES);
+    const int follows = fields_entry(f, "about", SCENE_ANALYSES);
     if (follows >= index)
         document_mistake(f->b->mistakes, document_find(f->map, "about"), 0,
                          "'%s' does not stand before this one; move it up",

@@ -56,7 +56,7 @@ static void read_drive(const fields *f, int node)
     const fields drive = fields_below(f, "drive");
     const scene_node *n = scene_node_at(f->b->scene, node);
     for (int c = SCENE_UX; c <= SCENE_RZ; c++) {
-        const int motion = fields_entry(&drive, component[c], LIST_MOTIONS);
+        const int motion = fields_entry(&drive, component[c], SCENE_DRIVERS);
         int same = 1;
         const int ours = component_of(f, c, &same);
         if (motion < 0)
@@ -79,7 +79,7 @@ static int angle_of(const fields *f, const document_node *n)
         return SCENE_FREE;
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "held") == 0)
         return SCENE_HELD;
-    return fields_entry_of(f, n, LIST_MOTIONS);
+    return fields_entry_of(f, n, SCENE_DRIVERS);
 }
 
 static void read_axis(const fields *f, double axis[3])
@@ -125,7 +125,7 @@ static void read_rotation(const fields *f, scene_node *n)
     }
     n->rotation = SCENE_ROTATION_VECTOR;
     for (int i = 0; i < 3; i++)
-        n->angle[i] = fields_entry_of(&rotation, vector->item[i], LIST_MOTIONS);
+        n->angle[i] = fields_entry_of(&rotation, vector->item[i], SCENE_DRIVERS);
 }
 
 /* Rotations have one master: components, a rotation or a fork. */
@@ -142,18 +142,15 @@ static void check_masters(const fields *f, const scene_node *n)
 }
 
 /* Of the body at rest; it turns with the instance it is in: I <- A I A^T, row by row. */
-static void read_body(const fields *f, scene_body *body)
+static void turn_inertia(const placement *placed, double I[6])
 {
-    double *I = body->inertia;
-    body->mass = fields_number(f, "mass", 0);
-    fields_direction(f, "centre", body->centre);
-    if (!fields_vector(f, "inertia", 6, I) || f->placed == NULL)
-        return;
     double row[3][3] = {{I[0], I[3], I[5]}, {I[3], I[1], I[4]}, {I[5], I[4], I[2]}};
+    if (placed == NULL)
+        return;
     for (int pass = 0; pass < 2; pass++) {
         double column[3][3];
         for (int i = 0; i < 3; i++)
-            placement_turn(f->placed, row[i]);
+            placement_turn(placed, row[i]);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 column[i][j] = row[j][i];
@@ -165,26 +162,16 @@ static void read_body(const fields *f, scene_body *body)
 
 void builder_nodes(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_NODES].count; i++) {
-        const fields f = fields_of(b, &b->list[LIST_NODES].entry[i]);
-        double at[3] = {0};
-        if (fields_vector(&f, "at", 3, at))
-            placement_move(f.placed, at);
-        const int node = scene_add_node(b->scene, at[0], at[1], at[2]);
-        builder_call(b, SCENE_NODES, node, LIST_NODES, i);
+    for (int i = 0; i < b->list[SCENE_NODES].count; i++) {
+        const fields f = fields_of(b, &b->list[SCENE_NODES].entry[i]);
+        const int node = scene_add_node(b->scene, 0, 0, 0);
         scene_node *n = scene_node_at(b->scene, node);
-        n->attached = fields_entry(&f, "part_of", LIST_NODES);
-        read_body(&f, &n->body);
+        builder_call(b, SCENE_NODES, node, i);
+        fields_read(&f, entry_node, n);
+        turn_inertia(f.placed, n->body.inertia);
         read_hold(&f, node);
         read_drive(&f, node);
         check_masters(&f, n);
         read_rotation(&f, n);
-        if (fields_have(&f, "fork")) {
-            const fields fork = fields_below(&f, "fork");
-            double axis[3] = {0}, web[3] = {0};
-            fields_direction(&fork, "axis", axis);
-            fields_direction(&fork, "web", web);
-            scene_fork(b->scene, node, axis, web);
-        }
     }
 }

@@ -83,12 +83,12 @@ static void read_unit(const fields *f, scene_quantity *q)
 static void read_abscissa_of(const fields *x, scene_quantity *q)
 {
     static const char *const own[] = {"name", "unit", "factor", "offset"};
-    const int over = fields_entry(x, "quantity", LIST_QUANTITIES);
+    const int over = fields_entry(x, "quantity", SCENE_QUANTITIES);
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
         if (fields_have(x, own[i]))
             document_mistake(x->b->mistakes, document_find(x->map, own[i]), 0,
                              "a curve over a quantity has its %s; say it there", own[i]);
-    scene_set_curve_over(q, over >= 0 ? x->b->list[LIST_QUANTITIES].entry[over].name : "", "");
+    scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
 /* Known when all quantities are. */
@@ -177,8 +177,8 @@ static int asked_of(const scene *s, int analysis)
 /* The quantities say how many are computed; `wanted` may say so too, and must not contradict. */
 static void check_wanted(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_ANALYSES].count; i++) {
-        const fields entry = fields_of(b, &b->list[LIST_ANALYSES].entry[i]);
+    for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
+        const fields entry = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
         const fields f = fields_below(&entry, fields_have(&entry, "modal") ? "modal" : "buckling");
         const int asked = asked_of(b->scene, i);
         if (fields_have(&f, "wanted") &&
@@ -191,16 +191,16 @@ static void check_wanted(builder *b)
 
 void builder_quantities(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_QUANTITIES].count; i++) {
-        const unrolled *entry = &b->list[LIST_QUANTITIES].entry[i];
+    for (int i = 0; i < b->list[SCENE_QUANTITIES].count; i++) {
+        const unrolled *entry = &b->list[SCENE_QUANTITIES].entry[i];
         const fields f = fields_of(b, entry);
         const builder_extract *kind = builder_extract_of(&f);
         const fields what = fields_below(&f, kind->key);
-        const int analysis = fields_entry(&what, "analysis", LIST_ANALYSES);
+        const int analysis = fields_entry(&what, "analysis", SCENE_ANALYSES);
         const scene_extract extract = kind->read(&what);
         if (analysis >= 0 && analysis < b->scene->analyses &&
             !scene_gives(b->scene->analysis[analysis].kind, extract.kind))
-            builder_no_quantity(&what, b->list[LIST_ANALYSES].entry[analysis].name, kind->key,
+            builder_no_quantity(&what, b->list[SCENE_ANALYSES].entry[analysis].name, kind->key,
                                 b->scene->analysis[analysis].kind, extract.kind);
         scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", analysis, extract);
         read_stations(&f, &what, q);

@@ -185,8 +185,8 @@ static void check_material(const fields *f)
 
 void builder_sections(builder *b)
 {
-    for (int i = 0; i < b->list[LIST_SECTIONS].count; i++) {
-        const unrolled *entry = &b->list[LIST_SECTIONS].entry[i];
+    for (int i = 0; i < b->list[SCENE_SECTIONS].count; i++) {
+        const unrolled *entry = &b->list[SCENE_SECTIONS].entry[i];
         const fields f = fields_of(b, entry);
         section_spec spec;
         section computed;
@@ -228,7 +228,7 @@ void builder_sections(builder *b)
         if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
                              "thickness terms are of walls; leave them out");
-        builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), LIST_SECTIONS, i);
+        builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), i);
         b->names = section_names_add(b->names, entry->name,
                                      known && !computed.matrices ? &computed : NULL, b->arena);
     }

@@ -7,6 +7,7 @@
 #include "cases/format/expression.h"
 #include "cases/format/range.h"
 #include "cases/format/substitute.h"
+#include "cases/scene/list.h"
 #include "elements/shared/choice.h"
 
 const char fields_components[] = "ux|uy|uz|rx|ry|rz";
@@ -51,14 +52,6 @@ int fields_vector(const fields *f, const char *key, int count, double out[])
         return 0;
     expression_vector(n, count, f->names, f->b->mistakes, out);
     return 1;
-}
-
-int fields_direction(const fields *f, const char *key, double out[3])
-{
-    const int there = fields_vector(f, key, 3, out);
-    if (there)
-        placement_turn(f->placed, out);
-    return there;
 }
 
 int fields_values(const fields *f, const char *key, double **out)
@@ -139,15 +132,15 @@ unsigned fields_words(const fields *f, const char *key, const char *choices)
     return bits;
 }
 
-void builder_call(builder *b, scene_list what, int index, builder_list list, int i)
+void builder_call(builder *b, scene_list list, int index, int i)
 {
-    scene_set_name(b->scene, what, index, b->list[list].entry[i].name);
+    scene_set_name(b->scene, list, index, b->list[list].entry[i].name);
 }
 
 /* One list of a builder, for the nearest name in it. */
 typedef struct named_list {
     const builder *b;
-    builder_list list;
+    scene_list list;
 } named_list;
 
 static const char *entry_at(const void *context, int i)
@@ -157,7 +150,7 @@ static const char *entry_at(const void *context, int i)
 }
 
 /* Of an instance its own entries are found first. */
-static int find_entry(const fields *f, const char *text, builder_list list, int own)
+static int find_entry(const fields *f, const char *text, scene_list list, int own)
 {
     const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;
     int found = SCENE_NONE;
@@ -173,16 +166,16 @@ static int find_entry(const fields *f, const char *text, builder_list list, int 
 }
 
 /* The name that a node of the tree says: of a loop, of a port, or as it is; *port: of a port. */
-static const char *name_of(const fields *f, const document_node *n, builder_list list, int *port)
+static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));
     const char *text = known != NULL && known->word != NULL ? known->word : n->text;
-    const document_node *to = list == LIST_NODES ? placement_port(f->placed, text) : NULL;
+    const document_node *to = list == SCENE_NODES ? placement_port(f->placed, text) : NULL;
     *port = to != NULL;
     return to != NULL ? to->text : text;
 }
 
-int fields_names(const fields *f, const char *key, builder_list list)
+int fields_names(const fields *f, const char *key, scene_list list)
 {
     const document_node *n = document_find(f->map, key);
     int port;
@@ -192,7 +185,7 @@ int fields_names(const fields *f, const char *key, builder_list list)
     return find_entry(f, text, list, !port) >= 0;
 }
 
-int fields_entry_of(const fields *f, const document_node *n, builder_list list)
+int fields_entry_of(const fields *f, const document_node *n, scene_list list)
 {
     static const char *const what[] = {"section", "node", "member",   "spring",
                                        "motion",  "load", "analysis", "quantity"};
@@ -214,8 +207,97 @@ int fields_entry_of(const fields *f, const document_node *n, builder_list list)
     return SCENE_NONE;
 }
 
-int fields_entry(const fields *f, const char *key, builder_list list)
+int fields_entry(const fields *f, const char *key, scene_list list)
 {
     const document_node *n = document_find(f->map, key);
     return n != NULL ? fields_entry_of(f, n, list) : SCENE_NONE;
+}
+
+static void read_numbers(const fields *f, const entry_field *k, scene_path *to)
+{
+    double *value;
+    to->stations = fields_values(f, k->name, &value);
+    to->value = scene_copy(f->b->scene, to->stations, value);
+}
+
+static double read_number(const fields *f, const entry_field *k)
+{
+    const double value = fields_number(f, k->name, entry_usual(k));
+    char range[FAULT_TEXT];
+    const int whole = k->kind != ENTRY_WHOLE || value == floor(value);
+    if (!fields_have(f, k->name) || (whole && entry_in_range(k, value)))
+        return value;
+    document_mistake(f->b->mistakes, document_find(f->map, k->name), 0, "%s = %g; give %s", k->name,
+                     value, entry_range(k, range));
+    return entry_usual(k);
+}
+
+static void read_vector(const fields *f, const entry_field *k, double out[])
+{
+    if (!fields_vector(f, k->name, k->count, out))
+        return;
+    if (k->kind == ENTRY_DIRECTION)
+        placement_turn(f->placed, out);
+    if (k->kind == ENTRY_POSITION)
+        placement_move(f->placed, out);
+}
+
+static int read_word(const fields *f, const entry_field *k)
+{
+    const int index = fields_word(f, k->name, k->words, -1);
+    if (k->kind == ENTRY_FLAG)
+        return index > 0 ? index % 2 : 0;
+    return index < 0 ? entry_word(k, k->usual) : k->first + (k->falls ? -index : index);
+}
+
+static void read_map(const fields *f, const entry_field *k, void *entry)
+{
+    const fields below = fields_below(f, k->name);
+    if (below.map == NULL)
+        return;
+    if (k->size > 0)
+        memcpy((char *)entry + k->at, &k->first, sizeof k->first);
+    fields_read(&below, k->below, entry);
+}
+
+static void read_field(const fields *f, const entry_field *k, void *entry)
+{
+    void *to = (char *)entry + k->at;
+    switch (k->kind) {
+    case ENTRY_NUMBER:
+        *(double *)to = read_number(f, k);
+        break;
+    case ENTRY_WHOLE:
+        *(int *)to = (int)read_number(f, k);
+        break;
+    case ENTRY_VECTOR:
+    case ENTRY_DIRECTION:
+    case ENTRY_POSITION:
+        read_vector(f, k, to);
+        break;
+    case ENTRY_NUMBERS:
+        read_numbers(f, k, to);
+        break;
+    case ENTRY_NAME:
+        *(int *)to = fields_entry(f, k->name, k->of);
+        break;
+    case ENTRY_WORD:
+    case ENTRY_FLAG:
+        *(int *)to = read_word(f, k);
+        break;
+    case ENTRY_WORDS:
+        *(unsigned *)to = fields_words(f, k->name, k->words);
+        break;
+    default:
+        break;
+    }
+}
+
+void fields_read(const fields *f, const entry_field *table, void *entry)
+{
+    for (const entry_field *k = table; k->name != NULL; k++)
+        if (k->kind == ENTRY_MAP)
+            read_map(f, k, entry);
+        else if (k->size > 0)
+            read_field(f, k, entry);
 }

@@ -6,41 +6,45 @@
 
 enum { DESCRIPTION = 1000 };
 
-static const char *form_of(const scene_key *k, char text[32])
+static const char *form_of(const entry_field *k, char text[32])
 {
     switch (k->kind) {
-    case KEY_TEXT:
+    case ENTRY_TEXT:
         return "TEXT";
-    case KEY_NAME:
+    case ENTRY_NAME:
         return "NAME";
-    case KEY_WORD:
+    case ENTRY_WORD:
+    case ENTRY_FLAG:
         return "WORD";
-    case KEY_WORDS:
+    case ENTRY_WORDS:
         return "[WORD, ...]";
-    case KEY_NUMBER:
+    case ENTRY_NUMBER:
+    case ENTRY_WHOLE:
         return "EXPR";
-    case KEY_VECTOR:
+    case ENTRY_VECTOR:
+    case ENTRY_DIRECTION:
+    case ENTRY_POSITION:
         snprintf(text, 32, "[EXPR x%d]", k->count);
         return text;
-    case KEY_NUMBERS:
+    case ENTRY_NUMBERS:
         return "[EXPR, ...]";
-    case KEY_MAP:
+    case ENTRY_MAP:
         return "{...}";
-    case KEY_ENTRIES:
+    case ENTRY_ENTRIES:
         return "NAME: {...}";
-    case KEY_LIST:
+    case ENTRY_LIST:
         return "- {...}";
-    case KEY_NAMES:
+    case ENTRY_NAMES:
         return "NAME: VALUE";
-    case KEY_FORMS:
-    case KEY_LATER:
+    case ENTRY_FORMS:
+    case ENTRY_LATER:
         break;
     }
     return "...";
 }
 
 /* "summary [unit] (word, word); left out: 0", or "... *". */
-static void describe(const scene_key *k, char text[DESCRIPTION])
+static void describe(const entry_field *k, char text[DESCRIPTION])
 {
     int used = snprintf(text, DESCRIPTION, "%s%s%s%s", k->summary, k->unit != NULL ? " [" : "",
                         k->unit != NULL ? k->unit : "", k->unit != NULL ? "]" : "");
@@ -60,15 +64,15 @@ static void describe(const scene_key *k, char text[DESCRIPTION])
                                 : " *");
 }
 
-static void walk(const scene_key *table, int depth, key_list_take *take, void *context)
+static void walk(const entry_field *table, int depth, key_list_take *take, void *context)
 {
     for (; table != NULL && table->name != NULL; table++) {
         char form[32], text[DESCRIPTION];
-        if (table->kind == KEY_LATER)
+        if (table->kind == ENTRY_LATER)
             continue;
         describe(table, text);
         take(context, depth, table->name, form_of(table, form), text);
-        if (table->kind == KEY_MAP || table->kind == KEY_ENTRIES || table->kind == KEY_LIST)
+        if (table->kind == ENTRY_MAP || table->kind == ENTRY_ENTRIES || table->kind == ENTRY_LIST)
             walk(table->below, depth + 1, take, context);
     }
 }

@@ -6,74 +6,156 @@
 #include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 
-static const scene_key number[] = {{"", KEY_NUMBER, .summary = "an expression"}, {.name = NULL}};
+static const entry_field number[] = {{"", ENTRY_NUMBER, .summary = "an expression"},
+                                     {.name = NULL}};
+
+static const entry_field nothing[] = {{.name = NULL}};
+
+const entry_field keys_parameter[] = {
+    {"value", ENTRY_FORMS, .needed = 1,
+     .summary = "default: an expression of constants, or a word"},
+    {"unit", ENTRY_TEXT, .summary = "SI unit; 1 for a plain number", .usual = "1"},
+    {"min", ENTRY_NUMBER, .summary = "least value", .left_out = "no limit"},
+    {"max", ENTRY_NUMBER, .summary = "largest value", .left_out = "no limit"},
+    {"choices", ENTRY_FORMS, .summary = "[WORD, ...]: the words that may be chosen",
+     .left_out = "it is a number"},
+    {"about", ENTRY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
+    {.name = NULL}};
+
+const entry_field keys_truth[] = {
+    {"quantity", ENTRY_NAME, .needed = 1, .summary = "quantity"},
+    {"value", ENTRY_NUMBER, .needed = 1, .summary = "in its unit"},
+    {"kind", ENTRY_WORD, .needed = 1,
+     .words = "exact|predicted|independent|agreement|consensus|published|reconstructed|experiment",
+     .summary = "how it is known"},
+    {"source", ENTRY_TEXT, .needed = 1, .summary = "who says so"},
+    {"uncertainty", ENTRY_NUMBER, .summary = "of the value, same unit", .usual = "0"},
+    {"formulation", ENTRY_TEXT, .summary = "of whom it speaks", .left_out = "of the continuum"},
+    {"theory", ENTRY_WORD, .words = SCENE_SHEAR_THEORIES, .summary = "of shear in stability",
+     .left_out = "of any"},
+    {"parameters", ENTRY_NAMES, .below = nothing, .summary = "NAME: VALUE",
+     .left_out = "any values"},
+    {"at", ENTRY_NUMBER, .summary = "point of a curve", .left_out = "of the one value"},
+    {"model", ENTRY_WORD, .words = "plate|solid", .summary = "another one: informs, never gates",
+     .left_out = "of beams"},
+    {"convention", ENTRY_TEXT, .summary = "of moments", .left_out = "that of the analysis"},
+    {.name = NULL}};
+
+const entry_field keys_part[] = {
+    {"let", ENTRY_NAMES, .below = number, .summary = "values derived for the part",
+     .left_out = "none"},
+    {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "NAME is INSTANCE.NAME in the scene",
+     .left_out = "none"},
+    {"members", ENTRY_ENTRIES, .below = entry_member, .summary = "between nodes or places",
+     .left_out = "none"},
+    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "in the part's axes",
+     .left_out = "none"},
+    {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "in the part's axes",
+     .left_out = "none"},
+    {"places", ENTRY_FORMS, .summary = "[NAME, ...]: nodes of the scene that instances connect",
+     .left_out = "none"},
+    {.name = NULL}};
+
+static const entry_field axes[] = {
+    {"x", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "the part's x axis in the scene"},
+    {"z", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "its z axis"},
+    {.name = NULL}};
+
+static const entry_field angles[] = {
+    {"x", ENTRY_NUMBER, .group = 1, .unit = "rad", .summary = "about x", .left_out = "no turn"},
+    {"y", ENTRY_NUMBER, .group = 1, .unit = "rad", .summary = "about y", .left_out = "no turn"},
+    {"z", ENTRY_NUMBER, .group = 1, .unit = "rad", .summary = "about z", .left_out = "no turn"},
+    {.name = NULL}};
+
+static const entry_field outer[] = {{"", ENTRY_NAME, .summary = "node of the scene"},
+                                    {.name = NULL}};
+
+const entry_field keys_instance[] = {
+    {"part", ENTRY_NAME, .needed = 1, .summary = "name of the part"},
+    {"at", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "its origin"},
+    {"axes", ENTRY_MAP, .group = 1, .below = axes, .summary = "its axes",
+     .left_out = "those of the scene"},
+    {"turn", ENTRY_MAP, .group = 1, .below = angles, .summary = "one angle about an axis",
+     .left_out = "none"},
+    {"connect", ENTRY_NAMES, .below = outer, .summary = "PLACE: NODE",
+     .left_out = "none; needed for each place"},
+    {.name = NULL}};
+
+const entry_field keys_loop[] = {
+    {"for", ENTRY_FORMS, .summary = "{NAME: a..b | a..b step c | a..b/n | [list], ...}: loops",
+     .left_out = "it is there once"},
+    {"let", ENTRY_NAMES, .below = number, .summary = "values derived for this entry",
+     .left_out = "none"},
+    {.name = NULL}};
 
 #define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping"
 
-const scene_key keys_root[] = {
-    {"beamwork", KEY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
-    {"name", KEY_TEXT, .summary = "of the scene", .left_out = "that of the file"},
-    {"summary", KEY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
-    {"source", KEY_TEXT, .summary = "where it comes from", .left_out = "none"},
-    {"units", KEY_FORMS,
+const entry_field keys_root[] = {
+    {"beamwork", ENTRY_NUMBER, .needed = 1, .summary = "version of the format: 1"},
+    {"name", ENTRY_TEXT, .summary = "of the scene", .left_out = "that of the file"},
+    {"summary", ENTRY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
+    {"source", ENTRY_TEXT, .summary = "where it comes from", .left_out = "none"},
+    {"units", ENTRY_FORMS,
      .summary = "of its numbers and values: length, force, stress, as mm, N, MPa; masses are then "
                 "in force s^2/length (t), seconds and radians stay",
      .left_out = "SI"},
-    {"parameters", KEY_ENTRIES, .below = keys_parameter, .summary = "what --set may change",
+    {"parameters", ENTRY_ENTRIES, .below = keys_parameter, .summary = "what --set may change",
      .left_out = "none"},
-    {"let", KEY_NAMES, .below = number, .summary = "derived values, in order", .left_out = "none"},
-    {"sections", KEY_ENTRIES, .needed = 1, .below = keys_section, .summary = "cross-sections"},
-    {"nodes", KEY_ENTRIES, .below = keys_node, .summary = "ends, supports, bodies",
+    {"let", ENTRY_NAMES, .below = number, .summary = "derived values, in order",
+     .left_out = "none"},
+    {"sections", ENTRY_ENTRIES, .needed = 1, .below = entry_section, .summary = "cross-sections"},
+    {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "ends, supports, bodies",
      .left_out = "those of the instances"},
-    {"members", KEY_ENTRIES, .below = keys_member, .summary = "beams",
+    {"members", ENTRY_ENTRIES, .below = entry_member, .summary = "beams",
      .left_out = "those of the instances"},
-    {"springs", KEY_ENTRIES, .below = keys_spring, .summary = "between nodes, or to the ground",
+    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "between nodes, or to the ground",
      .left_out = "none"},
-    {"motions", KEY_ENTRIES, .below = keys_motion, .summary = "numbers along a path or in time",
+    {"motions", ENTRY_ENTRIES, .below = entry_driver, .summary = "numbers along a path or in time",
      .left_out = "none"},
-    {"loads", KEY_ENTRIES, .below = keys_load, .summary = "forces and moments", .left_out = "none"},
-    {"analyses", KEY_ENTRIES, .below = keys_analysis, .summary = "what is computed",
+    {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "forces and moments",
+     .left_out = "none"},
+    {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "what is computed",
      .left_out = "static to the end of the motions' paths, without these linear"},
-    {"quantities", KEY_ENTRIES, .below = keys_quantity, .summary = "what is wanted of it",
+    {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "what is wanted of it",
      .left_out = "of each analysis what is usual: displacements where it is loaded or driven, the "
                  "first eigenvalue"},
-    {"truths", KEY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
-    {"plane", KEY_WORD, .words = SCENE_PLANE_CHOICES,
+    {"truths", ENTRY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
+    {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
-    {"omit", KEY_WORDS, .words = PHYSICS "|all|none", .summary = "physics that is left out",
+    {"omit", ENTRY_WORDS, .words = PHYSICS "|all|none", .summary = "physics that is left out",
      .left_out = "none: all that sections, loads and analyses call for is there"},
-    {"shear_theory", KEY_WORD, .words = "haringx|engesser|own",
+    {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
      .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
-    {"mass", KEY_WORD, .words = "consistent|lumped",
+    {"mass", ENTRY_WORD, .words = "consistent|lumped",
      .summary = "of members in vibration and steady rotation: along them, or at their nodes "
                 "(and in motions in time that say nothing else)",
      .usual = "consistent"},
-    {"needs", KEY_WORDS, .words = PHYSICS "|engesser|haringx",
+    {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
      .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "
                 "omit stands for it now",
      .left_out = "omit says it"},
-    {"meshes", KEY_NUMBERS, .summary = "elements per member", .usual = "[1, 2, 4, 8]"},
-    {"parts", KEY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
+    {"meshes", ENTRY_NUMBERS, .summary = "elements per member", .usual = "[1, 2, 4, 8]"},
+    {"parts", ENTRY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
      .left_out = "none"},
-    {"instances", KEY_ENTRIES, .below = keys_instance, .summary = "parts placed in the scene",
+    {"instances", ENTRY_ENTRIES, .below = keys_instance, .summary = "parts placed in the scene",
      .left_out = "none"},
     {.name = NULL}};
 
 /* Both tables as one list of names. */
 typedef struct known_keys {
-    const scene_key *table, *loop; /* loop NULL: no entry that may have loops */
+    const entry_field *table, *loop; /* loop NULL: no entry that may have loops */
 } known_keys;
 
 static const char *name_at(const void *context, int i)
 {
     const known_keys *known = context;
-    const scene_key *table = known->table;
+    const entry_field *table = known->table;
     for (; table->name != NULL && i > 0; i--)
         table++;
     return table->name != NULL || known->loop == NULL || i > 1 ? table->name : known->loop[i].name;
 }
 
-static const scene_key *find(const scene_key *table, const char *name)
+static const entry_field *find(const entry_field *table, const char *name)
 {
     for (; table != NULL && table->name != NULL; table++)
         if (strcmp(table->name, name) == 0)
@@ -93,22 +175,22 @@ static void tell_kind(const document_node *n, const document_node *name, const c
                      empty ? "empty" : is[n->kind], expected);
 }
 
-int keys_loops(const scene_key *table)
+int keys_loops(const entry_field *table)
 {
     return table != keys_parameter && table != keys_part;
 }
 
-static void check_entries(const document_node *n, const scene_key *k, const document_node *name,
+static void check_entries(const document_node *n, const entry_field *k, const document_node *name,
                           mistakes *m)
 {
     const known_keys known = {k->below, keys_loops(k->below) ? keys_loop : NULL};
-    if (n->kind != (k->kind == KEY_LIST ? DOCUMENT_LIST : DOCUMENT_MAP)) {
-        tell_kind(n, name, k->kind == KEY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}",
+    if (n->kind != (k->kind == ENTRY_LIST ? DOCUMENT_LIST : DOCUMENT_MAP)) {
+        tell_kind(n, name, k->kind == ENTRY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}",
                   m);
         return;
     }
     for (int i = 0; i < n->count; i++)
-        check_map(n->item[i], &known, k->kind == KEY_LIST ? name : n->key[i], m);
+        check_map(n->item[i], &known, k->kind == ENTRY_LIST ? name : n->key[i], m);
 }
 
 static void check_words(const document_node *n, const document_node *name, mistakes *m)
@@ -121,57 +203,62 @@ static void check_words(const document_node *n, const document_node *name, mista
                 tell_kind(n->item[i], name, "a word", m);
 }
 
-static void check_value(const document_node *n, const scene_key *k, const document_node *name,
+static void check_value(const document_node *n, const entry_field *k, const document_node *name,
                         mistakes *m)
 {
     const known_keys below = {k->below, NULL};
     switch (k->kind) {
-    case KEY_TEXT:
-    case KEY_NAME:
-    case KEY_WORD:
-    case KEY_NUMBER:
+    case ENTRY_TEXT:
+    case ENTRY_NAME:
+    case ENTRY_WORD:
+    case ENTRY_FLAG:
+    case ENTRY_NUMBER:
+    case ENTRY_WHOLE:
         if (n->kind != DOCUMENT_TEXT)
-            tell_kind(n, name, k->kind == KEY_NUMBER ? "a number" : "a text", m);
+            tell_kind(n, name,
+                      k->kind == ENTRY_NUMBER || k->kind == ENTRY_WHOLE ? "a number" : "a text", m);
         break;
-    case KEY_WORDS:
+    case ENTRY_WORDS:
         check_words(n, name, m);
         break;
-    case KEY_VECTOR:
+    case ENTRY_VECTOR:
+    case ENTRY_DIRECTION:
+    case ENTRY_POSITION:
         if (n->kind != DOCUMENT_LIST || n->count != k->count)
             document_mistake(m, n, 0, "%.60s: a list of %d numbers is expected: [a, b, ...]",
                              name->text, k->count);
         break;
-    case KEY_NUMBERS:
+    case ENTRY_NUMBERS:
         if (n->kind != DOCUMENT_LIST && !range_is(n))
             tell_kind(n, name, "a list of numbers or a range a..b", m);
         break;
-    case KEY_MAP:
+    case ENTRY_MAP:
         check_map(n, &below, name, m);
         break;
-    case KEY_ENTRIES:
-    case KEY_LIST:
+    case ENTRY_ENTRIES:
+    case ENTRY_LIST:
         check_entries(n, k, name, m);
         break;
-    case KEY_NAMES:
+    case ENTRY_NAMES:
         if (n->kind != DOCUMENT_MAP)
             tell_kind(n, name, "a map: NAME: value", m);
         if (n->kind == DOCUMENT_MAP && k->below->name != NULL)
             for (int i = 0; i < n->count; i++)
                 check_value(n->item[i], k->below, n->key[i], m);
         break;
-    case KEY_LATER:
+    case ENTRY_LATER:
         document_mistake(m, name, 0, "'%s' is not carried yet; leave it out", name->text);
         break;
-    case KEY_FORMS:
+    case ENTRY_FORMS:
         break;
     }
 }
 
 /* Keys of other programs that no key here resembles, and what says the same. */
-static const char *elsewhere(const scene_key *table, const char *name)
+static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
-    for (size_t i = 0; table == keys_section && i < sizeof poisson / sizeof poisson[0]; i++)
+    for (size_t i = 0; table == entry_section && i < sizeof poisson / sizeof poisson[0]; i++)
         if (strcmp(name, poisson[i]) == 0)
             return "; give shear_modulus: E/(2*(1 + nu))";
     return NULL;
@@ -201,12 +288,12 @@ static int is_meant(const document_node *map, const known_keys *known, const cha
 }
 
 /* The names of a group, for messages. */
-static void group_words(const scene_key *table, int group, char text[FAULT_TEXT])
+static void group_words(const entry_field *table, int group, char text[FAULT_TEXT])
 {
     size_t used = 0;
     text[0] = '\0';
     for (; table->name != NULL; table++)
-        if (table->group == group && table->kind != KEY_LATER && used + 40 < FAULT_TEXT) {
+        if (table->group == group && table->kind != ENTRY_LATER && used + 40 < FAULT_TEXT) {
             const size_t length = strlen(table->name);
             memcpy(text + used, ", ", 2);
             memcpy(text + used + (used > 0 ? 2 : 0), table->name, length + 1);
@@ -217,10 +304,10 @@ static void group_words(const scene_key *table, int group, char text[FAULT_TEXT]
 static void check_missing(const document_node *map, const known_keys *known,
                           const document_node *name, mistakes *m)
 {
-    for (const scene_key *k = known->table; k->name != NULL; k++) {
+    for (const entry_field *k = known->table; k->name != NULL; k++) {
         const document_node *first = NULL;
         int there = 0, meant = 0;
-        for (const scene_key *other = known->table; other->name != NULL; other++) {
+        for (const entry_field *other = known->table; other->name != NULL; other++) {
             if (other != k && (k->group == 0 || other->group != k->group))
                 continue;
             for (int i = 0; i < map->count; i++)
@@ -254,7 +341,7 @@ static void check_map(const document_node *map, const known_keys *known, const d
     }
     for (int i = 0; i < map->count; i++) {
         const char *text = map->key[i]->text;
-        const scene_key *k = find(known->table, text);
+        const entry_field *k = find(known->table, text);
         if (k == NULL && known->loop != NULL)
             k = find(known->loop, text);
         char remedy[FAULT_TEXT];

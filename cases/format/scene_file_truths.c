@@ -92,7 +92,7 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
                          "a truth of kind predicted is of a formulation, and no other is");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
-        fields_entry(f, "quantity", LIST_QUANTITIES);
+        fields_entry(f, "quantity", SCENE_QUANTITIES);
     else
         t.unit = q->unit;
     return (file_truth){holds, t};
@@ -117,8 +117,9 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     build_sections(&r.b);
     r.b.scene = NULL;
     scene_free(&of_sections);
-    r.b.list[LIST_QUANTITIES].count = unroll_entries(
-        document_find(file->root, "quantities"), r.b.names, a, m, &r.b.list[LIST_QUANTITIES].entry);
+    r.b.list[SCENE_QUANTITIES].count =
+        unroll_entries(document_find(file->root, "quantities"), r.b.names, a, m,
+                       &r.b.list[SCENE_QUANTITIES].entry);
     r.count = unroll_entries(document_find(file->root, "truths"), r.b.names, a, m, &r.list);
     return r;
 }

@@ -5,7 +5,7 @@
 
 #include "cases/format/keys.h"
 
-static json_t *map_of(const scene_key *table, const scene_key *loop);
+static json_t *map_of(const entry_field *table, const entry_field *loop);
 
 /* An expression is a text or a number; a word may also be the name of a parameter. */
 static json_t *scalar(void)
@@ -25,57 +25,61 @@ static json_t *words_of(const char *words)
     return list;
 }
 
-static json_t *word(const scene_key *k)
+static json_t *word(const entry_field *k)
 {
     return json_pack("{s:s, s:o}", "type", "string", "examples", words_of(k->words));
 }
 
-static json_t *value_of(const scene_key *k)
+static json_t *value_of(const entry_field *k)
 {
     switch (k->kind) {
-    case KEY_TEXT:
-    case KEY_NAME:
-    case KEY_NUMBER:
+    case ENTRY_TEXT:
+    case ENTRY_NAME:
+    case ENTRY_NUMBER:
+    case ENTRY_WHOLE:
         return scalar();
-    case KEY_WORD:
+    case ENTRY_WORD:
+    case ENTRY_FLAG:
         return word(k);
-    case KEY_WORDS:
+    case ENTRY_WORDS:
         return json_pack("{s:[o, {s:s, s:o}]}", "anyOf", word(k), "type", "array", "items",
                          word(k));
-    case KEY_VECTOR:
+    case ENTRY_VECTOR:
+    case ENTRY_DIRECTION:
+    case ENTRY_POSITION:
         return json_pack("{s:s, s:i, s:i, s:o}", "type", "array", "minItems", k->count, "maxItems",
                          k->count, "items", scalar());
-    case KEY_NUMBERS:
+    case ENTRY_NUMBERS:
         return json_pack("{s:[{s:s}, {s:s, s:o}]}", "anyOf", "type", "string", "type", "array",
                          "items", scalar());
-    case KEY_MAP:
+    case ENTRY_MAP:
         return map_of(k->below, NULL);
-    case KEY_ENTRIES:
+    case ENTRY_ENTRIES:
         return json_pack("{s:s, s:o}", "type", "object", "additionalProperties",
                          map_of(k->below, keys_loops(k->below) ? keys_loop : NULL));
-    case KEY_LIST:
+    case ENTRY_LIST:
         return json_pack("{s:s, s:o}", "type", "array", "items", map_of(k->below, keys_loop));
-    case KEY_NAMES:
+    case ENTRY_NAMES:
         return json_pack("{s:s, s:o}", "type", "object", "additionalProperties",
                          k->below->name != NULL ? value_of(k->below) : scalar());
-    case KEY_FORMS:
-    case KEY_LATER:
+    case ENTRY_FORMS:
+    case ENTRY_LATER:
         break;
     }
     return json_object();
 }
 
 /* A number, a list of them, or a word. */
-static json_t *usual_of(const scene_key *k)
+static json_t *usual_of(const entry_field *k)
 {
     json_t *value = json_loads(k->usual, JSON_DECODE_ANY, NULL);
     return value != NULL ? value : json_string(k->usual);
 }
 
-static void add_keys(json_t *properties, json_t *required, const scene_key *table)
+static void add_keys(json_t *properties, json_t *required, const entry_field *table)
 {
     for (; table != NULL && table->name != NULL; table++) {
-        if (table->kind == KEY_LATER)
+        if (table->kind == ENTRY_LATER)
             continue;
         json_t *value = value_of(table);
         char text[500];
@@ -92,7 +96,7 @@ static void add_keys(json_t *properties, json_t *required, const scene_key *tabl
     }
 }
 
-static json_t *map_of(const scene_key *table, const scene_key *loop)
+static json_t *map_of(const entry_field *table, const entry_field *loop)
 {
     json_t *properties = json_object(), *required = json_array();
     add_keys(properties, required, table);

@@ -38,16 +38,12 @@ static void write_line(writer *w, const char *key, const char *text)
 
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
 {
-    writer w = {.to = to, .scene = s};
+    writer w = {.to = to, .scene = s, .begun = 1};
     fprintf(to, "beamwork: 1\nname: %s\n", head->name);
     write_line(&w, "summary", head->summary);
     write_line(&w, "source", head->source);
     write_sections(&w);
-    write_structure_nodes(&w);
-    write_structure_members(&w);
-    write_structure_springs(&w);
-    write_structure_motions(&w);
-    write_structure_loads(&w);
+    write_structure(&w);
     write_analyses(&w);
     write_quantities(&w);
     if (s->plane != SCENE_SPACE)

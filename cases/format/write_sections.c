@@ -97,9 +97,12 @@ static void write_given(writer *w, const section_spec *spec)
 
 static void write_matrices(writer *w, const section *c)
 {
-    write_values_matrix(w, "stiffness: ", c->stiffness);
-    if (write_values_any(36, c->mass))
-        write_values_matrix(w, ", mass: ", c->mass);
+    fputs("stiffness: ", w->to);
+    write_values_matrix(w, c->stiffness);
+    if (write_values_any(36, c->mass)) {
+        fputs(", mass: ", w->to);
+        write_values_matrix(w, c->mass);
+    }
 }
 
 void write_sections(writer *w)

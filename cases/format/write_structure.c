@@ -1,22 +1,41 @@
 /* Nodes, members, springs, motions and loads of a scene file. */
+#include <string.h>
 
 #include "cases/format/write_impl.h"
 
-/* hold: [...] and drive: {...} of the first `count` components. */
-static void write_supports(writer *w, const scene_node *n, int count)
+/* In how many components the fixed axes say how it moves. */
+static int components_of(const scene_node *n)
 {
-    int held = 0, driven = 0, how[6];
-    for (int c = 0; c < count; c++)
-        how[c] = c < SCENE_RX ? n->translation[c] : n->angle[c - SCENE_RX];
-    for (int c = 0; c < count; c++)
-        if (how[c] == SCENE_HELD)
-            fprintf(w->to, "%s%s", held++ == 0 ? ", hold: [" : ", ", write_values_component[c]);
-    fputs(held > 0 ? "]" : "", w->to);
-    for (int c = 0; c < count; c++)
-        if (how[c] >= 0) {
-            fprintf(w->to, "%s%s: ", driven++ == 0 ? ", drive: {" : ", ",
-                    write_values_component[c]);
-            write_values_motion(w, how[c]);
+    return n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3;
+}
+
+static int how_of(const scene_node *n, int c)
+{
+    return c < SCENE_RX ? n->translation[c] : n->angle[c - SCENE_RX];
+}
+
+static void write_hold(writer *w, const void *entry)
+{
+    const scene_node *n = entry;
+    unsigned held = 0;
+    for (int c = 0; c < components_of(n); c++)
+        held |= how_of(n, c) == SCENE_HELD ? 1u << c : 0;
+    if (held == 0)
+        return;
+    write_values_key(w, "hold");
+    write_values_bits(w, ENTRY_COMPONENTS, held);
+}
+
+static void write_drive(writer *w, const void *entry)
+{
+    const scene_node *n = entry;
+    int driven = 0;
+    for (int c = 0; c < components_of(n); c++)
+        if (how_of(n, c) >= 0) {
+            if (driven == 0)
+                write_values_key(w, "drive");
+            fprintf(w->to, "%s%s: ", driven++ == 0 ? "{" : ", ", write_values_component[c]);
+            write_values_motion(w, how_of(n, c));
         }
     fputs(driven > 0 ? "}" : "", w->to);
 }
@@ -29,18 +48,14 @@ static void write_angle(writer *w, int how)
         fputs(how == SCENE_HELD ? "held" : "free", w->to);
 }
 
-static void write_rotation(writer *w, const scene_node *n)
+static void write_rotation(writer *w, const void *entry)
 {
-    if (n->rotation == SCENE_ROTATION_FORK) {
-        fputs(", fork: {axis: ", w->to);
-        write_values_numbers(w, 3, n->axis[0]);
-        fputs(", web: ", w->to);
-        write_values_numbers(w, 3, n->axis[1]);
-        fputc('}', w->to);
-        return;
-    }
+    const scene_node *n = entry;
     const int vector = n->rotation == SCENE_ROTATION_VECTOR;
-    fputs(vector ? ", rotation: {vector: [" : ", rotation: {sequence: [", w->to);
+    if (!vector && n->rotation != SCENE_ROTATION_SEQUENCE)
+        return;
+    write_values_key(w, "rotation");
+    fputs(vector ? "{vector: [" : "{sequence: [", w->to);
     for (int i = 0; i < 3 && (vector || write_values_any(3, n->axis[i])); i++) {
         fputs(i > 0 ? ", " : "", w->to);
         if (!vector) {
@@ -54,38 +69,31 @@ static void write_rotation(writer *w, const scene_node *n)
     fputs("]}", w->to);
 }
 
-static void write_body(writer *w, const scene_body *b)
+/* A list of the scene: KEY, and its entries, each in a line. */
+static void write_list(writer *w, const char *key, scene_list list, const entry_field *table,
+                       const write_own own[])
 {
-    write_values_if(w, "mass", b->mass, 0);
-    if (write_values_any(3, b->centre)) {
-        fputs(", centre: ", w->to);
-        write_values_numbers(w, 3, b->centre);
-    }
-    if (write_values_any(6, b->inertia)) {
-        fputs(", inertia: ", w->to);
-        write_values_numbers(w, 6, b->inertia);
+    const scene *s = w->scene;
+    const struct {
+        int count;
+        size_t size;
+        const void *first;
+    } all[SCENE_LISTS] = {[SCENE_NODES] = {s->nodes, sizeof *s->node, s->node},
+                          [SCENE_MEMBERS] = {s->members, sizeof *s->member, s->member},
+                          [SCENE_SPRINGS] = {s->springs, sizeof *s->spring, s->spring},
+                          [SCENE_DRIVERS] = {s->drivers, sizeof *s->driver, s->driver},
+                          [SCENE_LOADS] = {s->loads, sizeof *s->load, s->load}};
+    for (int i = 0; i < all[list].count; i++) {
+        if (i == 0)
+            fprintf(w->to, "%s:\n", key);
+        write_values_named(w, "  ", list, i);
+        fputs(": ", w->to);
+        write_entry(w, table, (const char *)all[list].first + (size_t)i * all[list].size, own);
+        fputc('\n', w->to);
     }
 }
 
-void write_structure_nodes(writer *w)
-{
-    fputs("nodes:\n", w->to);
-    for (int i = 0; i < w->scene->nodes; i++) {
-        const scene_node *n = &w->scene->node[i];
-        write_values_named(w, "  ", SCENE_NODES, i);
-        fputs(": {at: ", w->to);
-        write_values_numbers(w, 3, n->position);
-        if (n->attached != SCENE_NONE)
-            write_values_named(w, ", part_of: ", SCENE_NODES, n->attached);
-        write_supports(w, n, n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3);
-        if (n->rotation != SCENE_ROTATION_SPATIAL)
-            write_rotation(w, n);
-        write_body(w, &n->body);
-        fputs("}\n", w->to);
-    }
-}
-
-static void write_warping(writer *w, int warp)
+static void write_warp(writer *w, int warp)
 {
     if (warp >= 0)
         fprintf(w->to, "{shared: w%d}", warp);
@@ -93,12 +101,36 @@ static void write_warping(writer *w, int warp)
         fputs(warp == SCENE_WARP_FREE ? "free" : "fixed", w->to);
 }
 
-static void write_release(writer *w, const scene_release release[2])
+static void write_warping(writer *w, const void *entry)
+{
+    const scene_member *m = entry;
+    write_values_key(w, "warping");
+    fputc('[', w->to);
+    write_warp(w, m->warp_p);
+    fputs(", ", w->to);
+    write_warp(w, m->warp_q);
+    fputc(']', w->to);
+}
+
+static void write_section(writer *w, const void *entry)
+{
+    const scene_member *m = entry;
+    write_values_key(w, "section");
+    write_values_named(w, scene_member_tapers(m) ? "[" : "", SCENE_SECTIONS, m->section);
+    if (scene_member_tapers(m)) {
+        write_values_named(w, ", ", SCENE_SECTIONS, m->section_q);
+        fputc(']', w->to);
+    }
+}
+
+static void write_release(writer *w, const void *entry)
 {
     static const char *const end[] = {"from", "to"};
+    const scene_release *release = ((const scene_member *)entry)->release;
     if (release[0].count + release[1].count == 0)
         return;
-    fputs(", release: {", w->to);
+    write_values_key(w, "release");
+    fputc('{', w->to);
     for (int i = 0; i < 2; i++) {
         if (release[i].count == 0)
             continue;
@@ -111,55 +143,10 @@ static void write_release(writer *w, const scene_release release[2])
     fputc('}', w->to);
 }
 
-void write_structure_members(writer *w)
+static void write_stiffness(writer *w, const void *entry)
 {
-    fputs("members:\n", w->to);
-    for (int i = 0; i < w->scene->members; i++) {
-        const scene_member *m = &w->scene->member[i];
-        write_values_named(w, "  ", SCENE_MEMBERS, i);
-        write_values_named(w, ": {from: ", SCENE_NODES, m->p);
-        write_values_named(w, ", to: ", SCENE_NODES, m->q);
-        write_values_named(
-            w, scene_member_tapers(m) ? ", section: [" : ", section: ", SCENE_SECTIONS, m->section);
-        if (scene_member_tapers(m)) {
-            write_values_named(w, ", ", SCENE_SECTIONS, m->section_q);
-            fputc(']', w->to);
-        }
-        fputs(", y: ", w->to);
-        write_values_numbers(w, 3, m->y_axis);
-        fputs(", warping: [", w->to);
-        write_warping(w, m->warp_p);
-        fputs(", ", w->to);
-        write_warping(w, m->warp_q);
-        fputc(']', w->to);
-        if (write_values_any(3, m->curvature)) {
-            fputs(", curvature: ", w->to);
-            write_values_numbers(w, 3, m->curvature);
-        }
-        if (write_values_any(3, m->strain)) {
-            fputs(", strain: ", w->to);
-            write_values_numbers(w, 3, m->strain);
-        }
-        write_release(w, m->release);
-        write_values_if(w, "damping", m->damping, 0);
-        write_values_if(w, "divisions", m->divisions, 0);
-        fputs("}\n", w->to);
-    }
-}
-
-void write_structure_springs(writer *w)
-{
-    fputs(w->scene->springs > 0 ? "springs:\n" : "", w->to);
-    for (int i = 0; i < w->scene->springs; i++) {
-        const scene_spring *p = &w->scene->spring[i];
-        write_values_named(w, "  ", SCENE_SPRINGS, i);
-        fputs(": {", w->to);
-        if (p->p != SCENE_NONE)
-            write_values_named(w, "from: ", SCENE_NODES, p->p);
-        write_values_named(w, p->p != SCENE_NONE ? ", to: " : "to: ", SCENE_NODES, p->q);
-        write_values_matrix(w, ", stiffness: ", p->stiffness);
-        fputs("}\n", w->to);
-    }
+    write_values_key(w, "stiffness");
+    write_values_matrix(w, ((const scene_spring *)entry)->stiffness);
 }
 
 static void write_scaled(writer *w, const char *text, double scale)
@@ -174,7 +161,10 @@ static void write_scaled(writer *w, const char *text, double scale)
 /* A function of time. */
 static void write_pieces(writer *w, const scene_function *f)
 {
-    fputs("pieces: [", w->to);
+    if (f->pieces == 0)
+        return;
+    write_values_key(w, "pieces");
+    fputc('[', w->to);
     for (int i = 0; i < f->pieces; i++) {
         fputs(i > 0 ? ", {" : "{", w->to);
         if (i < f->pieces - 1) {
@@ -189,85 +179,81 @@ static void write_pieces(writer *w, const scene_function *f)
     fputc(']', w->to);
 }
 
-static void write_table(writer *w, const scene_driver *d)
+static void write_stations(writer *w, int count, const double path[], const char *key,
+                           const double value[])
 {
-    fputs("path: ", w->to);
-    write_values_numbers(w, d->stations, d->path);
-    fputs(", value: ", w->to);
-    write_values_numbers(w, d->stations, d->value);
+    write_values_key(w, "path");
+    write_values_numbers(w, count, path);
+    write_values_key(w, key);
+    write_values_numbers(w, count, value);
 }
 
-void write_structure_motions(writer *w)
+/* What a motion is known by. */
+static void write_known(writer *w, const void *entry)
 {
-    fputs(w->scene->drivers > 0 ? "motions:\n" : "", w->to);
-    for (int i = 0; i < w->scene->drivers; i++) {
-        const scene_driver *d = &w->scene->driver[i];
-        fputs("  ", w->to);
-        write_values_motion(w, i);
-        if (d->value != NULL) {
-            const int table = d->function.pieces == 0 || d->stations > 1 || d->value[0] != 0;
-            fputs(": {", w->to);
-            if (table)
-                write_table(w, d);
-            fputs(table && d->function.pieces > 0 ? ", " : "", w->to);
-            if (d->function.pieces > 0)
-                write_pieces(w, &d->function);
-        } else {
-            write_values_named(w, ": {such_that: {node: ", SCENE_NODES, d->condition_node);
-            fprintf(w->to, ", component: %s", write_values_component[d->condition_component]);
-            write_values_named(w, ", motion: ", SCENE_DRIVERS, d->condition_driver);
-            fputc('}', w->to);
-        }
-        fputs("}\n", w->to);
-    }
+    const scene_driver *d = entry;
+    if (d->value != NULL && (d->function.pieces == 0 || d->stations > 1 || d->value[0] != 0))
+        write_stations(w, d->stations, d->path, "value", d->value);
+    write_pieces(w, &d->function);
 }
 
-/* Which part of its member a load acts on, and how. */
-static void write_range(writer *w, const scene_load *load)
+static void write_vector(writer *w, const void *entry)
 {
+    const scene_load *load = entry;
+    write_values_key(w, entry_of_load(load->kind)->name);
+    write_values_numbers(w, 3, load->vector);
+}
+
+static void write_on(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
+    write_values_key(w, "on");
+    write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
+}
+
+/* Which part of its member a load acts on. */
+static void write_range(writer *w, const void *entry)
+{
+    const scene_load *load = entry;
     if (scene_load_within(load)) {
-        fputs(", where: ", w->to);
+        write_values_key(w, "where");
         write_values_number(w, load->range[0]);
     } else if (scene_load_along(load)) {
         write_values_if(w, "from", load->range[0], 0);
         write_values_if(w, "to", load->range[1], 1);
     }
     if (load->varies) {
-        fputs(", to_value: ", w->to);
+        write_values_key(w, "to_value");
         write_values_numbers(w, 3, load->last);
     }
-    fputs(load->lumped ? ", lumped: yes" : "", w->to);
 }
 
-void write_structure_loads(writer *w)
+static void write_factor(writer *w, const void *entry)
 {
-    static const char *const kind[] = {"force",   "moment",  "distributed", "distributed_moment",
-                                       "gravity", "gravity", "force",       "moment"};
-    fputs(w->scene->loads > 0 ? "loads:\n" : "", w->to);
-    for (int i = 0; i < w->scene->loads; i++) {
-        const scene_load *load = &w->scene->load[i];
-        write_values_named(w, "  ", SCENE_LOADS, i);
-        fprintf(w->to, ": {%s: ", kind[load->kind]);
-        write_values_numbers(w, 3, load->vector);
-        write_values_named(w, ", on: ", scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES,
-                           load->where);
-        write_range(w, load);
-        if (write_values_any(3, load->at)) {
-            fputs(", at: ", w->to);
-            write_values_numbers(w, 3, load->at);
-        }
-        fputs(load->axes == SCENE_AXES_MEMBER ? ", axes: member" : "", w->to);
-        fputs(load->follower ? ", follower: true" : "", w->to);
-        if (load->stations > 0) {
-            fputs(", path: ", w->to);
-            write_values_numbers(w, load->stations, load->path);
-            fputs(", factor: ", w->to);
-            write_values_numbers(w, load->stations, load->factor);
-        }
-        if (load->function.pieces > 0) {
-            fputs(", ", w->to);
-            write_pieces(w, &load->function);
-        }
-        fputs("}\n", w->to);
-    }
+    const scene_load *load = entry;
+    if (load->stations > 0)
+        write_stations(w, load->stations, load->path, "factor", load->factor);
+    write_pieces(w, &load->function);
+}
+
+void write_structure(writer *w)
+{
+    static const write_own node[] = {
+        {"hold", write_hold}, {"drive", write_drive}, {"rotation", write_rotation}, {NULL, NULL}};
+    static const write_own member[] = {{"section", write_section},
+                                       {"warping", write_warping},
+                                       {"release", write_release},
+                                       {NULL, NULL}};
+    static const write_own spring[] = {{"stiffness", write_stiffness}, {NULL, NULL}};
+    static const write_own driver[] = {{"path", write_known}, {NULL, NULL}};
+    static const write_own load[] = {{"force", write_vector},
+                                     {"on", write_on},
+                                     {"where", write_range},
+                                     {"path", write_factor},
+                                     {NULL, NULL}};
+    write_list(w, "nodes", SCENE_NODES, entry_node, node);
+    write_list(w, "members", SCENE_MEMBERS, entry_member, member);
+    write_list(w, "springs", SCENE_SPRINGS, entry_spring, spring);
+    write_list(w, "motions", SCENE_DRIVERS, entry_driver, driver);
+    write_list(w, "loads", SCENE_LOADS, entry_load, load);
 }

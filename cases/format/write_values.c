@@ -4,10 +4,36 @@
 #include <string.h>
 
 #include "cases/format/write_impl.h"
+#include "elements/shared/choice.h"
 
 const char *const write_values_component[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789.";
+
+void write_values_key(writer *w, const char *key)
+{
+    fprintf(w->to, "%s%s: ", w->begun ? ", " : "", key);
+    w->begun = 1;
+}
+
+void write_values_word(writer *w, const char *words, int index)
+{
+    char word[SCENE_NAME];
+    choice_name(words, index, word, sizeof word);
+    fputs(word, w->to);
+}
+
+void write_values_bits(writer *w, const char *words, unsigned bits)
+{
+    const char *before = "[";
+    for (int i = 0; bits >> i != 0; i++)
+        if (bits >> i & 1u) {
+            fputs(before, w->to);
+            write_values_word(w, words, i);
+            before = ", ";
+        }
+    fputc(']', w->to);
+}
 
 void write_values_number(writer *w, double value)
 {
@@ -46,7 +72,7 @@ void write_values_if(writer *w, const char *key, double value, double otherwise)
 {
     if (value == otherwise && !signbit(value) == !signbit(otherwise))
         return;
-    fprintf(w->to, ", %s: ", key);
+    write_values_key(w, key);
     write_values_number(w, value);
 }
 
@@ -102,7 +128,7 @@ void write_values_motion(writer *w, int index)
     write_values_name(w, SCENE_DRIVERS, index);
 }
 
-void write_values_matrix(writer *w, const char *key, const double A[36])
+void write_values_matrix(writer *w, const double A[36])
 {
     double diagonal[6];
     int whole = 0;
@@ -110,6 +136,5 @@ void write_values_matrix(writer *w, const char *key, const double A[36])
         whole |= k % 7 != 0 && A[k] != 0;
     for (int k = 0; k < 6; k++)
         diagonal[k] = A[7 * k];
-    fputs(key, w->to);
     write_values_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
 }

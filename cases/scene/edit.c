@@ -1,5 +1,5 @@
 #include "cases/scene/edit.h"
-#include "cases/scene/names.h"
+#include "cases/scene/entry.h"
 #include "cases/scene/unit.h"
 #include "elements/section/taper.h"
 
@@ -94,9 +94,7 @@ static status reverse(scene *s, fault *f)
         const scene_release released = m->release[0]; /* about the same lines */
         m->release[0] = m->release[1];
         m->release[1] = released;
-        m->curvature[2] = -m->curvature[2];
-        for (int k = 0; k < 3; k++)
-            m->y_axis[k] = -m->y_axis[k];
+        entry_mirror(entry_member, m);
     }
     for (int i = 0; i < s->loads; i++)
         if (scene_load_along(&s->load[i]))
@@ -232,12 +230,12 @@ static status split(scene *s, double fraction, fault *f)
     const int profile = section_between(s, &first, fraction);
     const int second = scene_add_member(s, middle, first.q, profile, first.y_axis);
     scene_member *m = scene_member_at(s, second);
-    m->section_q = first.section_q;
+    *m = first;
+    m->name[0] = '\0';
+    m->p = middle;
+    m->section = profile;
     m->warp_p = name;
-    m->warp_q = first.warp_q;
-    m->release[1] = first.release[1];
-    m->divisions = first.divisions;
-    m->damping = first.damping;
+    m->release[0].count = 0;
     m = scene_member_at(s, 0);
     m->q = middle;
     m->section_q = profile;

@@ -4,17 +4,17 @@
 #include <string.h>
 
 static const char *const word_of[] = {
-    [SCENE_SECTIONS] = "section", [SCENE_NODES] = "node",     [SCENE_MEMBERS] = "member",
-    [SCENE_SPRINGS] = "spring",   [SCENE_DRIVERS] = "driver", [SCENE_LOADS] = "load",
-    [SCENE_ANALYSES] = "analysis"};
+    [SCENE_SECTIONS] = "section",  [SCENE_NODES] = "node",         [SCENE_MEMBERS] = "member",
+    [SCENE_SPRINGS] = "spring",    [SCENE_DRIVERS] = "driver",     [SCENE_LOADS] = "load",
+    [SCENE_ANALYSES] = "analysis", [SCENE_QUANTITIES] = "quantity"};
 
 /* The room of a name; NULL where there is no such entry. */
 static char *room_of(const scene *s, scene_list list, int i)
 {
-    const int count[] = {
-        [SCENE_SECTIONS] = s->computeds, [SCENE_NODES] = s->nodes,     [SCENE_MEMBERS] = s->members,
-        [SCENE_SPRINGS] = s->springs,    [SCENE_DRIVERS] = s->drivers, [SCENE_LOADS] = s->loads,
-        [SCENE_ANALYSES] = s->analyses};
+    const int count[] = {[SCENE_SECTIONS] = s->computeds, [SCENE_NODES] = s->nodes,
+                         [SCENE_MEMBERS] = s->members,    [SCENE_SPRINGS] = s->springs,
+                         [SCENE_DRIVERS] = s->drivers,    [SCENE_LOADS] = s->loads,
+                         [SCENE_ANALYSES] = s->analyses,  [SCENE_QUANTITIES] = s->quantities};
     if (i < 0 || i >= count[list])
         return NULL;
     switch (list) {
@@ -32,6 +32,10 @@ static char *room_of(const scene *s, scene_list list, int i)
         return s->load[i].name;
     case SCENE_ANALYSES:
         return s->analysis[i].name;
+    case SCENE_QUANTITIES:
+        return s->quantity[i].name;
+    case SCENE_LISTS:
+        break;
     }
     return NULL;
 }

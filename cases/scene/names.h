@@ -11,7 +11,9 @@ typedef enum scene_list {
     SCENE_SPRINGS,
     SCENE_DRIVERS,
     SCENE_LOADS,
-    SCENE_ANALYSES
+    SCENE_ANALYSES,
+    SCENE_QUANTITIES,
+    SCENE_LISTS
 } scene_list;
 
 typedef struct scene_words {

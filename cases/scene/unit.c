@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cases/scene/entry.h"
+
 /* Each number times x to the power of its length. */
 typedef struct scaled {
     double *number;
@@ -111,31 +113,30 @@ static status scale_drivers(scene *s, double x, fault *f)
     return STATUS_OK;
 }
 
-/* Mass keeps its unit, and force: time has that of the root of a length. */
-static void scale_body(scene_body *b, double x)
-{
-    b->mass /= x;
-    scale_vector(b->centre, x);
-    scale_vector(b->inertia, x);
-    scale_vector(b->inertia + 3, x);
-}
-
 static void scale_spring(scene_spring *p, double x)
 {
     for (int i = 0; i < 36; i++)
         p->stiffness[i] *= pow(x, (i / 6 >= 3) + (i % 6 >= 3) - 1);
 }
 
-static void scale_load(scene_load *load, double x)
+static void scale_load(scene_load *load, entry_base base, double times)
 {
-    static const int power[] = {[SCENE_MOMENT] = 1,
-                                [SCENE_GRAVITY] = 1,
-                                [SCENE_WEIGHT] = 1,
-                                [SCENE_DISTRIBUTED] = -1,
-                                [SCENE_MEMBER_MOMENT] = 1};
-    scale_vector(load->at, x);
-    scale_vector(load->vector, pow(x, power[load->kind]));
-    scale_vector(load->last, pow(x, power[load->kind]));
+    const double factor = pow(times, entry_power(entry_of_load(load->kind)->unit, base));
+    scale_vector(load->vector, factor);
+    scale_vector(load->last, factor);
+}
+
+/* What the tables of entries say. */
+static void scale_entries(scene *s, entry_base base, double times)
+{
+    for (int i = 0; i < s->nodes; i++)
+        entry_scale(entry_node, &s->node[i], base, times);
+    for (int i = 0; i < s->members; i++)
+        entry_scale(entry_member, &s->member[i], base, times);
+    for (int i = 0; i < s->loads; i++) {
+        entry_scale(entry_load, &s->load[i], base, times);
+        scale_load(&s->load[i], base, times);
+    }
 }
 
 static void scale_analysis(scene_analysis *a, double x)
@@ -229,16 +230,9 @@ status scene_change_unit(scene *s, double x, fault *f)
                          "no unit of length has %g of it to the metre; give a positive number", x);
     for (int i = 0; i < s->sections; i++)
         scale_section(&s->section[i], x);
-    for (int i = 0; i < s->nodes; i++) {
-        scale_vector(s->node[i].position, x);
-        scale_body(&s->node[i].body, x);
-    }
-    for (int i = 0; i < s->members; i++)
-        scale_vector(s->member[i].curvature, 1 / x);
+    scale_entries(s, ENTRY_LENGTH, x);
     for (int i = 0; i < s->springs; i++)
         scale_spring(&s->spring[i], x);
-    for (int i = 0; i < s->loads; i++)
-        scale_load(&s->load[i], x);
     for (int i = 0; i < s->analyses; i++)
         scale_analysis(&s->analysis[i], x);
     for (int i = 0; i < s->quantities; i++)
@@ -265,6 +259,7 @@ static int force_of(const scene_quantity *q)
 
 void scene_change_force(scene *s, double y)
 {
+    scale_entries(s, ENTRY_FORCE, y);
     for (int i = 0; i < s->sections; i++) {
         section_spec *spec = &s->section[i];
         section *c = &spec->constants;
@@ -277,19 +272,9 @@ void scene_change_force(scene *s, double y)
             c->mass[k] *= y;
         }
     }
-    for (int i = 0; i < s->nodes; i++) {
-        s->node[i].body.mass *= y;
-        scale_vector(s->node[i].body.inertia, y);
-        scale_vector(s->node[i].body.inertia + 3, y);
-    }
     for (int i = 0; i < s->springs; i++)
         for (int k = 0; k < 36; k++)
             s->spring[i].stiffness[k] *= y;
-    for (int i = 0; i < s->loads; i++)
-        if (s->load[i].kind != SCENE_GRAVITY && s->load[i].kind != SCENE_WEIGHT) {
-            scale_vector(s->load[i].vector, y);
-            scale_vector(s->load[i].last, y);
-        }
     for (int i = 0; i < s->quantities; i++) {
         scene_quantity *q = &s->quantity[i];
         const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;

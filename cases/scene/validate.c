@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/scene/names.h"
+#include "cases/scene/entry.h"
 #include "cases/scene/validate_motion.h"
 #include "cases/scene/validate_node.h"
 #include "cases/scene/validate_plane.h"
@@ -52,12 +52,6 @@ static status check_member(const scene *s, int i, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "%s: its y axis is parallel to it; give one that points across",
                          scene_called(s, SCENE_MEMBERS, i).text);
-    if (!(m->damping >= 0 && isfinite(m->damping)))
-        return fault_set(f, STATUS_REFUSED, "%s: a damping of %g s; give a positive one, or none",
-                         scene_called(s, SCENE_MEMBERS, i).text, m->damping);
-    if (m->divisions < 0)
-        return fault_set(f, STATUS_REFUSED, "%s: %d elements; give at least 1",
-                         scene_called(s, SCENE_MEMBERS, i).text, m->divisions);
     if (scene_member_tapers(m))
         TRY(check_taper(s, i, f));
     return scene_validate_release(s, i, f);
@@ -254,12 +248,34 @@ static status check_load(const scene *s, int i, fault *f)
             "%s: it acts on something that does not exist; add its node or member first",
             scene_called(s, SCENE_LOADS, i).text);
     for (int k = 0; k < 3; k++)
-        if (!isfinite(load->vector[k]) || !isfinite(load->last[k]) || !isfinite(load->at[k]))
+        if (!isfinite(load->vector[k]) || !isfinite(load->last[k]))
             return fault_set(f, STATUS_REFUSED,
                              "%s: it is not a number; give three finite components",
                              scene_called(s, SCENE_LOADS, i).text);
     TRY(check_range(s, i, f));
     return check_load_kind(s, i, f);
+}
+
+/* Numbers that are none or beyond their range. */
+static status check_numbers(const scene *s, fault *f)
+{
+    const struct {
+        scene_list list;
+        int count;
+        size_t size;
+        const entry_field *table;
+        const void *first;
+    } all[] = {{SCENE_NODES, s->nodes, sizeof *s->node, entry_node, s->node},
+               {SCENE_MEMBERS, s->members, sizeof *s->member, entry_member, s->member},
+               {SCENE_LOADS, s->loads, sizeof *s->load, entry_load, s->load}};
+    fault why = {""};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        for (int i = 0; i < all[k].count; i++)
+            if (entry_check(all[k].table, (const char *)all[k].first + (size_t)i * all[k].size,
+                            &why) != STATUS_OK)
+                return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, all[k].list, i).text,
+                                 why.text);
+    return STATUS_OK;
 }
 
 status scene_validate(const scene *s, fault *f)
@@ -272,6 +288,7 @@ status scene_validate(const scene *s, fault *f)
                          s->drivers, s->loads,   s->analyses, s->quantities};
     if (s->out_of_memory)
         return fault_set(f, STATUS_FAULT, "%s: out of memory while the scene was built", s->name);
+    TRY(check_numbers(s, f));
     TRY(scene_validate_functions(s, f));
     for (size_t k = 0; k < sizeof count / sizeof count[0]; k++)
         for (int i = 0; i < count[k]; i++) {

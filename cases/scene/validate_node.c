@@ -87,14 +87,6 @@ static status check_body(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
     const double *I = n->body.inertia, *c = n->body.centre;
-    int good = n->body.mass >= 0 && isfinite(n->body.mass);
-    for (int k = 0; k < 3; k++)
-        good &= isfinite(c[k]) && isfinite(I[k]) && isfinite(I[k + 3]);
-    if (!good)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: its mass, centre or inertia is no such number; give a mass that is "
-                         "not negative, and finite numbers",
-                         scene_called(s, SCENE_NODES, i).text);
     if (n->body.mass == 0 && vec3_norm(c) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: a centre without a mass; give the mass, or leave the centre out",
@@ -116,10 +108,6 @@ status scene_validate_node(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
     for (int k = 0; k < 3; k++) {
-        if (!isfinite(n->position[k]))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: its position is not a number; give three finite coordinates",
-                             scene_called(s, SCENE_NODES, i).text);
         if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers ||
             n->angle[k] < SCENE_HELD || n->angle[k] >= s->drivers)
             return fault_set(f, STATUS_REFUSED,

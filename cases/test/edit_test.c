@@ -23,6 +23,7 @@ static void make(scene *s)
     scene_release_end(s, 0, 1, SCENE_RZ);
     m->warp_q = 7;
     m->divisions = 2;
+    m->strain[1] = 1e-3;
     m->damping = 0.01;
     const int load = scene_add_load(s, SCENE_DISTRIBUTED, one, 5, 6, 7);
     scene_load *l = scene_load_at(s, load);
@@ -149,6 +150,7 @@ static void is_split(void)
                  second->release[0].count != 0 || second->release[1].count != 1,
              "ends stay released, the cut is not");
     gsl_test_int(second->divisions, 2, "divisions");
+    gsl_test(second->strain[1] != 1e-3, "initial strain");
     gsl_test_abs(second->damping, 0.01, 0, "damping");
     const scene_load *l = scene_load_at(&s, 1);
     gsl_test(l->where != 1 || l->axes != SCENE_AXES_MEMBER || !l->follower, "its load");

@@ -97,7 +97,7 @@ static void loose_mass(scene *s)
 }
 
 static const refusal refusals[] = {
-    {position, "node 1: ", "position is not a number"},
+    {position, "node 1: ", "at = "},
     {driver_of_node, "node 1: ", "driver that does not exist"},
     {half_a_vector, "node 1: ", "three drivers"},
     {fork_and_held, "node 0: ", "a fork and RX held"},
@@ -108,8 +108,8 @@ static const refusal refusals[] = {
     {body_of_itself, "node 2: ", "attached to node 2, which is no body"},
     {body_of_nothing, "node 2: ", "attached to node 9, which is no body"},
     {body_held, "node 2: ", "it moves with node 1"},
-    {negative_mass, "node 1: ", "is no such number"},
-    {endless_inertia, "node 1: ", "is no such number"},
+    {negative_mass, "node 1: ", "mass = -"},
+    {endless_inertia, "node 1: ", "inertia = "},
     {centre_of_nothing, "node 1: ", "a centre without a mass"},
     {no_triangle, "node 1: ", "no body has this inertia"},
     {products_too_large, "node 1: ", "no body has this inertia"},

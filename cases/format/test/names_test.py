@@ -51,7 +51,7 @@ WRONG = [
     ("{force: [0, 1e-3, 0], on: stage}", "{distributed: [0, 1, 0], on: brace_2, axes: member, follower: yes}\n"
      "  wind: {moment: [0, 0, 1], on: peak, at: [1, 0, 0]}", "wind: only forces act at an offset"),
     ("stations: [0.5, 1]", "stations: [1, 0.5]", "travel: its stations must ascend"),
-    ("peak: {at: [1.5, 0.2, 0]}", "peak: {at: [1.5, 0.2, 0], mass: -1}", "peak: its mass"),
+    ("peak: {at: [1.5, 0.2, 0]}", "peak: {at: [1.5, 0.2, 0], mass: -1}", "mass = -1; give at least 0"),
 ]
 
 

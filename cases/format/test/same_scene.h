@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cases/scene/scene.h"
+#include "cases/scene/entry.h"
 
 static inline int same_numbers(int n, const double a[], const double b[])
 {
@@ -27,10 +27,7 @@ static inline int same_section(const section_spec *a, const section_spec *b)
 
 static inline int same_node(const scene_node *a, const scene_node *b)
 {
-    return same_numbers(3, a->position, b->position) && a->attached == b->attached &&
-           same_numbers(1, &a->body.mass, &b->body.mass) &&
-           same_numbers(3, a->body.centre, b->body.centre) &&
-           same_numbers(6, a->body.inertia, b->body.inertia) &&
+    return entry_same(entry_node, a, b) &&
            memcmp(a->translation, b->translation, sizeof a->translation) == 0 &&
            a->rotation == b->rotation && memcmp(a->angle, b->angle, sizeof a->angle) == 0 &&
            (a->rotation == SCENE_ROTATION_SPATIAL || a->rotation == SCENE_ROTATION_VECTOR ||
@@ -64,18 +61,15 @@ static inline int same_release(const scene_release *a, const scene_release *b)
 
 static inline int same_member(const scene_member *a, const scene_member *b)
 {
-    return a->p == b->p && a->q == b->q && a->section == b->section &&
-           a->section_q == b->section_q && same_numbers(3, a->y_axis, b->y_axis) &&
-           same_warp(a->warp_p, b->warp_p) && same_warp(a->warp_q, b->warp_q) &&
-           same_numbers(3, a->curvature, b->curvature) && same_numbers(3, a->strain, b->strain) &&
-           a->divisions == b->divisions && same_numbers(1, &a->damping, &b->damping) &&
-           same_release(&a->release[0], &b->release[0]) &&
+    return entry_same(entry_member, a, b) && a->section == b->section &&
+           a->section_q == b->section_q && same_warp(a->warp_p, b->warp_p) &&
+           same_warp(a->warp_q, b->warp_q) && same_release(&a->release[0], &b->release[0]) &&
            same_release(&a->release[1], &b->release[1]);
 }
 
 static inline int same_spring(const scene_spring *a, const scene_spring *b)
 {
-    return a->p == b->p && a->q == b->q && same_numbers(36, a->stiffness, b->stiffness);
+    return entry_same(entry_spring, a, b) && same_numbers(36, a->stiffness, b->stiffness);
 }
 
 static inline int same_function(const scene_function *a, const scene_function *b)
@@ -92,18 +86,15 @@ static inline int same_function(const scene_function *a, const scene_function *b
 static inline int same_driver(const scene_driver *a, const scene_driver *b)
 {
     return a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
-           same_numbers(a->stations, a->value, b->value) &&
-           a->condition_node == b->condition_node &&
-           a->condition_component == b->condition_component &&
-           a->condition_driver == b->condition_driver && same_function(&a->function, &b->function);
+           same_numbers(a->stations, a->value, b->value) && entry_same(entry_driver, a, b) &&
+           same_function(&a->function, &b->function);
 }
 
 static inline int same_load(const scene_load *a, const scene_load *b)
 {
     return a->kind == b->kind && a->where == b->where && same_numbers(3, a->vector, b->vector) &&
            same_numbers(3, a->last, b->last) && a->varies == b->varies &&
-           same_numbers(2, a->range, b->range) && a->lumped == b->lumped &&
-           same_numbers(3, a->at, b->at) && a->axes == b->axes && a->follower == b->follower &&
+           same_numbers(2, a->range, b->range) && entry_same(entry_load, a, b) &&
            a->stations == b->stations && same_numbers(a->stations, a->path, b->path) &&
            same_numbers(a->stations, a->factor, b->factor) &&
            same_function(&a->function, &b->function);

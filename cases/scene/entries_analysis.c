@@ -1,0 +1,317 @@
+/* What is asked of a structure: analyses and quantities. */
+#include "cases/scene/entry.h"
+
+static const entry_field nothing[] = {{.name = NULL}};
+
+static const entry_field spin[] = {{"omega", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s",
+                                    .summary = "angular velocity"},
+                                   {"centre", ENTRY_VECTOR, .count = 3, .unit = "m",
+                                    .summary = "a point of its axis", .usual = "[0, 0, 0]"},
+                                   {.name = NULL}};
+
+static const entry_field path[] = {
+    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "path parameter, ascending"},
+    {"steps", ENTRY_NUMBER,
+     .summary = "load steps between two stations, to begin with; longer where that goes well",
+     .usual = "1"},
+    {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
+    {.name = NULL}};
+
+static const entry_field modes[] = {
+    {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
+    {"about", ENTRY_NAME, .summary = "static analysis about whose last state",
+     .left_out = "undeformed"},
+    {.name = NULL}};
+
+static const entry_field buckling[] = {
+    {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
+    {"about", ENTRY_NAME, .summary = "static analysis about whose last state",
+     .left_out = "undeformed"},
+    {.name = "sign", .kind = ENTRY_LATER},
+    {.name = NULL}};
+
+static const entry_field compliance[] = {
+    {"node", ENTRY_NAME, .needed = 1, .summary = "where"},
+    {"about", ENTRY_NAME, .summary = "static analysis, continuation or rotation at whose stations",
+     .left_out = "undeformed"},
+    {"released", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
+     .summary = "prescribed components that are free", .usual = "[]"},
+    {"moments", ENTRY_WORD, .words = "spatial|semitangential|symmetrised",
+     .summary = "what a reaction's moment does while its node turns", .usual = "spatial"},
+    {.name = NULL}};
+
+static const entry_field control[] = {
+    {"node", ENTRY_NAME, .needed = 1, .summary = "whose translation"},
+    {"component", ENTRY_WORD, .needed = 1, .words = "ux|uy|uz", .summary = "of these"},
+    {.name = NULL}};
+
+static const entry_field continuation[] = {
+    {"control", ENTRY_MAP, .needed = 1, .below = control, .summary = "coordinate that grows"},
+    {"by", ENTRY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in",
+     .usual = "coordinate"},
+    {"to", ENTRY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met"},
+    {"step", ENTRY_NUMBER, .needed = 1, .summary = "first step"},
+    {"step_max", ENTRY_NUMBER, .summary = "largest step", .left_out = "the first"},
+    {"constant", ENTRY_WORD, .words = "yes|no", .summary = "steps keep their size", .usual = "no"},
+    {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
+    {.name = NULL}};
+
+static const entry_field rotation[] = {
+    {"omega", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s",
+     .summary = "angular velocity"},
+    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
+     .usual = "[0, 0, 0]"},
+    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending"},
+    {"steps", ENTRY_NUMBER,
+     .summary = "load steps between two stations, to begin with; longer where that goes well",
+     .usual = "1"},
+    {"wanted", ENTRY_NUMBER, .summary = "modes to look for at first, of all families",
+     .usual = "0"},
+    {.name = NULL}};
+
+static const entry_field start[] = {{"velocity", ENTRY_VECTOR, .count = 3, .unit = "m/s",
+                                     .summary = "of all nodes", .usual = "[0, 0, 0]"},
+                                    {"spin", ENTRY_VECTOR, .count = 3, .unit = "rad/s",
+                                     .summary = "of the whole, about the centre",
+                                     .usual = "[0, 0, 0]"},
+                                    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m",
+                                     .summary = "a point of its axis", .usual = "[0, 0, 0]"},
+                                    {.name = NULL}};
+
+static const entry_field in_time[] = {
+    {"stations", ENTRY_NUMBERS, .needed = 1, .unit = "s",
+     .summary = "instants at which quantities are read, ascending; it begins at 0"},
+    {"integrator", ENTRY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method",
+     .left_out = "alpha where there is one of its parameters, or a step without a tolerance; else "
+                 "radau"},
+    {"step", ENTRY_NUMBER, .unit = "s",
+     .summary = "of the integration; with a tolerance the first one",
+     .left_out = "1/1000 of the last station"},
+    {"tolerance", ENTRY_NUMBER,
+     .summary = "of the error of time, relative to the largest motion so far (at most the size of "
+                "the structure): by alpha and conserving of all steps together, each has its share "
+                "by its length, by radau of the estimate of one step, which is far above its "
+                "error; 0: all steps are alike",
+     .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion"},
+    {"rho", ENTRY_NUMBER, .group = 1,
+     .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved",
+     .usual = "0.9"},
+    {"hht", ENTRY_NUMBER, .group = 1,
+     .summary = "of alpha: the method of Hilber, Hughes and Taylor, 0 to 1/3",
+     .left_out = "as rho says"},
+    {"trapezoidal", ENTRY_WORD, .group = 1, .words = "no|yes",
+     .summary = "of alpha: the trapezoidal rule, which may blow up; for comparison", .usual = "no"},
+    {"parameters", ENTRY_VECTOR, .group = 1, .count = 2, .summary = "of alpha: alpha_m, alpha_f",
+     .left_out = "as rho says"},
+    {"mass", ENTRY_WORD, .words = SCENE_MASS_CHOICES,
+     .summary = "of members: lumped at the nodes, or consistent, by alpha and radau",
+     .left_out = "consistent by alpha and radau, lumped by the others or as the scene says"},
+    {"about", ENTRY_NAME,
+     .summary = "static analysis, continuation or rotation from whose last state, or motion that "
+                "goes on, with its "
+                "rates and its time",
+     .left_out = "undeformed"},
+    {"start", ENTRY_MAP, .below = start, .summary = "velocities at the begin",
+     .left_out = "at rest, or as about has it"},
+    {.name = NULL}};
+
+const entry_field entry_analysis[] = {
+    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = nothing,
+     .summary = "loads at factor 1"},
+    {"static", ENTRY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path"},
+    {"buckling", ENTRY_MAP, .needed = 1, .group = 1, .below = buckling,
+     .summary = "critical loads"},
+    {"modal", ENTRY_MAP, .needed = 1, .group = 1, .below = modes,
+     .summary = "frequencies; driven components are held"},
+    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = compliance, .summary = "6 x 6"},
+    {"continuation", ENTRY_MAP, .needed = 1, .group = 1, .below = continuation,
+     .summary = "path of a load factor"},
+    {"rotation", ENTRY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary"},
+    {"motion", ENTRY_MAP, .needed = 1, .group = 1, .below = in_time,
+     .summary = "in time: dynamics; needs masses"},
+    {.name = NULL}};
+
+#define TAKEN                                                                                      \
+    {"analysis", ENTRY_NAME, .needed = 1, .summary = "analysis"},                                  \
+        {"at", ENTRY_NUMBER, .group = 1, .summary = "station", .left_out = "as take says"},        \
+        {"take",                                                                                   \
+         ENTRY_WORD,                                                                               \
+         .group = 1,                                                                               \
+         .words = SCENE_TAKE_CHOICES,                                                              \
+         .summary = "of all stations",                                                             \
+         .usual = "last"}
+
+static const entry_field component[] = {TAKEN,
+                                        {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
+                                        {"component", ENTRY_WORD, .needed = 1,
+                                         .words = ENTRY_COMPONENTS,
+                                         .summary = "of its coordinates"},
+                                        {.name = NULL}};
+
+static const entry_field reaction[] = {
+    TAKEN,
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
+    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
+     .summary = "of its coordinates; turn_1: about the first axis of its sequence"},
+    {.name = NULL}};
+
+static const entry_field internal[] = {
+    TAKEN,
+    {"member", ENTRY_NAME, .needed = 1, .summary = "member"},
+    {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "of the member"},
+    {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
+     .summary = "0 'from' to 1 'to', of its length"},
+    {"side", ENTRY_WORD, .words = "from|to",
+     .summary = "of 'where', towards that node: resultants jump where a load acts", .usual = "to"},
+    {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
+     .summary = "over the member: largest and least value, or largest magnitude"},
+    {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
+     .summary = "of what lies towards 'to', in the turned section's principal axes"},
+    {.name = NULL}};
+
+static const entry_field stress[] = {
+    TAKEN,
+    {"member", ENTRY_NAME, .needed = 1, .summary = "member; its section not given by constants"},
+    {"where", ENTRY_NUMBER, .summary = "0 'from' to 1 'to', of its length",
+     .left_out = "all along it"},
+    {"side", ENTRY_WORD, .words = "from|to",
+     .summary = "of 'where', towards that node: resultants jump where a load acts", .usual = "to"},
+    {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
+     .usual = "von_mises"},
+    {.name = NULL}};
+
+static const entry_field entry[] = {
+    TAKEN,
+    {"row", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "response"},
+    {"column", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "force or moment"},
+    {.name = NULL}};
+
+static const entry_field diagonal[] = {TAKEN,
+                                       {"component", ENTRY_WORD, .needed = 1,
+                                        .words = ENTRY_COMPONENTS, .summary = "of the coordinates"},
+                                       {.name = NULL}};
+
+static const entry_field critical[] = {
+    {"analysis", ENTRY_NAME, .needed = 1, .summary = "analysis"},
+    {"which", ENTRY_NUMBER, .summary = "counted from 0", .usual = "0"},
+    {"sign", ENTRY_WORD, .words = "positive|negative", .summary = "of the load factor",
+     .usual = "positive"},
+    {.name = NULL}};
+
+static const entry_field frequency[] = {
+    TAKEN,
+    {"which", ENTRY_NUMBER, .summary = "counted from 0, of the family", .usual = "0"},
+    {"family", ENTRY_WORD, .words = "any|not_axial|axial|bending_y|bending_z|torsion",
+     .summary = "of modes", .usual = "any"},
+    {"half_waves", ENTRY_NUMBER, .summary = "of the mode; 0: any", .usual = "0"},
+    {.name = NULL}};
+
+static const entry_field whole[] = {TAKEN, {.name = NULL}};
+
+static const entry_field motion[] = {
+    TAKEN, {"motion", ENTRY_NAME, .needed = 1, .summary = "unknown motion"}, {.name = NULL}};
+
+static const entry_field orientation[] = {
+    TAKEN,
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
+    {"row", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "of its rotation matrix"},
+    {"column", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "of it"},
+    {.name = NULL}};
+
+static const entry_field energy[] = {
+    TAKEN,
+    {"of", ENTRY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
+     .summary = "drift: energy and what was dissipated, less energy of the begin and work"},
+    {.name = NULL}};
+
+static const entry_field momentum[] = {TAKEN,
+                                       {"component", ENTRY_WORD, .needed = 1,
+                                        .words = "px|py|pz|lx|ly|lz",
+                                        .summary = "p: linear; l: angular, about the origin"},
+                                       {.name = NULL}};
+
+static const entry_field relative[] = {
+    TAKEN,
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
+    {"from", ENTRY_NAME, .needed = 1, .summary = "node in whose axes"},
+    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "of its motion"},
+    {.name = NULL}};
+
+static const entry_field critical_point[] = {
+    {"analysis", ENTRY_NAME, .needed = 1, .summary = "continuation"},
+    {"kind", ENTRY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point"},
+    {"which", ENTRY_NUMBER, .summary = "counted from 0", .usual = "0"},
+    {"value", ENTRY_WORD, .words = "factor|coordinate",
+     .summary = "what of it: the load factor or the coordinate", .usual = "factor"},
+    {.name = NULL}};
+
+static const entry_field abscissa[] = {
+    {"quantity", ENTRY_NAME, .summary = "whose curve, of the same path, it is",
+     .left_out = "the path, or time"},
+    {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, or time"},
+    {"unit", ENTRY_TEXT, .summary = "its unit", .left_out = "1; over time, with factor 1, s"},
+    {"factor", ENTRY_NUMBER, .summary = "times the path parameter", .usual = "1"},
+    {"offset", ENTRY_NUMBER, .summary = "added to it", .usual = "0"},
+    {.name = NULL}};
+
+static const entry_field when[] = {
+    {"level", ENTRY_NUMBER, .summary = "that is crossed, in SI units before factor and offset",
+     .usual = "0"},
+    {"direction", ENTRY_WORD, .words = SCENE_DIRECTION_CHOICES, .summary = "of the crossing",
+     .usual = "rising"},
+    {"which", ENTRY_NUMBER, .summary = "crossing, counted from 0", .usual = "0"},
+    {"from", ENTRY_NUMBER, .summary = "begin of the window [s]", .usual = "0"},
+    {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion"},
+    {.name = NULL}};
+
+static const entry_field prediction[] = {
+    {"value", ENTRY_NUMBER, .needed = 1, .summary = "of a model with an error of its own"},
+    {"source", ENTRY_TEXT, .needed = 1, .summary = "of the model"},
+    {.name = NULL}};
+
+const entry_field entry_quantity[] = {
+    {"displacement", ENTRY_MAP, .needed = 1, .group = 1, .below = component,
+     .summary = "or rotation, of a node"},
+    {"reaction", ENTRY_MAP, .needed = 1, .group = 1, .below = reaction,
+     .summary = "of a held or driven component"},
+    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = entry,
+     .summary = "entry of the matrix"},
+    {"stiffness", ENTRY_MAP, .needed = 1, .group = 1, .below = diagonal,
+     .summary = "1/compliance, the other components free"},
+    {"critical_factor", ENTRY_MAP, .needed = 1, .group = 1, .below = critical,
+     .summary = "critical load factor"},
+    {"frequency", ENTRY_MAP, .needed = 1, .group = 1, .below = frequency,
+     .summary = "natural frequency"},
+    {"growth", ENTRY_MAP, .needed = 1, .group = 1, .below = whole,
+     .summary = "largest rate of growth of a small motion"},
+    {"factor_at", ENTRY_MAP, .needed = 1, .group = 1, .below = whole,
+     .summary = "load factor where the control coordinate has a value"},
+    {"critical_point", ENTRY_MAP, .needed = 1, .group = 1, .below = critical_point,
+     .summary = "where the tangent is singular"},
+    {"motion", ENTRY_MAP, .needed = 1, .group = 1, .below = motion,
+     .summary = "value of an unknown motion"},
+    {"internal", ENTRY_MAP, .needed = 1, .group = 1, .below = internal,
+     .summary = "resultant of stresses on a section of a member"},
+    {"stress", ENTRY_MAP, .needed = 1, .group = 1, .below = stress,
+     .summary = "largest stress of a member or of a section of it"},
+    {"rate", ENTRY_MAP, .needed = 1, .group = 1, .below = component,
+     .summary = "velocity of a node, or angular velocity in its own axes"},
+    {"orientation", ENTRY_MAP, .needed = 1, .group = 1, .below = orientation,
+     .summary = "entry of a node's rotation matrix"},
+    {"relative", ENTRY_MAP, .needed = 1, .group = 1, .below = relative,
+     .summary = "displacement or rotation as seen from another node"},
+    {"energy", ENTRY_MAP, .needed = 1, .group = 1, .below = energy, .summary = "of a motion"},
+    {"momentum", ENTRY_MAP, .needed = 1, .group = 1, .below = momentum, .summary = "of a motion"},
+    {"unit", ENTRY_TEXT, .summary = "SI unit", .left_out = "that of the kind"},
+    {"tolerance", ENTRY_NUMBER, .summary = "relative, of the limit", .usual = "1e-3"},
+    {"order", ENTRY_NUMBER, .summary = "least order of convergence", .usual = "0"},
+    {"near_zero", ENTRY_NUMBER, .summary = "scale of errors of values near zero", .usual = "0"},
+    {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1"},
+    {"offset", ENTRY_NUMBER, .summary = "in the same unit", .usual = "0"},
+    {"x", ENTRY_MAP, .below = abscissa, .summary = "abscissa of a curve",
+     .left_out = "the path or time"},
+    {"when", ENTRY_MAP, .below = when, .summary = "of a motion: which crossing, and its window",
+     .left_out = "the first that rises through 0"},
+    {"prediction", ENTRY_MAP, .below = prediction, .summary = "shown, never judged",
+     .left_out = "none"},
+    {.name = NULL}};

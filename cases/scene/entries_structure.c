@@ -1,0 +1,200 @@
+/* What a structure consists of, but for its sections. */
+#include <math.h>
+
+#include "cases/scene/entry.h"
+
+static const entry_field drive[] = {
+    {"ux", ENTRY_NAME, .summary = "motion", .left_out = "not driven"},
+    {"uy", ENTRY_NAME, .summary = "motion", .left_out = "not driven"},
+    {"uz", ENTRY_NAME, .summary = "motion", .left_out = "not driven"},
+    {"rx", ENTRY_NAME, .summary = "motion", .left_out = "not driven"},
+    {"ry", ENTRY_NAME, .summary = "motion", .left_out = "not driven"},
+    {"rz", ENTRY_NAME, .summary = "motion", .left_out = "not driven"},
+    {.name = NULL}};
+
+static const entry_field fork_[] = {
+    {"axis", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "the section's own axis",
+     ENTRY_IN(scene_node, axis[0])},
+    {"web", ENTRY_DIRECTION, .needed = 1, .count = 3,
+     .summary = "direction that the guides embrace", ENTRY_IN(scene_node, axis[1])},
+    {.name = NULL}};
+
+static const entry_field turn[] = {
+    {"axis", ENTRY_FORMS, .needed = 1,
+     .summary = "x, y, z or [3]: turns with the angles before it"},
+    {"angle", ENTRY_NAME, .needed = 1, .summary = "free, held or a motion"},
+    {.name = NULL}};
+
+static const entry_field rotation[] = {
+    {"sequence", ENTRY_LIST, .needed = 1, .group = 1, .below = turn,
+     .summary = "one to three turns"},
+    {"vector", ENTRY_FORMS, .needed = 1, .group = 1, .summary = "[MOTION, MOTION, MOTION]"},
+    {.name = NULL}};
+
+const entry_field entry_node[] = {
+    {"at", ENTRY_POSITION, .needed = 1, .count = 3, .unit = "m", .summary = "position",
+     ENTRY_IN(scene_node, position)},
+    {"part_of", ENTRY_NAME, .summary = "node that it moves with, as one rigid body",
+     .left_out = "of no body", ENTRY_IN(scene_node, attached), .of = SCENE_NODES},
+    {"hold", ENTRY_WORDS, .words = "all|" ENTRY_COMPONENTS,
+     .summary = "components that do not move; of one turn alone: about that fixed "
+                "axis",
+     .usual = "[]"},
+    {"drive", ENTRY_MAP, .below = drive, .summary = "components that follow a motion",
+     .left_out = "nothing is driven"},
+    {"rotation", ENTRY_MAP, .below = rotation, .summary = "how it turns, where not freely",
+     .left_out = "as hold, drive and fork say"},
+    {"fork", ENTRY_MAP, .below = fork_, .summary = "no turn about the turned section's axis",
+     .left_out = "none", ENTRY_IN(scene_node, rotation), .first = SCENE_ROTATION_FORK},
+    {"mass", ENTRY_NUMBER, .unit = "kg", .summary = "of a rigid body that moves with it",
+     .usual = "0", ENTRY_IN(scene_node, body.mass), .most = INFINITY},
+    {"centre", ENTRY_DIRECTION, .count = 3, .unit = "m", .summary = "of that mass, from the node",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_node, body.centre)},
+    {"inertia", ENTRY_VECTOR, .count = 6, .unit = "kg m^2",
+     .summary = "tensor about that centre: [xx, yy, zz, xy, yz, zx]", .usual = "[0, 0, 0, 0, 0, 0]",
+     ENTRY_IN(scene_node, body.inertia)},
+    {.name = "velocity", .kind = ENTRY_LATER},
+    {.name = "spin", .kind = ENTRY_LATER},
+    {.name = NULL}};
+
+static const entry_field release[] = {
+    {"from", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
+     .summary = "at that end, in the member's axes: [rz] is a hinge, [rx, ry, rz] a ball",
+     .usual = "[]"},
+    {"to", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
+     .summary = "of two turns the first axis stays with the node, the second with the member",
+     .usual = "[]"},
+    {.name = NULL}};
+
+const entry_field entry_member[] = {
+    {"from", ENTRY_NAME, .needed = 1, .summary = "node where its x axis begins",
+     ENTRY_IN(scene_member, p), .of = SCENE_NODES},
+    {"to", ENTRY_NAME, .needed = 1, .summary = "node where it ends", ENTRY_IN(scene_member, q),
+     .of = SCENE_NODES},
+    {"section", ENTRY_FORMS, .needed = 1,
+     .summary = "NAME, or [at from, at to]: sizes change linearly, elements are prismatic"},
+    {"y", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "direction of the section's y axis",
+     ENTRY_IN(scene_member, y_axis), .mirrors = "---"},
+    {"warping", ENTRY_FORMS, .summary = "free, fixed, {shared: NAME}, or [at from, at to]",
+     .left_out =
+         "fixed where all six components of the node are held or driven or it is tied by part_of, "
+         "and no turn is released; shared where two members run on in one line; else free"},
+    {"curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m", .summary = "initial twist, curvatures",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_member, curvature), .mirrors = "++-"},
+    {"strain", ENTRY_VECTOR, .count = 3, .unit = "1", .summary = "initial elongation, shears",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_member, strain)},
+    {.name = "offset", .kind = ENTRY_LATER},
+    {"release", ENTRY_MAP, .below = release,
+     .summary = "what its ends do not pass on: hinges, slides", .left_out = "nothing"},
+    {"damping", ENTRY_NUMBER, .unit = "s",
+     .summary = "in time: rates of its strains times its stiffness at rest, times this",
+     .usual = "0", ENTRY_IN(scene_member, damping), .most = INFINITY},
+    {"divisions", ENTRY_WHOLE,
+     .summary =
+         "elements, whatever the mesh; of each piece where loads begin, end or act within it",
+     .left_out = "as the mesh says", ENTRY_IN(scene_member, divisions), .most = 10000000},
+    {.name = NULL}};
+
+const entry_field entry_spring[] = {
+    {"from", ENTRY_NAME, .summary = "node in whose axes it deforms", .left_out = "the ground",
+     ENTRY_IN(scene_spring, p), .of = SCENE_NODES},
+    {"to", ENTRY_NAME, .needed = 1, .summary = "node at its other end", ENTRY_IN(scene_spring, q),
+     .of = SCENE_NODES},
+    {"stiffness", ENTRY_NUMBERS, .needed = 1,
+     .summary = "of ux, uy, uz [N/m], rx, ry, rz [N m]: six, or the 36 of a symmetric matrix"},
+    {.name = NULL}};
+
+static const entry_field condition[] = {
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node whose coordinate is prescribed instead",
+     ENTRY_IN(scene_driver, condition_node), .of = SCENE_NODES},
+    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
+     .summary = "of its coordinates", ENTRY_IN(scene_driver, condition_component)},
+    {"motion", ENTRY_NAME, .needed = 1, .summary = "by this motion",
+     ENTRY_IN(scene_driver, condition_driver), .of = SCENE_DRIVERS},
+    {.name = NULL}};
+
+static const entry_field piece[] = {
+    {"until", ENTRY_NUMBER, .unit = "s", .summary = "where it ends; the last one does not",
+     .left_out = "for ever, of the last one"},
+    {"is", ENTRY_TEXT, .needed = 1, .summary = "expression of the time t [s]"},
+    {.name = NULL}};
+
+static const entry_field table[] = {
+    {"at", ENTRY_NUMBERS, .needed = 1, .unit = "s", .summary = "instants, ascending"},
+    {"value", ENTRY_NUMBERS, .needed = 1, .summary = "at these; the first before, the last behind"},
+    {.name = NULL}};
+
+const entry_field entry_driver[] = {
+    {"unit", ENTRY_WORD, .words = "m|rad", .summary = "of its values",
+     .left_out = "that of what it drives"},
+    {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
+     .left_out = "none: needed with value"},
+    {"value", ENTRY_NUMBERS, .summary = "at these, linear between; in time what it has at the end",
+     .left_out = "none: in time, or unknown"},
+    {"such_that", ENTRY_MAP, .group = 1, .below = condition, .summary = "unknown",
+     .left_out = "it is known"},
+    {"unknown", ENTRY_WORD, .words = "true|yes", .summary = "for the reader of the file",
+     .left_out = "as such_that says"},
+    {"time", ENTRY_TEXT, .group = 1,
+     .summary = "in time: expression of the time t [s]; value in m or rad (30*deg*t)",
+     .left_out = "it is along a path"},
+    {"pieces", ENTRY_LIST, .group = 1, .below = piece,
+     .summary = "likewise, one expression after the other; value and velocity do not jump",
+     .left_out = "it is along a path"},
+    {"table", ENTRY_MAP, .group = 1, .below = table,
+     .summary = "likewise, a cubic spline that begins and ends at rest",
+     .left_out = "it is along a path"},
+    {.name = NULL}};
+
+const entry_field entry_load[] = {
+    {"force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
+     .summary = "at a node, or at 'where' of a member"},
+    {"moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m",
+     .summary = "at one, or there"},
+    {"distributed", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
+     .summary = "along a member"},
+    {"distributed_moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
+     .summary = "moments along a member, N m per m"},
+    {"gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
+     .summary = "on a member, whose section has a density, on a node, which has a mass, or on all "
+                "that has"},
+    {"on", ENTRY_NAME, .needed = 1, .summary = "node or member; of gravity also: all"},
+    {"where", ENTRY_NUMBER,
+     .summary = "of a force or a moment within a member: 0 'from' to 1 'to', of its length",
+     .left_out = "it is at a node"},
+    {"from", ENTRY_NUMBER, .summary = "of a distributed load: where it begins, of the length",
+     .usual = "0"},
+    {"to", ENTRY_NUMBER, .summary = "where it ends, of the length", .usual = "1"},
+    {"to_value", ENTRY_VECTOR, .count = 3,
+     .summary = "of a distributed load: what it is at 'to', linear from what it is at 'from'",
+     .left_out = "the same all along"},
+    {"lumped", ENTRY_FLAG, .words = "no|yes|false|true",
+     .summary = "of a distributed load or gravity: half of an element's share on each of its "
+                "nodes, of second order",
+     .usual = "no", ENTRY_IN(scene_load, lumped)},
+    {"at", ENTRY_VECTOR, .count = 3, .unit = "m",
+     .summary = "of forces: offset from the node or the centroids", .usual = "[0, 0, 0]",
+     ENTRY_IN(scene_load, at)},
+    {"axes", ENTRY_WORD, .words = "fixed|member",
+     .summary = "of vector and 'at': fixed, or the undeformed member's", .usual = "fixed",
+     ENTRY_IN(scene_load, axes)},
+    {"follower", ENTRY_FLAG, .words = "false|true|no|yes",
+     .summary = "true: its direction turns with the node or the sections", .usual = "false",
+     ENTRY_IN(scene_load, follower)},
+    {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
+     .left_out = "none: needed with factor"},
+    {"factor", ENTRY_NUMBERS, .summary = "at these", .left_out = "the path parameter itself"},
+    {"time", ENTRY_TEXT, .group = 2, .summary = "factor in time: expression of the time t [s]",
+     .left_out = "as at the end of the path that a motion follows, or 1"},
+    {"pieces", ENTRY_LIST, .group = 2, .below = piece,
+     .summary = "likewise, one expression after the other; it may jump between",
+     .left_out = "likewise"},
+    {"table", ENTRY_MAP, .group = 2, .below = table, .summary = "likewise, linear between",
+     .left_out = "likewise"},
+    {.name = NULL}};
+
+const entry_field *entry_of_load(scene_load_kind kind)
+{
+    static const int key[] = {0, 1, 2, 3, 4, 4, 0, 1};
+    return &entry_load[key[kind]];
+}

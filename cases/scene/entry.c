@@ -1,0 +1,210 @@
+#include "cases/scene/entry.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/shared/choice.h"
+
+/* Of the entry of a key. */
+static const void *place_of(const entry_field *k, const void *entry)
+{
+    return (const char *)entry + k->at;
+}
+
+static int whole_of(const entry_field *k, const void *entry)
+{
+    int value;
+    memcpy(&value, place_of(k, entry), sizeof value);
+    return value;
+}
+
+/* How many numbers it has, and where the first is; 0: it is no number. */
+static int numbers_of(const entry_field *k, const void *entry, const double **out)
+{
+    const scene_path *path = place_of(k, entry);
+    *out = place_of(k, entry);
+    switch (k->size > 0 ? k->kind : ENTRY_LATER) {
+    case ENTRY_NUMBER:
+        return 1;
+    case ENTRY_VECTOR:
+    case ENTRY_DIRECTION:
+    case ENTRY_POSITION:
+        return k->count;
+    case ENTRY_NUMBERS:
+        *out = path->value;
+        return path->stations;
+    default:
+        return 0;
+    }
+}
+
+double entry_usual(const entry_field *k)
+{
+    return k->usual != NULL ? strtod(k->usual, NULL) : k->otherwise;
+}
+
+static int same_number(double a, double b)
+{
+    return (a == b && !signbit(a) == !signbit(b)) || (isnan(a) && isnan(b));
+}
+
+static int all_usual(const entry_field *table, const void *entry)
+{
+    int usual = 1;
+    for (; usual && table->name != NULL; table++)
+        usual = entry_is_usual(table, entry);
+    return usual;
+}
+
+int entry_is_usual(const entry_field *k, const void *entry)
+{
+    const double *number;
+    const int count = numbers_of(k, entry, &number);
+    switch (k->kind) {
+    case ENTRY_NUMBER:
+        return k->size == 0 || same_number(*number, entry_usual(k));
+    case ENTRY_MAP:
+        return k->size > 0 ? !entry_stands(k, entry) : all_usual(k->below, entry);
+    case ENTRY_NAME:
+        return k->size == 0 || whole_of(k, entry) == SCENE_NONE;
+    case ENTRY_WHOLE:
+        return k->size == 0 || whole_of(k, entry) == (int)entry_usual(k);
+    case ENTRY_FLAG:
+    case ENTRY_WORDS:
+        return k->size == 0 || whole_of(k, entry) == 0;
+    case ENTRY_WORD:
+        return k->size == 0 || whole_of(k, entry) == entry_word(k, k->usual);
+    default:
+        for (int i = 0; i < count; i++)
+            if (number[i] != 0)
+                return 0;
+        return 1;
+    }
+}
+
+int entry_word(const entry_field *k, const char *word)
+{
+    const int index = word != NULL ? choice_index(k->words, word) : -1;
+    return index < 0 ? (int)k->otherwise : k->first + (k->falls ? -index : index);
+}
+
+int entry_stands(const entry_field *k, const void *entry)
+{
+    return k->size == 0 || whole_of(k, entry) == k->first;
+}
+
+int entry_in_range(const entry_field *k, double value)
+{
+    return isfinite(value) && (!(k->least < k->most) || (value >= k->least && value <= k->most));
+}
+
+const char *entry_range(const entry_field *k, char text[FAULT_TEXT])
+{
+    const char *whole = k->kind == ENTRY_WHOLE ? "a whole number " : "";
+    if (k->range != NULL)
+        return k->range;
+    if (!(k->least < k->most))
+        return "a finite number";
+    if (isfinite(k->most))
+        snprintf(text, FAULT_TEXT, "%sfrom %.10g to %.10g", whole, k->least, k->most);
+    else
+        snprintf(text, FAULT_TEXT, "%sat least %g", whole, k->least);
+    return text;
+}
+
+static status check_number(const entry_field *k, double value, fault *f)
+{
+    char range[FAULT_TEXT];
+    const int none = isnan(k->otherwise) && isnan(value);
+    return none || entry_in_range(k, value) ? STATUS_OK
+                                            : fault_set(f, STATUS_REFUSED, "%s = %g; give %s",
+                                                        k->name, value, entry_range(k, range));
+}
+
+status entry_check(const entry_field *table, const void *entry, fault *f)
+{
+    for (const entry_field *k = table; k->name != NULL; k++) {
+        const double *number;
+        const int count = numbers_of(k, entry, &number);
+        for (int i = 0; i < count; i++)
+            TRY(check_number(k, number[i], f));
+        if (k->kind == ENTRY_WHOLE && k->size > 0)
+            TRY(check_number(k, whole_of(k, entry), f));
+        if (k->kind == ENTRY_MAP && entry_stands(k, entry))
+            TRY(entry_check(k->below, entry, f));
+    }
+    return STATUS_OK;
+}
+
+/* Of a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J = N m; others have neither. */
+static int base_power(const char *word, size_t size, entry_base base)
+{
+    static const struct {
+        const char *word;
+        int power[2];
+    } all[] = {{"m", {1, 0}}, {"N", {0, 1}}, {"kg", {-1, 1}}, {"Pa", {-2, 1}}, {"J", {1, 1}}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (strlen(all[i].word) == size && strncmp(all[i].word, word, size) == 0)
+            return all[i].power[base];
+    return 0;
+}
+
+int entry_power(const char *unit, entry_base base)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    int power = 0, side = 1; /* side -1: behind a stroke */
+    while (*unit != '\0') {
+        const size_t size = strspn(unit, letters);
+        const int times = unit[size] == '^' ? unit[size + 1] - '0' : 1;
+        power += side * times * base_power(unit, size, base);
+        side = *unit == '/' ? -1 : side;
+        unit += size > 0 ? size : 1;
+    }
+    return power;
+}
+
+void entry_scale(const entry_field *table, void *entry, entry_base base, double times)
+{
+    for (const entry_field *k = table; k->name != NULL; k++) {
+        const double *from;
+        const int count = k->unit != NULL ? numbers_of(k, entry, &from) : 0;
+        double *number = (double *)((char *)entry + k->at);
+        if (k->kind == ENTRY_NUMBERS)
+            number = ((scene_path *)((char *)entry + k->at))->value;
+        for (int i = 0; i < count; i++)
+            number[i] *= pow(times, entry_power(k->unit, base));
+        if (k->kind == ENTRY_MAP && entry_stands(k, entry))
+            entry_scale(k->below, entry, base, times);
+    }
+}
+
+void entry_mirror(const entry_field *table, void *entry)
+{
+    for (const entry_field *k = table; k->name != NULL; k++) {
+        double *number = (double *)((char *)entry + k->at);
+        for (int i = 0; k->mirrors != NULL && i < k->count; i++)
+            number[i] *= k->mirrors[i] == '-' ? -1 : 1;
+    }
+}
+
+static int same_field(const entry_field *k, const void *a, const void *b)
+{
+    const double *x, *y;
+    const int count = numbers_of(k, a, &x), other = numbers_of(k, b, &y);
+    if (k->kind == ENTRY_MAP)
+        return entry_stands(k, a) == entry_stands(k, b) &&
+               (!entry_stands(k, a) || entry_same(k->below, a, b));
+    if (k->size > 0 && k->kind != ENTRY_NUMBERS)
+        return memcmp(place_of(k, a), place_of(k, b), k->size) == 0;
+    return count == other && (count == 0 || memcmp(x, y, (size_t)count * sizeof *x) == 0);
+}
+
+int entry_same(const entry_field *table, const void *a, const void *b)
+{
+    for (; table->name != NULL; table++)
+        if (!same_field(table, a, b))
+            return 0;
+    return 1;
+}
