@@ -34,8 +34,6 @@ static void read_walls(const fields *f, section_spec *spec)
     const int count = unroll_entries(document_find(f->map, "walls"), f->names, f->b->arena,
                                      f->b->mistakes, &walls);
     spec->kind = SECTION_WALLS;
-    spec->thickness_terms = fields_word(f, "thickness_terms", "no|yes", 0);
-    spec->cells = fields_whole(f, "cells", 0, 0, SECTION_MAX_WALLS);
     spec->points = points != NULL ? points->count : 0;
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
@@ -55,25 +53,13 @@ static void read_walls(const fields *f, section_spec *spec)
     }
 }
 
-static void read_rectangle(const fields *f, section_spec *spec)
+static void read_shear_factor(const fields *f, section_spec *spec)
 {
-    const fields sizes = fields_below(f, "rectangle");
     const document_node *k = document_find(f->map, "shear_factor");
-    spec->kind = SECTION_RECTANGLE;
-    spec->width = fields_number(&sizes, "width", 1);
-    spec->height = fields_number(&sizes, "thickness", 1);
     if (k != NULL && k->kind == DOCUMENT_LIST)
         expression_vector(k, 2, f->names, f->b->mistakes, spec->shear_factor);
     else
         spec->shear_factor[0] = spec->shear_factor[1] = fields_number(f, "shear_factor", 0);
-}
-
-static void read_tube(const fields *f, section_spec *spec)
-{
-    const fields sizes = fields_below(f, "tube");
-    spec->kind = SECTION_TUBE;
-    spec->diameter = fields_number(&sizes, "diameter", 1);
-    spec->wall_thickness = fields_number(&sizes, "thickness", 1);
 }
 
 static int are_zero(int count, const double value[])
@@ -84,54 +70,16 @@ static int are_zero(int count, const double value[])
     return i == count;
 }
 
-static void read_constants(const fields *f, section_spec *spec)
+/* What the table does not say of constants. */
+static void read_rest(const fields *f, section_spec *spec)
 {
     const fields those = fields_below(f, "constants");
     section *c = &spec->constants;
-    spec->kind = SECTION_CONSTANTS;
-    c->A = fields_number(&those, "A", 1);
-    c->Iy = fields_number(&those, "Iy", 1);
-    c->Iz = fields_number(&those, "Iz", 1);
-    c->It = fields_number(&those, "It", 1);
-    c->Iw = fields_number(&those, "Iw", 0);
-    c->Ip = fields_number(&those, "Ip", c->Iy + c->Iz);
-    c->ys = fields_number(&those, "ys", 0);
-    c->zs = fields_number(&those, "zs", 0);
-    c->wagner_y = fields_number(&those, "wagner_y", 0);
-    c->wagner_z = fields_number(&those, "wagner_z", 0);
-    c->wagner_torque = fields_number(&those, "wagner_torque", 0);
-    fields_vector(&those, "D", 9, c->D);
-    fields_vector(&those, "F", 9, c->F);
-    const struct {
-        const char *key;
-        section_zero what;
-        const double *value;
-        int count;
-    } all[] = {{"D", SECTION_ZERO_SHEAR, c->D, 9},
-               {"F", SECTION_ZERO_SHEAR, c->F, 9},
-               {"Iw", SECTION_ZERO_WARPING, &c->Iw, 1},
-               {"wagner_y", SECTION_ZERO_WAGNER_Y, &c->wagner_y, 1},
-               {"wagner_z", SECTION_ZERO_WAGNER_Z, &c->wagner_z, 1},
-               {"wagner_torque", SECTION_ZERO_WAGNER_TORQUE, &c->wagner_torque, 1}};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (fields_have(&those, all[i].key) && are_zero(all[i].count, all[i].value))
-            spec->zeros |= all[i].what;
-}
-
-static void read_given(const fields *f, section_spec *spec)
-{
-    const fields given = fields_below(f, "given");
-    const struct {
-        const char *key;
-        double *value;
-    } all[] = {{"Iw", &spec->given.Iw},   {"ys", &spec->given.ys},
-               {"zs", &spec->given.zs},   {"Dy", &spec->given.Dy},
-               {"Dz", &spec->given.Dz},   {"Dw", &spec->given.Dw},
-               {"Dyz", &spec->given.Dyz}, {"Dyw", &spec->given.Dyw},
-               {"Dzw", &spec->given.Dzw}, {"It", &spec->given.It},
-               {"Ip", &spec->given.Ip},   {"wagner_torque", &spec->given.wagner_torque}};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        *all[i].value = fields_number(&given, all[i].key, NAN);
+    if (!fields_have(&those, "Ip"))
+        c->Ip = c->Iy + c->Iz;
+    if ((fields_vector(&those, "D", 9, c->D) && are_zero(9, c->D)) ||
+        (fields_vector(&those, "F", 9, c->F) && are_zero(9, c->F)))
+        spec->zeros |= SECTION_ZERO_SHEAR;
 }
 
 /* 36 numbers, or six of the diagonal. */
@@ -194,22 +142,17 @@ void builder_sections(builder *b)
         fault why = {""};
         section_spec_init(&spec);
         check_material(&f);
-        spec.young = fields_number(&f, "young", 1);
-        spec.shear_modulus = fields_number(&f, "shear_modulus", 1);
-        spec.density = fields_number(&f, "density", 0);
+        fields_read(&f, entry_section, &spec);
         if (fields_have(&f, "stiffness"))
             read_matrices(&f, &spec);
         else if (fields_have(&f, "walls"))
             read_walls(&f, &spec);
-        else if (build_shapes_read(&f, &spec))
-            spec.thickness_terms = fields_word(&f, "thickness_terms", "no|yes", 0);
+        else if (fields_have(&f, "constants"))
+            read_rest(&f, &spec);
         else if (fields_have(&f, "rectangle"))
-            read_rectangle(&f, &spec);
-        else if (fields_have(&f, "tube"))
-            read_tube(&f, &spec);
+            read_shear_factor(&f, &spec);
         else
-            read_constants(&f, &spec);
-        read_given(&f, &spec);
+            build_shapes_read(&f, &spec);
         for (int k = 0; k < 2; k++) {
             static const char *const of_walls[] = {"points", "cells"};
             if (!fields_have(&f, "walls") && fields_have(&f, of_walls[k]))

@@ -266,6 +266,8 @@ static void read_field(const fields *f, const entry_field *k, void *entry)
     switch (k->kind) {
     case ENTRY_NUMBER:
         *(double *)to = read_number(f, k);
+        if (k->zero != 0 && fields_have(f, k->name) && *(double *)to == 0)
+            *(unsigned *)((char *)entry + k->zeros) |= k->zero;
         break;
     case ENTRY_WHOLE:
         *(int *)to = (int)read_number(f, k);

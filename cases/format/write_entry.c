@@ -66,7 +66,7 @@ void write_entry(writer *w, const entry_field *table, const void *entry, const w
         else if ((k->size > 0 || k->kind == ENTRY_MAP) && is_due(k, entry)) {
             write_values_key(w, k->name);
             if (k->kind == ENTRY_MAP)
-                write_entry(w, k->below, entry, NULL);
+                write_entry(w, k->below, entry, own);
             else
                 write_value(w, k, entry);
         }

@@ -19,7 +19,8 @@ typedef struct write_own {
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* A map with the keys of an entry that are not as if they were left out. own NULL: none. */
+/* A map with the keys of an entry that are not as if they were left out. own, also of the maps
+ * below it: NULL: none. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
 /* "key: ", behind ", " where it is not the first of its map. */
 void write_values_key(writer *w, const char *key);

@@ -15,10 +15,9 @@ static void mirror_section(section_spec *spec)
     section *c = &spec->constants;
     for (int i = 0; i < spec->points; i++)
         spec->point[i][0] = -spec->point[i][0];
-    double *const odd[] = {&spec->given.ys, &spec->given.Dyz, &spec->given.Dzw, &c->ys,
-                           &c->wagner_y,    &c->D[1],         &c->D[3],         &c->D[5],
-                           &c->D[7],        &c->F[1],         &c->F[3],         &c->F[5],
-                           &c->F[7],        &c->axes_angle,   &c->centroid[0]};
+    double *const odd[] = {&c->D[1], &c->D[3], &c->D[5], &c->D[7],       &c->F[1],
+                           &c->F[3], &c->F[5], &c->F[7], &c->axes_angle, &c->centroid[0]};
+    entry_mirror(entry_section, spec);
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; i++)
         *odd[i] = -*odd[i];
     for (int i = 0; i < 6; i++)

@@ -58,13 +58,20 @@ static int all_usual(const entry_field *table, const void *entry)
     return usual;
 }
 
+static int says_zero(const entry_field *k, const void *entry)
+{
+    unsigned bits = 0;
+    memcpy(&bits, (const char *)entry + k->zeros, sizeof bits);
+    return (bits & k->zero) != 0;
+}
+
 int entry_is_usual(const entry_field *k, const void *entry)
 {
     const double *number;
     const int count = numbers_of(k, entry, &number);
     switch (k->kind) {
     case ENTRY_NUMBER:
-        return k->size == 0 || same_number(*number, entry_usual(k));
+        return k->size == 0 || (same_number(*number, entry_usual(k)) && !says_zero(k, entry));
     case ENTRY_MAP:
         return k->size > 0 ? !entry_stands(k, entry) : all_usual(k->below, entry);
     case ENTRY_NAME:
@@ -184,8 +191,10 @@ void entry_mirror(const entry_field *table, void *entry)
 {
     for (const entry_field *k = table; k->name != NULL; k++) {
         double *number = (double *)((char *)entry + k->at);
-        for (int i = 0; k->mirrors != NULL && i < k->count; i++)
+        for (size_t i = 0; k->mirrors != NULL && i < strlen(k->mirrors); i++)
             number[i] *= k->mirrors[i] == '-' ? -1 : 1;
+        if (k->kind == ENTRY_MAP && entry_stands(k, entry))
+            entry_mirror(k->below, entry);
     }
 }
 

@@ -51,8 +51,10 @@ typedef struct entry_field {
     double least, most;  /* range of a number; both 0: any */
     const char *range;   /* in words; NULL: by these two */
     scene_list of;       /* NAME: in which list */
+    size_t zeros;        /* of the unsigned in which the bit `zero` says that a zero is given */
+    unsigned zero;       /* 0: there is no such bit */
     int always;          /* 1: written also where it could be left out */
-    const char *mirrors; /* "++-": signs of a vector when the ends of its member are exchanged */
+    const char *mirrors; /* "++-": signs of its numbers when the ends of its member are exchanged */
 } entry_field;
 
 #define ENTRY_IN(type, member) .at = offsetof(type, member), .size = sizeof(((type *)0)->member)

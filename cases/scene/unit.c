@@ -26,17 +26,12 @@ static void scale_vector(double v[3], double factor)
         v[i] *= factor;
 }
 
+/* What a file does not say. */
 static void scale_constants(section *c, double x)
 {
-    const scaled list[] = {{&c->young, -2},      {&c->shear_modulus, -2},
-                           {&c->density, -4},    {&c->A, 2},
-                           {&c->Iy, 4},          {&c->Iz, 4},
-                           {&c->It, 4},          {&c->Iw, 6},
-                           {&c->ys, 1},          {&c->zs, 1},
-                           {&c->Ip, 4},          {&c->wagner_y, 5},
-                           {&c->wagner_z, 5},    {&c->wagner_torque, 6},
-                           {&c->width, 1},       {&c->height, 1},
-                           {&c->centroid[0], 1}, {&c->centroid[1], 1}};
+    const scaled list[] = {{&c->young, -2},     {&c->shear_modulus, -2}, {&c->density, -4},
+                           {&c->width, 1},      {&c->height, 1},         {&c->centroid[0], 1},
+                           {&c->centroid[1], 1}};
     SCALE(list, x);
     for (int i = 0; i < 36; i++) { /* forces, then moments */
         const int power = (i / 6 > 2) + (i % 6 > 2);
@@ -52,26 +47,6 @@ static void scale_constants(section *c, double x)
 
 static void scale_section(section_spec *spec, double x)
 {
-    const scaled list[] = {{&spec->young, -2},
-                           {&spec->shear_modulus, -2},
-                           {&spec->density, -4},
-                           {&spec->width, 1},
-                           {&spec->height, 1},
-                           {&spec->given.Iw, 6},
-                           {&spec->given.ys, 1},
-                           {&spec->given.zs, 1},
-                           {&spec->given.Dy, 2},
-                           {&spec->given.Dz, 2},
-                           {&spec->given.Dw, 4},
-                           {&spec->given.Dyz, 2},
-                           {&spec->given.Dyw, 3},
-                           {&spec->given.Dzw, 3},
-                           {&spec->given.It, 4},
-                           {&spec->given.Ip, 4},
-                           {&spec->given.wagner_torque, 6},
-                           {&spec->diameter, 1},
-                           {&spec->wall_thickness, 1}};
-    SCALE(list, x);
     for (int i = 0; i < spec->points; i++)
         for (int k = 0; k < 2; k++)
             spec->point[i][k] *= x;
@@ -129,6 +104,8 @@ static void scale_load(scene_load *load, entry_base base, double times)
 /* What the tables of entries say. */
 static void scale_entries(scene *s, entry_base base, double times)
 {
+    for (int i = 0; i < s->sections; i++)
+        entry_scale(entry_section, &s->section[i], base, times);
     for (int i = 0; i < s->nodes; i++)
         entry_scale(entry_node, &s->node[i], base, times);
     for (int i = 0; i < s->members; i++)
@@ -261,10 +238,8 @@ void scene_change_force(scene *s, double y)
 {
     scale_entries(s, ENTRY_FORCE, y);
     for (int i = 0; i < s->sections; i++) {
-        section_spec *spec = &s->section[i];
-        section *c = &spec->constants;
-        double *const list[] = {&spec->young, &spec->shear_modulus, &spec->density,
-                                &c->young,    &c->shear_modulus,    &c->density};
+        section *c = &s->section[i].constants;
+        double *const list[] = {&c->young, &c->shear_modulus, &c->density};
         for (size_t k = 0; k < sizeof list / sizeof list[0]; k++)
             *list[k] *= y;
         for (int k = 0; k < 36; k++) {

@@ -15,7 +15,7 @@ static inline int same_section(const section_spec *a, const section_spec *b)
 {
     section x, y;
     int same = a->kind == b->kind && a->points == b->points && a->walls == b->walls &&
-               a->thickness_terms == b->thickness_terms && a->cells == b->cells;
+               (a->kind == SECTION_MATRICES || entry_same(entry_section, a, b));
     for (int i = 0; same && i < a->points; i++)
         same = same_numbers(2, a->point[i], b->point[i]);
     for (int i = 0; same && i < a->walls; i++)
