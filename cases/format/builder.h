@@ -81,10 +81,8 @@ typedef struct builder_extract {
 } builder_extract;
 const builder_extract *builder_extract_of(const fields *quantity);
 enum { BUILDER_MOST_ORDER = 100000 }; /* of an eigenvalue, a point, a crossing */
-/* The analysis that this one is about; a mistake: it does not stand before it. */
-int builder_about(const fields *f, int index);
-/* A motion in time. */
-void builder_in_time(const fields *f, int index);
+/* What the table does not say of a motion in time. */
+void builder_in_time(const fields *f, scene_motion *how);
 /* Adds a piece to the function of time of an entry of the scene. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
 /* Adds the function that `time`, `pieces` or `table` gives; values of a table are joined by lines,

@@ -4,97 +4,35 @@
 
 #include "cases/format/builder.h"
 
-enum { MOST_STEPS = 1000000, MOST_MODES = 1000 };
-
-static scene_rotating_frame frame_of(const fields *f)
+/* What its table does not say. */
+static void complete(const fields *f, int index, scene_analysis *a)
 {
-    scene_rotating_frame frame = {{0}, {0}};
-    fields_vector(f, "omega", 3, frame.omega);
-    fields_vector(f, "centre", 3, frame.centre);
-    return frame;
-}
-
-static void add_static(const fields *f)
-{
-    double *path;
-    const fields spin = fields_below(f, "spin");
-    const int count = fields_values(f, "stations", &path);
-    const int added =
-        scene_add_static(f->b->scene, count, path, fields_whole(f, "steps", 1, 1, MOST_STEPS));
-    if (spin.map != NULL)
-        scene_set_rotating_frame(f->b->scene, added, frame_of(&spin));
-}
-
-static void add_rotation(const fields *f)
-{
-    double *path;
-    const int count = fields_values(f, "stations", &path);
-    scene_add_rotation(f->b->scene, count, path, fields_whole(f, "steps", 1, 1, MOST_STEPS),
-                       fields_whole(f, "wanted", 0, 0, MOST_MODES), frame_of(f));
-}
-
-static void add_compliance(const fields *f, int index)
-{
-    const scene_compliance what = {.node = fields_entry(f, "node", SCENE_NODES),
-                                   .moments = (scene_moments)fields_word(
-                                       f, "moments", SCENE_MOMENTS_CHOICES, SCENE_MOMENTS_SPATIAL),
-                                   .released = fields_words(f, "released", fields_components)};
-    scene_add_compliance(f->b->scene, builder_about(f, index), what);
-}
-
-static void add_continuation(const fields *f)
-{
-    double *to;
-    const fields control = fields_below(f, "control"), spin = fields_below(f, "spin");
-    const int count = fields_values(f, "to", &to);
-    const double step = fields_number(f, "step", 1);
-    const scene_control how = {.node = fields_entry(&control, "node", SCENE_NODES),
-                               .component = fields_word(&control, "component", "ux|uy|uz", 0),
-                               .by_arc = fields_word(f, "by", "coordinate|arc", 0),
-                               .step = step,
-                               .step_max = fields_number(f, "step_max", step),
-                               .constant_steps = fields_word(f, "constant", "no|yes", 0)};
-    const int added = scene_add_continuation(f->b->scene, count, to, how);
-    if (spin.map != NULL)
-        scene_set_rotating_frame(f->b->scene, added, frame_of(&spin));
+    const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),
+                 what = fields_below(f, scene_analysis_name(a->kind));
+    if (a->kind == SCENE_CONTINUATION) {
+        scene_control *how = &a->of.continuation.control;
+        how->step_max = fields_number(&control, "step_max", how->step);
+    }
+    if (a->kind == SCENE_MOTION)
+        builder_in_time(&motion, &a->of.motion);
+    if (a->follows >= index) {
+        document_mistake(f->b->mistakes, document_find(what.map, "about"), 0,
+                         "'%s' does not stand before this one; move it up",
+                         fields_text(&what, "about", ""));
+        a->follows = SCENE_NONE;
+    }
 }
 
 void builder_analyses(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
-        const fields entry = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
-        scene_analysis_kind kind = SCENE_LINEAR;
-        while (kind < SCENE_MOTION && !fields_have(&entry, scene_analysis_name(kind)))
-            kind++;
-        const fields f = fields_below(&entry, scene_analysis_name(kind));
-        const int index = b->scene->analyses;
-        switch (kind) {
-        case SCENE_LINEAR:
-            scene_add_linear(b->scene);
-            break;
-        case SCENE_STATIC:
-            add_static(&f);
-            break;
-        case SCENE_BUCKLING:
-            scene_add_buckling(b->scene, builder_about(&f, i));
-            break;
-        case SCENE_MODAL:
-            scene_add_modal(b->scene, builder_about(&f, i));
-            break;
-        case SCENE_COMPLIANCE:
-            add_compliance(&f, i);
-            break;
-        case SCENE_CONTINUATION:
-            add_continuation(&f);
-            break;
-        case SCENE_MOTION:
-            builder_in_time(&f, i);
-            break;
-        case SCENE_ROTATION:
-            add_rotation(&f);
-            break;
-        }
+        const fields f = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
+        const int index = scene_add_linear(b->scene);
+        if (index < 0)
+            return;
         builder_call(b, SCENE_ANALYSES, index, i);
+        fields_read(&f, entry_analysis, &b->scene->analysis[index]);
+        complete(&f, index, &b->scene->analysis[index]);
     }
 }
 

@@ -1,18 +1,8 @@
-/* Motions in time, and what other analyses are about. */
+/* Motions in time. */
 #include <string.h>
 
 #include "cases/format/builder.h"
 #include "elements/shared/choice.h"
-
-int builder_about(const fields *f, int index)
-{
-    const int follows = fields_entry(f, "about", SCENE_ANALYSES);
-    if (follows >= index)
-        document_mistake(f->b->mistakes, document_find(f->map, "about"), 0,
-                         "'%s' does not stand before this one; move it up",
-                         fields_text(f, "about", ""));
-    return follows < index ? follows : SCENE_NONE;
-}
 
 /* Where neither a step nor a tolerance is given: 0.1 % of the motion. The step is of the last
  * station. */
@@ -82,38 +72,24 @@ static scene_scheme scheme_of(const fields *f)
                                      asks_for_alpha(f) ? SCENE_ALPHA : SCENE_RADAU);
 }
 
-static double last_of(int count, const double value[])
+static void read_steps(const fields *f, scene_motion *how)
 {
-    return count > 0 && value[count - 1] > 0 ? value[count - 1] : 1;
-}
-
-static void read_steps(const fields *f, double last, scene_motion *how)
-{
-    const int steps = fields_have(f, "step");
-    const double usual = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
-    how->tolerance = fields_number(f, "tolerance", steps ? 0 : usual);
-    how->step = fields_number(f, "step", usual_step * last);
+    const int steps = fields_have(f, "step"), count = how->path.stations;
+    const double last = count > 0 ? how->path.value[count - 1] : 0;
+    if (!steps)
+        how->step = usual_step * (last > 0 ? last : 1);
+    if (!steps && !fields_have(f, "tolerance"))
+        how->tolerance = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
     if (!steps && how->tolerance == 0)
         document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,
                          "without a tolerance all steps are alike; give 'step' [s]");
 }
 
-static scene_mass mass_of(const fields *f)
+void builder_in_time(const fields *f, scene_motion *how)
 {
-    const int given = fields_word(f, "mass", SCENE_MASS_CHOICES, 0);
-    return fields_have(f, "mass") ? (scene_mass)(SCENE_LUMPED + given) : SCENE_MASS_USUAL;
-}
-
-void builder_in_time(const fields *f, int index)
-{
-    double *stations;
-    const fields start = fields_below(f, "start");
-    const int count = fields_values(f, "stations", &stations);
-    scene_motion how = {.scheme = scheme_of(f), .alpha = alpha_of(f), .mass = mass_of(f)};
-    check_parameters(f, how.scheme);
-    read_steps(f, last_of(count, stations), &how);
-    fields_vector(&start, "velocity", 3, how.start.velocity);
-    fields_vector(&start, "spin", 3, how.start.spin);
-    fields_vector(&start, "centre", 3, how.start.centre);
-    scene_add_motion(f->b->scene, builder_about(f, index), count, stations, how);
+    how->scheme = scheme_of(f);
+    how->alpha = alpha_of(f);
+    check_parameters(f, how->scheme);
+    if (how->path.value != NULL)
+        read_steps(f, how);
 }

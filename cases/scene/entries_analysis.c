@@ -3,96 +3,131 @@
 
 static const entry_field nothing[] = {{.name = NULL}};
 
-static const entry_field spin[] = {{"omega", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s",
-                                    .summary = "angular velocity"},
-                                   {"centre", ENTRY_VECTOR, .count = 3, .unit = "m",
-                                    .summary = "a point of its axis", .usual = "[0, 0, 0]"},
-                                   {.name = NULL}};
+#define OMEGA(member)                                                                              \
+    {"omega",                                                                                      \
+     ENTRY_VECTOR,                                                                                 \
+     .needed = 1,                                                                                  \
+     .count = 3,                                                                                   \
+     .unit = "rad/s",                                                                              \
+     .summary = "angular velocity",                                                                \
+     ENTRY_IN(scene_analysis, member.omega)},                                                      \
+        {"centre",                                                                                 \
+         ENTRY_VECTOR,                                                                             \
+         .count = 3,                                                                               \
+         .unit = "m",                                                                              \
+         .summary = "a point of its axis",                                                         \
+         .usual = "[0, 0, 0]",                                                                     \
+         ENTRY_IN(scene_analysis, member.centre),                                                  \
+         .always = 1}
+
+static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
+                         spin_followed[] = {OMEGA(of.continuation.frame), {.name = NULL}};
+
+#define ABOUT(what)                                                                                \
+    {"about",                                                                                      \
+     ENTRY_NAME,                                                                                   \
+     .summary = (what),                                                                            \
+     .left_out = "undeformed",                                                                     \
+     ENTRY_IN(scene_analysis, follows),                                                            \
+     .of = SCENE_ANALYSES}
+
+#define STEPS                                                                                      \
+    {"steps",                                                                                      \
+     ENTRY_WHOLE,                                                                                  \
+     .summary = "load steps between two stations, to begin with; longer where that goes well",     \
+     .usual = "1",                                                                                 \
+     ENTRY_IN(scene_analysis, of.walk.steps_between),                                              \
+     .least = 1,                                                                                   \
+     .most = 1000000}
 
 static const entry_field path[] = {
-    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "path parameter, ascending"},
-    {"steps", ENTRY_NUMBER,
-     .summary = "load steps between two stations, to begin with; longer where that goes well",
-     .usual = "1"},
+    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "path parameter, ascending",
+     ENTRY_IN(scene_analysis, of.walk.path)},
+    STEPS,
     {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
     {.name = NULL}};
 
 static const entry_field modes[] = {
     {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
-    {"about", ENTRY_NAME, .summary = "static analysis about whose last state",
-     .left_out = "undeformed"},
+    ABOUT("static analysis about whose last state"),
     {.name = NULL}};
 
 static const entry_field buckling[] = {
     {"wanted", ENTRY_NUMBER, .summary = "how many", .left_out = "as quantities ask for"},
-    {"about", ENTRY_NAME, .summary = "static analysis about whose last state",
-     .left_out = "undeformed"},
+    ABOUT("static analysis about whose last state"),
     {.name = "sign", .kind = ENTRY_LATER},
     {.name = NULL}};
 
 static const entry_field compliance[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "where"},
-    {"about", ENTRY_NAME, .summary = "static analysis, continuation or rotation at whose stations",
-     .left_out = "undeformed"},
+    {"node", ENTRY_NAME, .needed = 1, .summary = "where",
+     ENTRY_IN(scene_analysis, of.compliance.node), .of = SCENE_NODES},
+    {"moments", ENTRY_WORD, .words = SCENE_MOMENTS_CHOICES,
+     .summary = "what a reaction's moment does while its node turns", .usual = "spatial",
+     ENTRY_IN(scene_analysis, of.compliance.moments), .always = 1},
     {"released", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "prescribed components that are free", .usual = "[]"},
-    {"moments", ENTRY_WORD, .words = "spatial|semitangential|symmetrised",
-     .summary = "what a reaction's moment does while its node turns", .usual = "spatial"},
+     .summary = "prescribed components that are free", .usual = "[]",
+     ENTRY_IN(scene_analysis, of.compliance.released)},
+    ABOUT("static analysis, continuation or rotation at whose stations"),
     {.name = NULL}};
 
 static const entry_field control[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "whose translation"},
-    {"component", ENTRY_WORD, .needed = 1, .words = "ux|uy|uz", .summary = "of these"},
+    {"node", ENTRY_NAME, .needed = 1, .summary = "whose translation",
+     ENTRY_IN(scene_analysis, of.continuation.control.node), .of = SCENE_NODES},
+    {"component", ENTRY_WORD, .needed = 1, .words = "ux|uy|uz", .summary = "of these",
+     ENTRY_IN(scene_analysis, of.continuation.control.component)},
     {.name = NULL}};
 
 static const entry_field continuation[] = {
     {"control", ENTRY_MAP, .needed = 1, .below = control, .summary = "coordinate that grows"},
     {"by", ENTRY_WORD, .words = "coordinate|arc", .summary = "what steps are measured in",
-     .usual = "coordinate"},
-    {"to", ENTRY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met"},
-    {"step", ENTRY_NUMBER, .needed = 1, .summary = "first step"},
+     .usual = "coordinate", ENTRY_IN(scene_analysis, of.continuation.control.by_arc), .always = 1},
+    {"to", ENTRY_NUMBERS, .needed = 1, .unit = "m", .summary = "of the coordinate, as met",
+     ENTRY_IN(scene_analysis, of.continuation.path)},
+    {"step", ENTRY_NUMBER, .needed = 1, .summary = "first step",
+     ENTRY_IN(scene_analysis, of.continuation.control.step)},
     {"step_max", ENTRY_NUMBER, .summary = "largest step", .left_out = "the first"},
-    {"constant", ENTRY_WORD, .words = "yes|no", .summary = "steps keep their size", .usual = "no"},
-    {"spin", ENTRY_MAP, .below = spin, .summary = "the axes turn", .left_out = "they do not"},
+    {"constant", ENTRY_WORD, .words = "no|yes", .summary = "steps keep their size", .usual = "no",
+     ENTRY_IN(scene_analysis, of.continuation.control.constant_steps)},
+    {"spin", ENTRY_MAP, .below = spin_followed, .summary = "the axes turn",
+     .left_out = "they do not"},
     {.name = NULL}};
 
 static const entry_field rotation[] = {
-    {"omega", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "rad/s",
-     .summary = "angular velocity"},
-    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
-     .usual = "[0, 0, 0]"},
-    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending"},
-    {"steps", ENTRY_NUMBER,
-     .summary = "load steps between two stations, to begin with; longer where that goes well",
-     .usual = "1"},
-    {"wanted", ENTRY_NUMBER, .summary = "modes to look for at first, of all families",
-     .usual = "0"},
+    OMEGA(of.walk.frame),
+    {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending",
+     ENTRY_IN(scene_analysis, of.walk.path)},
+    STEPS,
+    {"wanted", ENTRY_WHOLE, .summary = "modes to look for at first, of all families", .usual = "0",
+     ENTRY_IN(scene_analysis, of.walk.modes), .most = 1000},
     {.name = NULL}};
 
-static const entry_field start[] = {{"velocity", ENTRY_VECTOR, .count = 3, .unit = "m/s",
-                                     .summary = "of all nodes", .usual = "[0, 0, 0]"},
-                                    {"spin", ENTRY_VECTOR, .count = 3, .unit = "rad/s",
-                                     .summary = "of the whole, about the centre",
-                                     .usual = "[0, 0, 0]"},
-                                    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m",
-                                     .summary = "a point of its axis", .usual = "[0, 0, 0]"},
-                                    {.name = NULL}};
+static const entry_field start[] = {
+    {"velocity", ENTRY_VECTOR, .count = 3, .unit = "m/s", .summary = "of all nodes",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.velocity)},
+    {"spin", ENTRY_VECTOR, .count = 3, .unit = "rad/s", .summary = "of the whole, about the centre",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.spin)},
+    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
+     .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.centre)},
+    {.name = NULL}};
 
 static const entry_field in_time[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .unit = "s",
-     .summary = "instants at which quantities are read, ascending; it begins at 0"},
+     .summary = "instants at which quantities are read, ascending; it begins at 0",
+     ENTRY_IN(scene_analysis, of.motion.path)},
     {"integrator", ENTRY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method",
      .left_out = "alpha where there is one of its parameters, or a step without a tolerance; else "
                  "radau"},
     {"step", ENTRY_NUMBER, .unit = "s",
      .summary = "of the integration; with a tolerance the first one",
-     .left_out = "1/1000 of the last station"},
+     .left_out = "1/1000 of the last station", ENTRY_IN(scene_analysis, of.motion.step),
+     .always = 1},
     {"tolerance", ENTRY_NUMBER,
      .summary = "of the error of time, relative to the largest motion so far (at most the size of "
                 "the structure): by alpha and conserving of all steps together, each has its share "
                 "by its length, by radau of the estimate of one step, which is far above its "
                 "error; 0: all steps are alike",
-     .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion"},
+     .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion",
+     ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,
      .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved",
      .usual = "0.9"},
@@ -105,30 +140,34 @@ static const entry_field in_time[] = {
      .left_out = "as rho says"},
     {"mass", ENTRY_WORD, .words = SCENE_MASS_CHOICES,
      .summary = "of members: lumped at the nodes, or consistent, by alpha and radau",
-     .left_out = "consistent by alpha and radau, lumped by the others or as the scene says"},
-    {"about", ENTRY_NAME,
-     .summary = "static analysis, continuation or rotation from whose last state, or motion that "
-                "goes on, with its "
-                "rates and its time",
-     .left_out = "undeformed"},
+     .left_out = "consistent by alpha and radau, lumped by the others or as the scene says",
+     ENTRY_IN(scene_analysis, of.motion.mass), .first = SCENE_LUMPED},
+    ABOUT("static analysis, continuation or rotation from whose last state, or motion that "
+          "goes on, with its rates and its time"),
     {"start", ENTRY_MAP, .below = start, .summary = "velocities at the begin",
      .left_out = "at rest, or as about has it"},
     {.name = NULL}};
 
 const entry_field entry_analysis[] = {
-    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = nothing,
-     .summary = "loads at factor 1"},
-    {"static", ENTRY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path"},
-    {"buckling", ENTRY_MAP, .needed = 1, .group = 1, .below = buckling,
-     .summary = "critical loads"},
+    {"linear", ENTRY_MAP, .needed = 1, .group = 1, .below = nothing, .summary = "loads at factor 1",
+     ENTRY_IN(scene_analysis, kind), .first = SCENE_LINEAR},
+    {"static", ENTRY_MAP, .needed = 1, .group = 1, .below = path, .summary = "along a path",
+     ENTRY_IN(scene_analysis, kind), .first = SCENE_STATIC},
+    {"buckling", ENTRY_MAP, .needed = 1, .group = 1, .below = buckling, .summary = "critical loads",
+     ENTRY_IN(scene_analysis, kind), .first = SCENE_BUCKLING},
     {"modal", ENTRY_MAP, .needed = 1, .group = 1, .below = modes,
-     .summary = "frequencies; driven components are held"},
-    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = compliance, .summary = "6 x 6"},
+     .summary = "frequencies; driven components are held", ENTRY_IN(scene_analysis, kind),
+     .first = SCENE_MODAL},
+    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = compliance, .summary = "6 x 6",
+     ENTRY_IN(scene_analysis, kind), .first = SCENE_COMPLIANCE},
     {"continuation", ENTRY_MAP, .needed = 1, .group = 1, .below = continuation,
-     .summary = "path of a load factor"},
-    {"rotation", ENTRY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary"},
+     .summary = "path of a load factor", ENTRY_IN(scene_analysis, kind),
+     .first = SCENE_CONTINUATION},
+    {"rotation", ENTRY_MAP, .needed = 1, .group = 1, .below = rotation, .summary = "stationary",
+     ENTRY_IN(scene_analysis, kind), .first = SCENE_ROTATION},
     {"motion", ENTRY_MAP, .needed = 1, .group = 1, .below = in_time,
-     .summary = "in time: dynamics; needs masses"},
+     .summary = "in time: dynamics; needs masses", ENTRY_IN(scene_analysis, kind),
+     .first = SCENE_MOTION},
     {.name = NULL}};
 
 #define TAKEN                                                                                      \

@@ -114,26 +114,17 @@ static void scale_entries(scene *s, entry_base base, double times)
         entry_scale(entry_load, &s->load[i], base, times);
         scale_load(&s->load[i], base, times);
     }
+    for (int i = 0; i < s->analyses; i++)
+        entry_scale(entry_analysis, &s->analysis[i], base, times);
 }
 
-static void scale_analysis(scene_analysis *a, double x)
+/* Steps along the control coordinate are lengths, those of arc are not. */
+static void scale_steps(scene_analysis *a, double x)
 {
-    if (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION)
-        scale_vector(a->of.walk.frame.centre, x);
-    if (a->kind == SCENE_MOTION) {
-        scale_vector(a->of.motion.start.velocity, x);
-        scale_vector(a->of.motion.start.centre, x);
-    }
-    if (a->kind != SCENE_CONTINUATION)
+    if (a->kind != SCENE_CONTINUATION || a->of.continuation.control.by_arc)
         return;
-    scene_continuation *c = &a->of.continuation;
-    scale_vector(c->frame.centre, x);
-    for (int i = 0; i < c->path.stations; i++) /* of the control coordinate, a translation */
-        c->path.value[i] *= x;
-    if (!c->control.by_arc) {
-        c->control.step *= x;
-        c->control.step_max *= x;
-    }
+    a->of.continuation.control.step *= x;
+    a->of.continuation.control.step_max *= x;
 }
 
 static int translates(int component)
@@ -211,7 +202,7 @@ status scene_change_unit(scene *s, double x, fault *f)
     for (int i = 0; i < s->springs; i++)
         scale_spring(&s->spring[i], x);
     for (int i = 0; i < s->analyses; i++)
-        scale_analysis(&s->analysis[i], x);
+        scale_steps(&s->analysis[i], x);
     for (int i = 0; i < s->quantities; i++)
         scale_quantity(s, &s->quantity[i], x);
     return scale_drivers(s, x, f);

@@ -265,9 +265,13 @@ static status check_numbers(const scene *s, fault *f)
         size_t size;
         const entry_field *table;
         const void *first;
-    } all[] = {{SCENE_NODES, s->nodes, sizeof *s->node, entry_node, s->node},
+    } all[] = {{SCENE_SECTIONS, s->sections, sizeof *s->section, entry_section, s->section},
+               {SCENE_NODES, s->nodes, sizeof *s->node, entry_node, s->node},
                {SCENE_MEMBERS, s->members, sizeof *s->member, entry_member, s->member},
-               {SCENE_LOADS, s->loads, sizeof *s->load, entry_load, s->load}};
+               {SCENE_SPRINGS, s->springs, sizeof *s->spring, entry_spring, s->spring},
+               {SCENE_DRIVERS, s->drivers, sizeof *s->driver, entry_driver, s->driver},
+               {SCENE_LOADS, s->loads, sizeof *s->load, entry_load, s->load},
+               {SCENE_ANALYSES, s->analyses, sizeof *s->analysis, entry_analysis, s->analysis}};
     fault why = {""};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)

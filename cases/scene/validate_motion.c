@@ -45,13 +45,6 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
                          "integrator: alpha or radau",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          m->scheme == SCENE_CONSERVING ? "conserving" : "explicit");
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(m->start.velocity[k]) || !isfinite(m->start.spin[k]) ||
-            !isfinite(m->start.centre[k]))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: it starts with a velocity that is not a number; give finite components",
-                scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
 

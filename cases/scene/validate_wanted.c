@@ -37,17 +37,6 @@ static status check_path(const scene *s, const scene_analysis *a, int i, fault *
     return STATUS_OK;
 }
 
-static status check_frame(const scene *s, const scene_rotating_frame *frame, int i, fault *f)
-{
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(frame->omega[k]) || !isfinite(frame->centre[k]))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: its angular velocity is not a number; give finite components, "
-                             "and a finite point of its axis",
-                             scene_called(s, SCENE_ANALYSES, i).text);
-    return STATUS_OK;
-}
-
 static status check_compliance(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const int node = scene_compliance_of(a)->node;
@@ -107,8 +96,6 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
         TRY(check_about(s, a, i, f));
     if (scene_path_of(a) != NULL)
         TRY(check_path(s, a, i, f));
-    if (scene_rotating_frame_of(a) != NULL)
-        TRY(check_frame(s, scene_rotating_frame_of(a), i, f));
     if (a->kind == SCENE_CONTINUATION)
         return check_continuation(s, i, f);
     if (a->kind == SCENE_MOTION)

@@ -200,7 +200,7 @@ static void frequency_of_motion(scene *s)
 
 static const refusal refusals[] = {
     {step_of_nothing, "analysis 1: ", "a step of 0 s"},
-    {step_without_end, "analysis 1: ", "a step of inf s"},
+    {step_without_end, "analysis 1: ", "step = inf"},
     {tolerance_below, "analysis 1: ", "a tolerance of -0.0001"},
     {tolerance_above, "analysis 1: ", "a tolerance of 1;"},
     {station_before, "analysis 1: ", "a station at -0.5 s"},
@@ -209,7 +209,7 @@ static const refusal refusals[] = {
     {alpha_beyond, "analysis 1: ", "not stable"},
     {alpha_of_radius_beyond, "analysis 1: ", "not stable"},
     {integrator_unknown, "analysis 1: ", "no such integrator"},
-    {starts_nowhere, "analysis 1: ", "a velocity that is not a number"},
+    {starts_nowhere, "analysis 1: ", "spin = nan"},
     {without_mass, "analysis 1: ", "nothing in it has a mass"},
     {after_linear, "analysis 2: ", "what it follows is linear"},
     {modes_of_motion, "analysis 2: ", "it is about a motion"},

@@ -138,7 +138,7 @@ static const refusal refusals[] = {
     {follows_itself, "analysis 0: ", "does not come before it"},
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "needs a station"},
-    {spin, "analysis 0: ", "angular velocity is not a number"},
+    {spin, "analysis 0: ", "omega = "},
     {uncontrolled, "analysis 0: ", "control coordinate"},
     {step, "analysis 0: ", "steps of 0 to 0.1"},
     {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},

@@ -100,42 +100,17 @@ static inline int same_load(const scene_load *a, const scene_load *b)
            same_function(&a->function, &b->function);
 }
 
-static inline int same_motion(const scene_motion *a, const scene_motion *b)
-{
-    return a->scheme == b->scheme && a->mass == b->mass &&
-           same_numbers(1, &a->alpha.mass, &b->alpha.mass) &&
-           same_numbers(1, &a->alpha.force, &b->alpha.force) &&
-           same_numbers(1, &a->step, &b->step) && same_numbers(1, &a->tolerance, &b->tolerance) &&
-           same_numbers(3, a->start.velocity, b->start.velocity) &&
-           same_numbers(3, a->start.spin, b->start.spin) &&
-           same_numbers(3, a->start.centre, b->start.centre);
-}
-
 static inline int same_analysis(const scene_analysis *a, const scene_analysis *b)
 {
-    const scene_path *p = scene_path_of(a), *q = scene_path_of(b);
-    const scene_rotating_frame *s = scene_rotating_frame_of(a), *t = scene_rotating_frame_of(b);
-    int same = a->kind == b->kind && a->follows == b->follows && (p == NULL) == (q == NULL);
-    if (same && p != NULL)
-        same = p->stations == q->stations && same_numbers(p->stations, p->value, q->value);
-    if (same && a->kind == SCENE_MOTION)
-        same = same_motion(scene_motion_of(a), scene_motion_of(b));
-    if (same && s != NULL)
-        same = same_numbers(3, s->omega, t->omega) && same_numbers(3, s->centre, t->centre);
-    if (same && (a->kind == SCENE_STATIC || a->kind == SCENE_ROTATION))
-        same = scene_walk_of(a)->steps_between == scene_walk_of(b)->steps_between &&
-               scene_walk_of(a)->modes == scene_walk_of(b)->modes;
-    if (same && a->kind == SCENE_COMPLIANCE)
-        same =
-            memcmp(scene_compliance_of(a), scene_compliance_of(b), sizeof(scene_compliance)) == 0;
-    if (same && a->kind == SCENE_CONTINUATION) {
-        const scene_control *c = &scene_continuation_of(a)->control,
-                            *d = &scene_continuation_of(b)->control;
-        same = c->node == d->node && c->component == d->component && c->by_arc == d->by_arc &&
-               same_numbers(1, &c->step, &d->step) && same_numbers(1, &c->step_max, &d->step_max) &&
-               c->constant_steps == d->constant_steps;
-    }
-    return same;
+    if (!entry_same(entry_analysis, a, b))
+        return 0;
+    if (a->kind == SCENE_CONTINUATION)
+        return same_numbers(1, &scene_continuation_of(a)->control.step_max,
+                            &scene_continuation_of(b)->control.step_max);
+    return a->kind != SCENE_MOTION ||
+           (scene_motion_of(a)->scheme == scene_motion_of(b)->scheme &&
+            same_numbers(1, &scene_motion_of(a)->alpha.mass, &scene_motion_of(b)->alpha.mass) &&
+            same_numbers(1, &scene_motion_of(a)->alpha.force, &scene_motion_of(b)->alpha.force));
 }
 
 static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
