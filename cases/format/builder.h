@@ -74,13 +74,6 @@ void builder_motions(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* What a quantity can be a value of, and how that is read from the map below its key. */
-typedef struct builder_extract {
-    const char *key;
-    scene_extract (*read)(const fields *);
-} builder_extract;
-const builder_extract *builder_extract_of(const fields *quantity);
-enum { BUILDER_MOST_ORDER = 100000 }; /* of an eigenvalue, a point, a crossing */
 /* What the table does not say of a motion in time. */
 void builder_in_time(const fields *f, scene_motion *how);
 /* Adds a piece to the function of time of an entry of the scene. */
@@ -90,10 +83,8 @@ typedef void builder_piece(scene *, int index, double until, const char *text);
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
 /* Is there one? */
 int builder_has_function(const fields *f);
-/* Tells that an analysis does not have the quantity `key` at `what`, and which kinds of analysis
- * do. */
-void builder_no_quantity(const fields *what, const char *analysis, const char *key,
-                         scene_analysis_kind is, scene_quantity_kind kind);
+/* Tells that the analysis of a quantity does not have it, and which kinds of analysis do. */
+void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
 /* `path` and as many `values` as it has stations: their number; 0 after a mistake or where there
  * are none. */
 int builder_stations(const fields *f, const char *values, double **path, double **value);

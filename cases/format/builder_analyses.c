@@ -36,17 +36,17 @@ void builder_analyses(builder *b)
     }
 }
 
-void builder_no_quantity(const fields *what, const char *analysis, const char *key,
-                         scene_analysis_kind is, scene_quantity_kind kind)
+void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q)
 {
+    const scene_analysis *a = &what->b->scene->analysis[q->analysis];
     char who[128] = "";
     for (int k = SCENE_LINEAR; k <= SCENE_MOTION; k++)
-        if (scene_gives((scene_analysis_kind)k, kind)) {
+        if (scene_gives((scene_analysis_kind)k, q->what.kind)) {
             const size_t used = strlen(who);
             snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",
                      scene_analysis_name((scene_analysis_kind)k));
         }
     document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
-                     "'%s' is %s and has no %s; name an analysis that has: %s", analysis,
-                     scene_analysis_name(is), key, who);
+                     "'%s' is %s and has no %s; name an analysis that has: %s", a->name,
+                     scene_analysis_name(a->kind), key, who);
 }

@@ -5,6 +5,7 @@
 
 #include "cases/format/builder.h"
 #include "cases/format/units.h"
+#include "cases/scene/quantity_type.h"
 
 /* Unit of a value where the file gives none. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
@@ -13,47 +14,7 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
         return "Hz";
     if (q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN)
         return "s";
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-        return scene_component_of(q)->component <= SCENE_UZ ? "m" : "rad";
-    case SCENE_REACTION:
-        return scene_component_of(q)->component <= SCENE_UZ ? "N" : "N m";
-    case SCENE_COMPLIANCE_ENTRY:
-        return scene_compliance_unit(scene_entry_of(q)->row, scene_entry_of(q)->column);
-    case SCENE_STIFFNESS_ENTRY:
-        return scene_entry_of(q)->row <= SCENE_UZ ? "N/m" : "N m/rad";
-    case SCENE_FREQUENCY:
-        return "Hz";
-    case SCENE_GROWTH:
-        return "1/s";
-    case SCENE_CRITICAL_POINT:
-        return scene_point_of(q)->ordinate == SCENE_CONTROL ? "m" : "1";
-    case SCENE_DRIVER_VALUE:
-        for (int i = 0; i < s->nodes; i++)
-            for (int k = 0; k < 3; k++)
-                if (s->node[i].angle[k] == scene_driver_of(q))
-                    return "rad";
-        return "m";
-    case SCENE_INTERNAL:
-        if (scene_internal_of(q)->resultant == SCENE_BIMOMENT)
-            return "N m^2";
-        return scene_internal_of(q)->resultant < SCENE_MX ? "N" : "N m";
-    case SCENE_RELATIVE:
-        return scene_relative_of(q)->component <= SCENE_UZ ? "m" : "rad";
-    case SCENE_RATE:
-        return scene_component_of(q)->component <= SCENE_UZ ? "m/s" : "rad/s";
-    case SCENE_BALANCE:
-        if (scene_balance_in(q) < SCENE_PX)
-            return "J";
-        return scene_balance_in(q) < SCENE_LX ? "kg m/s" : "kg m^2/s";
-    case SCENE_STRESS:
-        return "Pa";
-    case SCENE_ORIENTATION:
-    case SCENE_CRITICAL_FACTOR:
-    case SCENE_FACTOR_AT:
-        break;
-    }
-    return "1";
+    return quantity_type_of(q)->unit(s, q);
 }
 
 static void read_unit(const fields *f, scene_quantity *q)
@@ -120,10 +81,8 @@ static void read_abscissa(const fields *f, scene_quantity *q)
 /* Which stations: `at` a value, or last, max, min, curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
-    static const scene_reduction taken[] = {
-        SCENE_LAST,     SCENE_MAX,      SCENE_MIN,    SCENE_CURVE,      SCENE_MAX_TIME,
-        SCENE_MIN_TIME, SCENE_CROSSING, SCENE_PERIOD, SCENE_PER_SECOND, SCENE_MEAN};
-    q->reduction = taken[fields_word(what, "take", SCENE_TAKE_CHOICES, 0)];
+    const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0);
+    q->reduction = (scene_reduction)(taken + (taken >= SCENE_AT));
     if (fields_have(what, "at"))
         scene_set_at(q, fields_number(what, "at", 0));
     if (q->reduction == SCENE_CURVE)
@@ -133,20 +92,6 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa is of a curve; add take: curve, or leave it out");
 }
 
-/* Which crossing of a motion, and in which window. */
-static void read_passing(const fields *entry, scene_quantity *q)
-{
-    const fields f = fields_below(entry, "when");
-    if (f.map == NULL)
-        return;
-    q->passing = (scene_passing){
-        .level = fields_number(&f, "level", 0),
-        .direction = (scene_direction)fields_word(&f, "direction", SCENE_DIRECTION_CHOICES, 0),
-        .order = fields_whole(&f, "which", 0, 0, BUILDER_MOST_ORDER),
-        .from = fields_number(&f, "from", 0),
-        .until = fields_number(&f, "until", 0)};
-}
-
 /* The prediction's source stays when the scene is built anew: as it stands in the file. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
@@ -154,7 +99,6 @@ static void read_prediction(const fields *f, const unrolled *entry, scene_quanti
     if (prediction.map == NULL)
         return;
     const document_node *written = document_find(entry->written, "prediction");
-    q->prediction.value = fields_number(&prediction, "value", 0);
     q->prediction.source = document_find(written, "source")->text;
 }
 
@@ -181,12 +125,26 @@ static void check_wanted(builder *b)
         const fields entry = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
         const fields f = fields_below(&entry, fields_have(&entry, "modal") ? "modal" : "buckling");
         const int asked = asked_of(b->scene, i);
-        if (fields_have(&f, "wanted") &&
-            fields_whole(&f, "wanted", 0, 1, BUILDER_MOST_ORDER) < asked)
+        if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < asked)
             document_mistake(b->mistakes, document_find(f.map, "wanted"), 0,
                              "quantities ask for %d of this analysis; write %d, or leave it out",
                              asked, asked);
     }
+}
+
+/* What its table does not say of its kind. */
+static void settle(const fields *what, const quantity_type *type, scene_quantity *q)
+{
+    const scene *s = what->b->scene;
+    const char *key = "", *wrong = type->settle != NULL ? type->settle(s, q, &key) : NULL;
+    if (wrong != NULL)
+        document_mistake(what->b->mistakes, document_find(what->map, key), 0, "%s", wrong);
+    if (fields_have(what, "side") && !fields_have(what, "where"))
+        document_mistake(what->b->mistakes, document_find(what->map, "side"), 0,
+                         "side: of a place of the member, at which a load acts; say which, with "
+                         "'where', or take it away");
+    if (q->analysis >= 0 && !scene_gives(s->analysis[q->analysis].kind, type->kind))
+        builder_no_quantity(what, type->key, q);
 }
 
 void builder_quantities(builder *b)
@@ -194,23 +152,14 @@ void builder_quantities(builder *b)
     for (int i = 0; i < b->list[SCENE_QUANTITIES].count; i++) {
         const unrolled *entry = &b->list[SCENE_QUANTITIES].entry[i];
         const fields f = fields_of(b, entry);
-        const builder_extract *kind = builder_extract_of(&f);
-        const fields what = fields_below(&f, kind->key);
-        const int analysis = fields_entry(&what, "analysis", SCENE_ANALYSES);
-        const scene_extract extract = kind->read(&what);
-        if (analysis >= 0 && analysis < b->scene->analyses &&
-            !scene_gives(b->scene->analysis[analysis].kind, extract.kind))
-            builder_no_quantity(&what, b->list[SCENE_ANALYSES].entry[analysis].name, kind->key,
-                                b->scene->analysis[analysis].kind, extract.kind);
-        scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", analysis, extract);
+        scene_quantity *q = scene_add_quantity(b->scene, entry->name, "", SCENE_NONE,
+                                               (scene_extract){.kind = SCENE_COORDINATE});
+        fields_read(&f, entry_quantity, q);
+        const quantity_type *type = quantity_type_of(q);
+        const fields what = fields_below(&f, type->key);
+        settle(&what, type, q);
         read_stations(&f, &what, q);
-        read_passing(&f, q);
         read_unit(&f, q);
-        q->factor = fields_number(&f, "factor", 1);
-        q->offset = fields_number(&f, "offset", 0);
-        q->near_zero = fields_number(&f, "near_zero", 0);
-        q->tolerance = fields_number(&f, "tolerance", SCENE_TOLERANCE);
-        q->least_order = fields_number(&f, "order", 0);
         read_prediction(&f, entry, q);
     }
     take_abscissa_units(b->scene);

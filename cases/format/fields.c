@@ -8,6 +8,7 @@
 #include "cases/format/range.h"
 #include "cases/format/substitute.h"
 #include "cases/scene/list.h"
+#include "cases/scene/quantity_type.h"
 #include "elements/shared/choice.h"
 
 const char fields_components[] = "ux|uy|uz|rx|ry|rz";
@@ -247,7 +248,7 @@ static int read_word(const fields *f, const entry_field *k)
     const int index = fields_word(f, k->name, k->words, -1);
     if (k->kind == ENTRY_FLAG)
         return index > 0 ? index % 2 : 0;
-    return index < 0 ? entry_word(k, k->usual) : k->first + (k->falls ? -index : index);
+    return index < 0 ? entry_word(k, k->usual) : entry_value(k, index);
 }
 
 static void read_map(const fields *f, const entry_field *k, void *entry)
@@ -255,9 +256,10 @@ static void read_map(const fields *f, const entry_field *k, void *entry)
     const fields below = fields_below(f, k->name);
     if (below.map == NULL)
         return;
+    const int first = k->type != NULL ? (int)k->type->kind : k->first;
     if (k->size > 0)
-        memcpy((char *)entry + k->at, &k->first, sizeof k->first);
-    fields_read(&below, k->below, entry);
+        memcpy((char *)entry + k->at, &first, sizeof first);
+    fields_read(&below, entry_below(k), entry);
 }
 
 static void read_field(const fields *f, const entry_field *k, void *entry)
@@ -285,7 +287,10 @@ static void read_field(const fields *f, const entry_field *k, void *entry)
         break;
     case ENTRY_WORD:
     case ENTRY_FLAG:
-        *(int *)to = read_word(f, k);
+        if (k->size == sizeof(int))
+            *(int *)to = read_word(f, k);
+        else if (fields_have(f, k->name))
+            *(double *)to = read_word(f, k);
         break;
     case ENTRY_WORDS:
         *(unsigned *)to = fields_words(f, k->name, k->words);

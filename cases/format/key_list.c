@@ -46,8 +46,9 @@ static const char *form_of(const entry_field *k, char text[32])
 /* "summary [unit] (word, word); left out: 0", or "... *". */
 static void describe(const entry_field *k, char text[DESCRIPTION])
 {
-    int used = snprintf(text, DESCRIPTION, "%s%s%s%s", k->summary, k->unit != NULL ? " [" : "",
-                        k->unit != NULL ? k->unit : "", k->unit != NULL ? "]" : "");
+    int used =
+        snprintf(text, DESCRIPTION, "%s%s%s%s", entry_summary(k), k->unit != NULL ? " [" : "",
+                 k->unit != NULL ? k->unit : "", k->unit != NULL ? "]" : "");
     const char *joint = " (";
     for (const char *at = k->words; at != NULL && used < DESCRIPTION; joint = ", ") {
         const size_t length = strcspn(at, "|");
@@ -73,7 +74,7 @@ static void walk(const entry_field *table, int depth, key_list_take *take, void 
         describe(table, text);
         take(context, depth, table->name, form_of(table, form), text);
         if (table->kind == ENTRY_MAP || table->kind == ENTRY_ENTRIES || table->kind == ENTRY_LIST)
-            walk(table->below, depth + 1, take, context);
+            walk(entry_below(table), depth + 1, take, context);
     }
 }
 

@@ -206,7 +206,7 @@ static void check_words(const document_node *n, const document_node *name, mista
 static void check_value(const document_node *n, const entry_field *k, const document_node *name,
                         mistakes *m)
 {
-    const known_keys below = {k->below, NULL};
+    const known_keys below = {entry_below(k), NULL};
     switch (k->kind) {
     case ENTRY_TEXT:
     case ENTRY_NAME:
@@ -328,7 +328,7 @@ static void check_missing(const document_node *map, const known_keys *known,
             document_mistake(m, name, 0, "%.40s: one of %.200s is missing", name->text, group);
         else
             document_mistake(m, name, 0, "%.40s: '%s' is missing (%s)", name->text, k->name,
-                             k->summary);
+                             entry_summary(k));
     }
 }
 

@@ -53,7 +53,7 @@ static json_t *value_of(const entry_field *k)
         return json_pack("{s:[{s:s}, {s:s, s:o}]}", "anyOf", "type", "string", "type", "array",
                          "items", scalar());
     case ENTRY_MAP:
-        return map_of(k->below, NULL);
+        return map_of(entry_below(k), NULL);
     case ENTRY_ENTRIES:
         return json_pack("{s:s, s:o}", "type", "object", "additionalProperties",
                          map_of(k->below, keys_loops(k->below) ? keys_loop : NULL));
@@ -84,9 +84,10 @@ static void add_keys(json_t *properties, json_t *required, const entry_field *ta
         json_t *value = value_of(table);
         char text[500];
         const char *without = table->usual != NULL ? table->usual : table->left_out;
-        snprintf(text, sizeof text, "%s%s%s%s%s%s", table->summary, table->unit != NULL ? " [" : "",
-                 table->unit != NULL ? table->unit : "", table->unit != NULL ? "]" : "",
-                 without != NULL ? "; left out: " : "", without != NULL ? without : "");
+        snprintf(text, sizeof text, "%s%s%s%s%s%s", entry_summary(table),
+                 table->unit != NULL ? " [" : "", table->unit != NULL ? table->unit : "",
+                 table->unit != NULL ? "]" : "", without != NULL ? "; left out: " : "",
+                 without != NULL ? without : "");
         json_object_set_new(value, "description", json_string(text));
         if (table->usual != NULL)
             json_object_set_new(value, "default", usual_of(table));

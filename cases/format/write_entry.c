@@ -27,7 +27,7 @@ static void write_value(writer *w, const entry_field *k, const void *entry)
         write_values_name(w, k->of, whole);
         break;
     case ENTRY_WORD:
-        write_values_word(w, k->words, k->falls ? k->first - whole : whole - k->first);
+        write_values_word(w, k->words, entry_index(k, whole));
         break;
     case ENTRY_FLAG:
         write_values_word(w, k->words, whole);
@@ -66,7 +66,7 @@ void write_entry(writer *w, const entry_field *table, const void *entry, const w
         else if ((k->size > 0 || k->kind == ENTRY_MAP) && is_due(k, entry)) {
             write_values_key(w, k->name);
             if (k->kind == ENTRY_MAP)
-                write_entry(w, k->below, entry, own);
+                write_entry(w, entry_below(k), entry, own);
             else
                 write_value(w, k, entry);
         }

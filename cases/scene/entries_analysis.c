@@ -1,5 +1,5 @@
 /* What is asked of a structure: analyses and quantities. */
-#include "cases/scene/entry.h"
+#include "cases/scene/quantity_type.h"
 
 static const entry_field nothing[] = {{.name = NULL}};
 
@@ -170,120 +170,6 @@ const entry_field entry_analysis[] = {
      .first = SCENE_MOTION},
     {.name = NULL}};
 
-#define TAKEN                                                                                      \
-    {"analysis", ENTRY_NAME, .needed = 1, .summary = "analysis"},                                  \
-        {"at", ENTRY_NUMBER, .group = 1, .summary = "station", .left_out = "as take says"},        \
-        {"take",                                                                                   \
-         ENTRY_WORD,                                                                               \
-         .group = 1,                                                                               \
-         .words = SCENE_TAKE_CHOICES,                                                              \
-         .summary = "of all stations",                                                             \
-         .usual = "last"}
-
-static const entry_field component[] = {TAKEN,
-                                        {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
-                                        {"component", ENTRY_WORD, .needed = 1,
-                                         .words = ENTRY_COMPONENTS,
-                                         .summary = "of its coordinates"},
-                                        {.name = NULL}};
-
-static const entry_field reaction[] = {
-    TAKEN,
-    {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
-    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
-     .summary = "of its coordinates; turn_1: about the first axis of its sequence"},
-    {.name = NULL}};
-
-static const entry_field internal[] = {
-    TAKEN,
-    {"member", ENTRY_NAME, .needed = 1, .summary = "member"},
-    {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "of the member"},
-    {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
-     .summary = "0 'from' to 1 'to', of its length"},
-    {"side", ENTRY_WORD, .words = "from|to",
-     .summary = "of 'where', towards that node: resultants jump where a load acts", .usual = "to"},
-    {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
-     .summary = "over the member: largest and least value, or largest magnitude"},
-    {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
-     .summary = "of what lies towards 'to', in the turned section's principal axes"},
-    {.name = NULL}};
-
-static const entry_field stress[] = {
-    TAKEN,
-    {"member", ENTRY_NAME, .needed = 1, .summary = "member; its section not given by constants"},
-    {"where", ENTRY_NUMBER, .summary = "0 'from' to 1 'to', of its length",
-     .left_out = "all along it"},
-    {"side", ENTRY_WORD, .words = "from|to",
-     .summary = "of 'where', towards that node: resultants jump where a load acts", .usual = "to"},
-    {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
-     .usual = "von_mises"},
-    {.name = NULL}};
-
-static const entry_field entry[] = {
-    TAKEN,
-    {"row", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "response"},
-    {"column", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "force or moment"},
-    {.name = NULL}};
-
-static const entry_field diagonal[] = {TAKEN,
-                                       {"component", ENTRY_WORD, .needed = 1,
-                                        .words = ENTRY_COMPONENTS, .summary = "of the coordinates"},
-                                       {.name = NULL}};
-
-static const entry_field critical[] = {
-    {"analysis", ENTRY_NAME, .needed = 1, .summary = "analysis"},
-    {"which", ENTRY_NUMBER, .summary = "counted from 0", .usual = "0"},
-    {"sign", ENTRY_WORD, .words = "positive|negative", .summary = "of the load factor",
-     .usual = "positive"},
-    {.name = NULL}};
-
-static const entry_field frequency[] = {
-    TAKEN,
-    {"which", ENTRY_NUMBER, .summary = "counted from 0, of the family", .usual = "0"},
-    {"family", ENTRY_WORD, .words = "any|not_axial|axial|bending_y|bending_z|torsion",
-     .summary = "of modes", .usual = "any"},
-    {"half_waves", ENTRY_NUMBER, .summary = "of the mode; 0: any", .usual = "0"},
-    {.name = NULL}};
-
-static const entry_field whole[] = {TAKEN, {.name = NULL}};
-
-static const entry_field motion[] = {
-    TAKEN, {"motion", ENTRY_NAME, .needed = 1, .summary = "unknown motion"}, {.name = NULL}};
-
-static const entry_field orientation[] = {
-    TAKEN,
-    {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
-    {"row", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "of its rotation matrix"},
-    {"column", ENTRY_WORD, .needed = 1, .words = "x|y|z", .summary = "of it"},
-    {.name = NULL}};
-
-static const entry_field energy[] = {
-    TAKEN,
-    {"of", ENTRY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
-     .summary = "drift: energy and what was dissipated, less energy of the begin and work"},
-    {.name = NULL}};
-
-static const entry_field momentum[] = {TAKEN,
-                                       {"component", ENTRY_WORD, .needed = 1,
-                                        .words = "px|py|pz|lx|ly|lz",
-                                        .summary = "p: linear; l: angular, about the origin"},
-                                       {.name = NULL}};
-
-static const entry_field relative[] = {
-    TAKEN,
-    {"node", ENTRY_NAME, .needed = 1, .summary = "node"},
-    {"from", ENTRY_NAME, .needed = 1, .summary = "node in whose axes"},
-    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "of its motion"},
-    {.name = NULL}};
-
-static const entry_field critical_point[] = {
-    {"analysis", ENTRY_NAME, .needed = 1, .summary = "continuation"},
-    {"kind", ENTRY_WORD, .needed = 1, .words = "limit|bifurcation", .summary = "of the point"},
-    {"which", ENTRY_NUMBER, .summary = "counted from 0", .usual = "0"},
-    {"value", ENTRY_WORD, .words = "factor|coordinate",
-     .summary = "what of it: the load factor or the coordinate", .usual = "factor"},
-    {.name = NULL}};
-
 static const entry_field abscissa[] = {
     {"quantity", ENTRY_NAME, .summary = "whose curve, of the same path, it is",
      .left_out = "the path, or time"},
@@ -294,59 +180,43 @@ static const entry_field abscissa[] = {
     {.name = NULL}};
 
 static const entry_field when[] = {
-    {"level", ENTRY_NUMBER, .summary = "that is crossed, in SI units before factor and offset",
-     .usual = "0"},
     {"direction", ENTRY_WORD, .words = SCENE_DIRECTION_CHOICES, .summary = "of the crossing",
-     .usual = "rising"},
-    {"which", ENTRY_NUMBER, .summary = "crossing, counted from 0", .usual = "0"},
-    {"from", ENTRY_NUMBER, .summary = "begin of the window [s]", .usual = "0"},
-    {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion"},
+     .usual = "rising", ENTRY_IN(scene_quantity, passing.direction), .always = 1},
+    {"level", ENTRY_NUMBER, .summary = "that is crossed, in SI units before factor and offset",
+     .usual = "0", ENTRY_IN(scene_quantity, passing.level)},
+    {"which", ENTRY_WHOLE, .summary = "crossing, counted from 0", .usual = "0",
+     ENTRY_IN(scene_quantity, passing.order), .most = ENTRY_MOST_ORDER},
+    {"from", ENTRY_NUMBER, .summary = "begin of the window [s]", .usual = "0",
+     ENTRY_IN(scene_quantity, passing.from)},
+    {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion",
+     ENTRY_IN(scene_quantity, passing.until)},
     {.name = NULL}};
 
 static const entry_field prediction[] = {
-    {"value", ENTRY_NUMBER, .needed = 1, .summary = "of a model with an error of its own"},
+    {"value", ENTRY_NUMBER, .needed = 1, .summary = "of a model with an error of its own",
+     ENTRY_IN(scene_quantity, prediction.value)},
     {"source", ENTRY_TEXT, .needed = 1, .summary = "of the model"},
     {.name = NULL}};
 
+#define KIND(key)                                                                                  \
+    {#key,                                                                                         \
+     ENTRY_MAP,                                                                                    \
+     .needed = 1,                                                                                  \
+     .group = 1,                                                                                   \
+     .type = &quantity_##key,                                                                      \
+     ENTRY_IN(scene_quantity, what.kind)},
 const entry_field entry_quantity[] = {
-    {"displacement", ENTRY_MAP, .needed = 1, .group = 1, .below = component,
-     .summary = "or rotation, of a node"},
-    {"reaction", ENTRY_MAP, .needed = 1, .group = 1, .below = reaction,
-     .summary = "of a held or driven component"},
-    {"compliance", ENTRY_MAP, .needed = 1, .group = 1, .below = entry,
-     .summary = "entry of the matrix"},
-    {"stiffness", ENTRY_MAP, .needed = 1, .group = 1, .below = diagonal,
-     .summary = "1/compliance, the other components free"},
-    {"critical_factor", ENTRY_MAP, .needed = 1, .group = 1, .below = critical,
-     .summary = "critical load factor"},
-    {"frequency", ENTRY_MAP, .needed = 1, .group = 1, .below = frequency,
-     .summary = "natural frequency"},
-    {"growth", ENTRY_MAP, .needed = 1, .group = 1, .below = whole,
-     .summary = "largest rate of growth of a small motion"},
-    {"factor_at", ENTRY_MAP, .needed = 1, .group = 1, .below = whole,
-     .summary = "load factor where the control coordinate has a value"},
-    {"critical_point", ENTRY_MAP, .needed = 1, .group = 1, .below = critical_point,
-     .summary = "where the tangent is singular"},
-    {"motion", ENTRY_MAP, .needed = 1, .group = 1, .below = motion,
-     .summary = "value of an unknown motion"},
-    {"internal", ENTRY_MAP, .needed = 1, .group = 1, .below = internal,
-     .summary = "resultant of stresses on a section of a member"},
-    {"stress", ENTRY_MAP, .needed = 1, .group = 1, .below = stress,
-     .summary = "largest stress of a member or of a section of it"},
-    {"rate", ENTRY_MAP, .needed = 1, .group = 1, .below = component,
-     .summary = "velocity of a node, or angular velocity in its own axes"},
-    {"orientation", ENTRY_MAP, .needed = 1, .group = 1, .below = orientation,
-     .summary = "entry of a node's rotation matrix"},
-    {"relative", ENTRY_MAP, .needed = 1, .group = 1, .below = relative,
-     .summary = "displacement or rotation as seen from another node"},
-    {"energy", ENTRY_MAP, .needed = 1, .group = 1, .below = energy, .summary = "of a motion"},
-    {"momentum", ENTRY_MAP, .needed = 1, .group = 1, .below = momentum, .summary = "of a motion"},
-    {"unit", ENTRY_TEXT, .summary = "SI unit", .left_out = "that of the kind"},
-    {"tolerance", ENTRY_NUMBER, .summary = "relative, of the limit", .usual = "1e-3"},
-    {"order", ENTRY_NUMBER, .summary = "least order of convergence", .usual = "0"},
-    {"near_zero", ENTRY_NUMBER, .summary = "scale of errors of values near zero", .usual = "0"},
-    {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1"},
-    {"offset", ENTRY_NUMBER, .summary = "in the same unit", .usual = "0"},
+    QUANTITY_TYPES(KIND){"unit", ENTRY_TEXT, .summary = "SI unit", .left_out = "that of the kind"},
+    {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1",
+     ENTRY_IN(scene_quantity, factor), .always = 1},
+    {"offset", ENTRY_NUMBER, .summary = "in the same unit", .usual = "0",
+     ENTRY_IN(scene_quantity, offset)},
+    {"near_zero", ENTRY_NUMBER, .summary = "scale of errors of values near zero", .usual = "0",
+     ENTRY_IN(scene_quantity, near_zero)},
+    {"tolerance", ENTRY_NUMBER, .summary = "relative, of the limit", .usual = "1e-3",
+     ENTRY_IN(scene_quantity, tolerance)},
+    {"order", ENTRY_NUMBER, .summary = "least order of convergence", .usual = "0",
+     ENTRY_IN(scene_quantity, least_order)},
     {"x", ENTRY_MAP, .below = abscissa, .summary = "abscissa of a curve",
      .left_out = "the path or time"},
     {"when", ENTRY_MAP, .below = when, .summary = "of a motion: which crossing, and its window",

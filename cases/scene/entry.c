@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/quantity_type.h"
 #include "elements/shared/choice.h"
 
 /* Of the entry of a key. */
@@ -40,6 +41,26 @@ static int numbers_of(const entry_field *k, const void *entry, const double **ou
     }
 }
 
+const entry_field *entry_below(const entry_field *k)
+{
+    return k->type != NULL ? k->type->field : k->below;
+}
+
+const char *entry_summary(const entry_field *k)
+{
+    return k->type != NULL ? k->type->summary : k->summary;
+}
+
+int entry_value(const entry_field *k, int index)
+{
+    return k->first + (k->falls > 0 ? -k->falls * index : index);
+}
+
+int entry_index(const entry_field *k, int value)
+{
+    return k->falls > 0 ? (k->first - value) / k->falls : value - k->first;
+}
+
 double entry_usual(const entry_field *k)
 {
     return k->usual != NULL ? strtod(k->usual, NULL) : k->otherwise;
@@ -73,7 +94,7 @@ int entry_is_usual(const entry_field *k, const void *entry)
     case ENTRY_NUMBER:
         return k->size == 0 || (same_number(*number, entry_usual(k)) && !says_zero(k, entry));
     case ENTRY_MAP:
-        return k->size > 0 ? !entry_stands(k, entry) : all_usual(k->below, entry);
+        return k->size > 0 ? !entry_stands(k, entry) : all_usual(entry_below(k), entry);
     case ENTRY_NAME:
         return k->size == 0 || whole_of(k, entry) == SCENE_NONE;
     case ENTRY_WHOLE:
@@ -82,7 +103,7 @@ int entry_is_usual(const entry_field *k, const void *entry)
     case ENTRY_WORDS:
         return k->size == 0 || whole_of(k, entry) == 0;
     case ENTRY_WORD:
-        return k->size == 0 || whole_of(k, entry) == entry_word(k, k->usual);
+        return k->size != sizeof(int) || whole_of(k, entry) == entry_word(k, k->usual);
     default:
         for (int i = 0; i < count; i++)
             if (number[i] != 0)
@@ -94,12 +115,14 @@ int entry_is_usual(const entry_field *k, const void *entry)
 int entry_word(const entry_field *k, const char *word)
 {
     const int index = word != NULL ? choice_index(k->words, word) : -1;
-    return index < 0 ? (int)k->otherwise : k->first + (k->falls ? -index : index);
+    return index < 0 ? (int)k->otherwise : entry_value(k, index);
 }
 
 int entry_stands(const entry_field *k, const void *entry)
 {
-    return k->size == 0 || whole_of(k, entry) == k->first;
+    const int first = k->type != NULL ? (int)k->type->kind : k->first;
+    return k->size == 0 || (whole_of(k, entry) == first &&
+                            (k->type == NULL || k->type->is == NULL || k->type->is(entry)));
 }
 
 int entry_in_range(const entry_field *k, double value)
@@ -130,18 +153,56 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-status entry_check(const entry_field *table, const void *entry, fault *f)
+/* Is there such an entry, or none where there need not be one? */
+static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
-    for (const entry_field *k = table; k->name != NULL; k++) {
-        const double *number;
-        const int count = numbers_of(k, entry, &number);
-        for (int i = 0; i < count; i++)
-            TRY(check_number(k, number[i], f));
-        if (k->kind == ENTRY_WHOLE && k->size > 0)
-            TRY(check_number(k, whole_of(k, entry), f));
-        if (k->kind == ENTRY_MAP && entry_stands(k, entry))
-            TRY(entry_check(k->below, entry, f));
+    const char *what = scene_list_word(k->of);
+    if ((index == SCENE_NONE && !k->needed) || (index >= 0 && index < scene_count(s, k->of)))
+        return STATUS_OK;
+    if (index == SCENE_NONE)
+        return fault_set(f, STATUS_REFUSED, "%s: no %s is named; name one", k->name, what);
+    return fault_set(f, STATUS_REFUSED, "%s: %s %d does not exist; add the %s first", k->name, what,
+                     index, what);
+}
+
+/* A word that need not be there may have another value where it is not. */
+static status check_word(const entry_field *k, int value, fault *f)
+{
+    char word[SCENE_NAME] = "";
+    const int index = entry_index(k, value);
+    if (index >= 0)
+        choice_name(k->words, index, word, sizeof word);
+    return word[0] != '\0' || value == entry_word(k, k->usual)
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "%s: no word has the value %d; give one of %.100s",
+                           k->name, value, k->words);
+}
+
+static status check_field(const scene *s, const entry_field *k, const void *entry, fault *f)
+{
+    const double *number;
+    const int count = numbers_of(k, entry, &number);
+    for (int i = 0; i < count; i++)
+        TRY(check_number(k, number[i], f));
+    switch (k->size == sizeof(int) ? k->kind : ENTRY_LATER) {
+    case ENTRY_WHOLE:
+        return check_number(k, whole_of(k, entry), f);
+    case ENTRY_NAME:
+        return check_name(s, k, whole_of(k, entry), f);
+    case ENTRY_WORD:
+        return check_word(k, whole_of(k, entry), f);
+    default:
+        return STATUS_OK;
     }
+}
+
+status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f)
+{
+    for (const entry_field *k = table; k->name != NULL; k++)
+        if (k->kind != ENTRY_MAP)
+            TRY(check_field(s, k, entry, f));
+        else if (k->size > 0 ? entry_stands(k, entry) : !entry_is_usual(k, entry))
+            TRY(entry_check(s, entry_below(k), entry, f));
     return STATUS_OK;
 }
 
@@ -183,7 +244,7 @@ void entry_scale(const entry_field *table, void *entry, entry_base base, double 
         for (int i = 0; i < count; i++)
             number[i] *= pow(times, entry_power(k->unit, base));
         if (k->kind == ENTRY_MAP && entry_stands(k, entry))
-            entry_scale(k->below, entry, base, times);
+            entry_scale(entry_below(k), entry, base, times);
     }
 }
 
@@ -194,7 +255,7 @@ void entry_mirror(const entry_field *table, void *entry)
         for (size_t i = 0; k->mirrors != NULL && i < strlen(k->mirrors); i++)
             number[i] *= k->mirrors[i] == '-' ? -1 : 1;
         if (k->kind == ENTRY_MAP && entry_stands(k, entry))
-            entry_mirror(k->below, entry);
+            entry_mirror(entry_below(k), entry);
     }
 }
 
@@ -204,7 +265,7 @@ static int same_field(const entry_field *k, const void *a, const void *b)
     const int count = numbers_of(k, a, &x), other = numbers_of(k, b, &y);
     if (k->kind == ENTRY_MAP)
         return entry_stands(k, a) == entry_stands(k, b) &&
-               (!entry_stands(k, a) || entry_same(k->below, a, b));
+               (!entry_stands(k, a) || entry_same(entry_below(k), a, b));
     if (k->size > 0 && k->kind != ENTRY_NUMBERS)
         return memcmp(place_of(k, a), place_of(k, b), k->size) == 0;
     return count == other && (count == 0 || memcmp(x, y, (size_t)count * sizeof *x) == 0);

@@ -8,18 +8,28 @@ static const char *const word_of[] = {
     [SCENE_SPRINGS] = "spring",    [SCENE_DRIVERS] = "driver",     [SCENE_LOADS] = "load",
     [SCENE_ANALYSES] = "analysis", [SCENE_QUANTITIES] = "quantity"};
 
+int scene_count(const scene *s, scene_list list)
+{
+    const int count[] = {[SCENE_SECTIONS] = s->sections, [SCENE_NODES] = s->nodes,
+                         [SCENE_MEMBERS] = s->members,   [SCENE_SPRINGS] = s->springs,
+                         [SCENE_DRIVERS] = s->drivers,   [SCENE_LOADS] = s->loads,
+                         [SCENE_ANALYSES] = s->analyses, [SCENE_QUANTITIES] = s->quantities};
+    return count[list];
+}
+
+const char *scene_list_word(scene_list list)
+{
+    return word_of[list];
+}
+
 /* The room of a name; NULL where there is no such entry. */
 static char *room_of(const scene *s, scene_list list, int i)
 {
-    const int count[] = {[SCENE_SECTIONS] = s->computeds, [SCENE_NODES] = s->nodes,
-                         [SCENE_MEMBERS] = s->members,    [SCENE_SPRINGS] = s->springs,
-                         [SCENE_DRIVERS] = s->drivers,    [SCENE_LOADS] = s->loads,
-                         [SCENE_ANALYSES] = s->analyses,  [SCENE_QUANTITIES] = s->quantities};
-    if (i < 0 || i >= count[list])
+    if (i < 0 || i >= scene_count(s, list))
         return NULL;
     switch (list) {
     case SCENE_SECTIONS:
-        return s->computed[i].name;
+        return i < s->computeds ? s->computed[i].name : NULL;
     case SCENE_NODES:
         return s->node[i].name;
     case SCENE_MEMBERS:

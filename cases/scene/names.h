@@ -20,6 +20,9 @@ typedef struct scene_words {
     char text[SCENE_NAME + 16];
 } scene_words;
 
+/* How many entries the list has; "node". */
+int scene_count(const scene *s, scene_list list);
+const char *scene_list_word(scene_list list);
 /* A longer name is cut off; where there is no such entry nothing is done. */
 void scene_set_name(scene *s, scene_list list, int index, const char *name);
 /* "" where it has none, or is no entry. */

@@ -132,20 +132,6 @@ void scene_set_passing(scene_quantity *q, scene_reduction reduction, scene_passi
     q->passing = what;
 }
 
-int scene_is_passed(const scene_quantity *q, scene_analysis_kind analysis)
-{
-    static const int kinematic = 1 << SCENE_COORDINATE | 1 << SCENE_RATE | 1 << SCENE_RELATIVE |
-                                 1 << SCENE_ORIENTATION | 1 << SCENE_DRIVER_VALUE,
-                     forces = 1 << SCENE_REACTION | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS |
-                              1 << SCENE_BALANCE;
-    const int extreme = q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
-                        q->reduction == SCENE_MAX_TIME || q->reduction == SCENE_MIN_TIME;
-    if (analysis != SCENE_MOTION)
-        return 0;
-    return (kinematic >> q->what.kind & 1 && (extreme || q->reduction > SCENE_CURVE)) ||
-           (forces >> q->what.kind & 1 && extreme);
-}
-
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant)
 {
     return (scene_extract){SCENE_INTERNAL,
@@ -279,24 +265,4 @@ const char *scene_compliance_unit(int row, int column)
 {
     static const char *const unit[2][2] = {{"m/N", "1/N"}, {"rad/N", "rad/(N m)"}};
     return unit[row > SCENE_UZ][column > SCENE_UZ];
-}
-
-int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind)
-{
-    enum {
-        STATE = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_DRIVER_VALUE |
-                1 << SCENE_RELATIVE | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
-    };
-    static const int gives[] = {
-        [SCENE_LINEAR] =
-            1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_INTERNAL | 1 << SCENE_STRESS,
-        [SCENE_STATIC] = STATE,
-        [SCENE_MOTION] = STATE | 1 << SCENE_RATE | 1 << SCENE_ORIENTATION | 1 << SCENE_BALANCE,
-        [SCENE_BUCKLING] = 1 << SCENE_CRITICAL_FACTOR,
-        [SCENE_MODAL] = 1 << SCENE_FREQUENCY | 1 << SCENE_GROWTH,
-        [SCENE_COMPLIANCE] = 1 << SCENE_COMPLIANCE_ENTRY | 1 << SCENE_STIFFNESS_ENTRY,
-        [SCENE_CONTINUATION] = STATE | 1 << SCENE_FACTOR_AT | 1 << SCENE_CRITICAL_POINT,
-        [SCENE_ROTATION] = STATE | 1 << SCENE_FREQUENCY | 1 << SCENE_GROWTH,
-    };
-    return gives[analysis] >> kind & 1;
 }

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cases/scene/entry.h"
+#include "cases/scene/quantity_type.h"
 
 /* Each number times x to the power of its length. */
 typedef struct scaled {
@@ -101,6 +101,15 @@ static void scale_load(scene_load *load, entry_base base, double times)
     scale_vector(load->last, factor);
 }
 
+/* What is extracted, and what is compared with it. */
+static void scale_extract(const scene *s, scene_quantity *q, entry_base base, double times)
+{
+    const int power = entry_power(quantity_type_of(q)->unit(s, q), base);
+    const int timed = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
+    q->factor *= timed ? 1 : pow(times, -power);
+    q->passing.level *= pow(times, power);
+}
+
 /* What the tables of entries say. */
 static void scale_entries(scene *s, entry_base base, double times)
 {
@@ -116,6 +125,8 @@ static void scale_entries(scene *s, entry_base base, double times)
     }
     for (int i = 0; i < s->analyses; i++)
         entry_scale(entry_analysis, &s->analysis[i], base, times);
+    for (int i = 0; i < s->quantities; i++)
+        scale_extract(s, &s->quantity[i], base, times);
 }
 
 /* Steps along the control coordinate are lengths, those of arc are not. */
@@ -125,48 +136,6 @@ static void scale_steps(scene_analysis *a, double x)
         return;
     a->of.continuation.control.step *= x;
     a->of.continuation.control.step_max *= x;
-}
-
-static int translates(int component)
-{
-    return component <= SCENE_UZ;
-}
-
-/* Power of length in what is extracted. */
-static int power_of(const scene *s, const scene_quantity *q)
-{
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-        return translates(scene_component_of(q)->component);
-    case SCENE_REACTION:
-        return !translates(scene_component_of(q)->component);
-    case SCENE_COMPLIANCE_ENTRY:
-        return translates(scene_entry_of(q)->row) - !translates(scene_entry_of(q)->column);
-    case SCENE_STIFFNESS_ENTRY:
-        return translates(scene_entry_of(q)->row) ? -1 : 1;
-    case SCENE_CRITICAL_POINT:
-        return scene_point_of(q)->ordinate == SCENE_CONTROL;
-    case SCENE_DRIVER_VALUE:
-        return is_length(s, scene_driver_of(q));
-    case SCENE_INTERNAL:
-        return (scene_internal_of(q)->resultant >= SCENE_MX) +
-               (scene_internal_of(q)->resultant == SCENE_BIMOMENT);
-    case SCENE_RELATIVE:
-        return translates(scene_relative_of(q)->component);
-    case SCENE_RATE:
-        return translates(scene_component_of(q)->component);
-    case SCENE_STRESS:
-        return -2;
-    case SCENE_BALANCE: /* N m, N s, N m s */
-        return scene_balance_in(q) < SCENE_PX || scene_balance_in(q) > SCENE_PZ;
-    case SCENE_ORIENTATION:
-    case SCENE_CRITICAL_FACTOR:
-    case SCENE_GROWTH:
-    case SCENE_FREQUENCY:
-    case SCENE_FACTOR_AT:
-        break;
-    }
-    return 0;
 }
 
 /* Are its stations coordinates [m]: those of a continuation, or of what is about one? */
@@ -180,15 +149,12 @@ static int stations_are_lengths(const scene *s, const scene_quantity *q)
     return a->kind == SCENE_CONTINUATION;
 }
 
-static void scale_quantity(const scene *s, scene_quantity *q, double x)
+static void scale_stations(const scene *s, scene_quantity *q, double x)
 {
-    const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
-    q->factor *= times ? 1 : pow(x, -power_of(s, q));
-    q->passing.level *= pow(x, power_of(s, q));
-    if (stations_are_lengths(s, q)) {
-        q->at *= x;
-        q->x.factor /= q->reduction == SCENE_CURVE ? x : 1;
-    }
+    if (!stations_are_lengths(s, q))
+        return;
+    q->at *= x;
+    q->x.factor /= q->reduction == SCENE_CURVE ? x : 1;
 }
 
 status scene_change_unit(scene *s, double x, fault *f)
@@ -204,25 +170,8 @@ status scene_change_unit(scene *s, double x, fault *f)
     for (int i = 0; i < s->analyses; i++)
         scale_steps(&s->analysis[i], x);
     for (int i = 0; i < s->quantities; i++)
-        scale_quantity(s, &s->quantity[i], x);
+        scale_stations(s, &s->quantity[i], x);
     return scale_drivers(s, x, f);
-}
-
-/* Power of force in what is extracted. */
-static int force_of(const scene_quantity *q)
-{
-    switch (q->what.kind) {
-    case SCENE_REACTION:
-    case SCENE_STIFFNESS_ENTRY:
-    case SCENE_INTERNAL:
-    case SCENE_STRESS:
-    case SCENE_BALANCE:
-        return 1;
-    case SCENE_COMPLIANCE_ENTRY:
-        return -1;
-    default:
-        return 0;
-    }
 }
 
 void scene_change_force(scene *s, double y)
@@ -241,12 +190,6 @@ void scene_change_force(scene *s, double y)
     for (int i = 0; i < s->springs; i++)
         for (int k = 0; k < 36; k++)
             s->spring[i].stiffness[k] *= y;
-    for (int i = 0; i < s->quantities; i++) {
-        scene_quantity *q = &s->quantity[i];
-        const int times = q->reduction > SCENE_CURVE && q->reduction != SCENE_MEAN;
-        q->factor *= times ? 1 : pow(y, -force_of(q));
-        q->passing.level *= pow(y, force_of(q));
-    }
 }
 
 /* Largest size of a section that is described by sizes; 0: none is. */

@@ -30,10 +30,6 @@ static status check_taper(const scene *s, int i, fault *f)
 static status check_member(const scene *s, int i, fault *f)
 {
     const scene_member *m = &s->member[i];
-    if (m->p < 0 || m->p >= s->nodes || m->q < 0 || m->q >= s->nodes)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: it ends at a node that does not exist; add the node first",
-                         scene_called(s, SCENE_MEMBERS, i).text);
     if (m->section < 0 || m->section >= s->sections || m->section_q < 0 ||
         m->section_q >= s->sections)
         return fault_set(f, STATUS_REFUSED, "%s: its section does not exist; add the section first",
@@ -89,10 +85,6 @@ static int is_stiffness(const double K[36])
 static status check_spring(const scene *s, int i, fault *f)
 {
     const scene_spring *p = &s->spring[i];
-    if (p->q < 0 || p->q >= s->nodes || p->p < SCENE_NONE || p->p >= s->nodes)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: it ends at a node that does not exist; add the node first",
-                         scene_called(s, SCENE_SPRINGS, i).text);
     if (p->p == p->q)
         return fault_set(
             f, STATUS_REFUSED, "%s: both its ends are %s; join two, or one and the ground",
@@ -136,7 +128,7 @@ static status check_driver(const scene *s, int i, fault *f)
     if (d->value == NULL) {
         const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
                           s->driver[d->condition_driver].value != NULL;
-        if (!known || d->condition_node < 0 || d->condition_node >= s->nodes)
+        if (!known || d->condition_node == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
                              "driver %s: its value is unknown and no condition fixes it; name a "
                              "node and a driver with known values",
@@ -261,21 +253,21 @@ static status check_numbers(const scene *s, fault *f)
 {
     const struct {
         scene_list list;
-        int count;
         size_t size;
         const entry_field *table;
         const void *first;
-    } all[] = {{SCENE_SECTIONS, s->sections, sizeof *s->section, entry_section, s->section},
-               {SCENE_NODES, s->nodes, sizeof *s->node, entry_node, s->node},
-               {SCENE_MEMBERS, s->members, sizeof *s->member, entry_member, s->member},
-               {SCENE_SPRINGS, s->springs, sizeof *s->spring, entry_spring, s->spring},
-               {SCENE_DRIVERS, s->drivers, sizeof *s->driver, entry_driver, s->driver},
-               {SCENE_LOADS, s->loads, sizeof *s->load, entry_load, s->load},
-               {SCENE_ANALYSES, s->analyses, sizeof *s->analysis, entry_analysis, s->analysis}};
+    } all[] = {{SCENE_SECTIONS, sizeof *s->section, entry_section, s->section},
+               {SCENE_NODES, sizeof *s->node, entry_node, s->node},
+               {SCENE_MEMBERS, sizeof *s->member, entry_member, s->member},
+               {SCENE_SPRINGS, sizeof *s->spring, entry_spring, s->spring},
+               {SCENE_DRIVERS, sizeof *s->driver, entry_driver, s->driver},
+               {SCENE_LOADS, sizeof *s->load, entry_load, s->load},
+               {SCENE_ANALYSES, sizeof *s->analysis, entry_analysis, s->analysis},
+               {SCENE_QUANTITIES, sizeof *s->quantity, entry_quantity, s->quantity}};
     fault why = {""};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        for (int i = 0; i < all[k].count; i++)
-            if (entry_check(all[k].table, (const char *)all[k].first + (size_t)i * all[k].size,
+        for (int i = 0; i < scene_count(s, all[k].list); i++)
+            if (entry_check(s, all[k].table, (const char *)all[k].first + (size_t)i * all[k].size,
                             &why) != STATUS_OK)
                 return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, all[k].list, i).text,
                                  why.text);

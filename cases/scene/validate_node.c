@@ -127,8 +127,7 @@ status scene_validate_node(const scene *s, int i, fault *f)
     }
     if (n->attached == SCENE_NONE)
         return STATUS_OK;
-    if (n->attached < 0 || n->attached >= s->nodes || n->attached == i ||
-        s->node[n->attached].attached != SCENE_NONE)
+    if (n->attached == i || s->node[n->attached].attached != SCENE_NONE)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: attached to %s, which is no body; attach it to a node that is attached to nothing",

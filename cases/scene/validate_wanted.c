@@ -1,5 +1,5 @@
 #include "cases/scene/validate_wanted.h"
-#include "cases/scene/names.h"
+#include "cases/scene/quantity_type.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,11 +9,6 @@
 static status check_continuation(const scene *s, int i, fault *f)
 {
     const scene_control *c = &scene_continuation_of(&s->analysis[i])->control;
-    if (c->node < 0 || c->node >= s->nodes || c->component < SCENE_UX || c->component > SCENE_UZ)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: continuation needs a translation of a node as control coordinate; "
-                         "name a node and UX, UY or UZ",
-                         scene_called(s, SCENE_ANALYSES, i).text);
     if (!(c->step > 0) || !(c->step_max >= c->step))
         return fault_set(
             f, STATUS_REFUSED,
@@ -39,10 +34,6 @@ static status check_path(const scene *s, const scene_analysis *a, int i, fault *
 
 static status check_compliance(const scene *s, const scene_analysis *a, int i, fault *f)
 {
-    const int node = scene_compliance_of(a)->node;
-    if (node < 0 || node >= s->nodes)
-        return fault_set(f, STATUS_REFUSED, "%s: a compliance needs a node; name one",
-                         scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) == NULL)
         return fault_set(f, STATUS_REFUSED,
                          "%s: a compliance follows a path or nothing; name a static analysis",
@@ -103,103 +94,6 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     if (a->kind == SCENE_MODAL && is_asked(s, i))
         return scene_validate_mass(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
-}
-
-static int is_component(int component)
-{
-    return component >= SCENE_UX && component <= SCENE_RZ;
-}
-
-static status check_stress(const scene *s, const scene_quantity *q, fault *f)
-{
-    const scene_stress *c = scene_stress_of(q);
-    if (c->member < 0 || c->member >= s->members || !(c->place >= 0 && c->place <= 1) ||
-        c->measure < SCENE_VON_MISES || c->measure > SCENE_NORMAL_MIN)
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: no such stress; name a member, a place from 0 to 1 of it, "
-                         "and VON_MISES, NORMAL_MAX or NORMAL_MIN",
-                         q->name);
-    const int profile = s->member[c->member].section;
-    if (profile >= 0 && profile < s->sections &&
-        (s->section[profile].kind == SECTION_CONSTANTS ||
-         s->section[profile].kind == SECTION_MATRICES))
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: the section of %s is given by numbers and has no points; "
-                         "describe it by sizes or walls, or ask for a resultant",
-                         q->name, scene_called(s, SCENE_MEMBERS, c->member).text);
-    return STATUS_OK;
-}
-
-static status check_extract(const scene *s, const scene_quantity *q, fault *f)
-{
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-    case SCENE_RATE:
-    case SCENE_REACTION: {
-        const scene_component *c = scene_component_of(q);
-        if (c->node < 0 || c->node >= s->nodes || !is_component(c->component))
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such coordinate; name a node and UX to RZ", q->name);
-        break;
-    }
-    case SCENE_COMPLIANCE_ENTRY:
-    case SCENE_STIFFNESS_ENTRY:
-        if (!is_component(scene_entry_of(q)->row) || !is_component(scene_entry_of(q)->column))
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such entry; name a row and a column from UX to RZ",
-                             q->name);
-        break;
-    case SCENE_DRIVER_VALUE:
-        if (scene_driver_of(q) < 0 || scene_driver_of(q) >= s->drivers)
-            return fault_set(f, STATUS_REFUSED, "quantity %s: no such driver; add the driver first",
-                             q->name);
-        break;
-    case SCENE_INTERNAL: {
-        const scene_internal *c = scene_internal_of(q);
-        if (c->member < 0 || c->member >= s->members || !(c->place >= 0 && c->place <= 1) ||
-            c->resultant < SCENE_N || c->resultant >= SCENE_RESULTANTS)
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such resultant; name a member, a place from 0 to 1 "
-                             "of it, and N to MX_WAGNER",
-                             q->name);
-        break;
-    }
-    case SCENE_STRESS:
-        return check_stress(s, q, f);
-    case SCENE_RELATIVE: {
-        const scene_relative *c = scene_relative_of(q);
-        if (c->node < 0 || c->node >= s->nodes || c->from < 0 || c->from >= s->nodes ||
-            c->node == c->from || !is_component(c->component))
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such relative coordinate; name two nodes, and UX to "
-                             "RZ",
-                             q->name);
-        break;
-    }
-    case SCENE_ORIENTATION: {
-        const scene_orientation *c = scene_orientation_of(q);
-        if (c->node < 0 || c->node >= s->nodes || c->row < 0 || c->row > 2 || c->column < 0 ||
-            c->column > 2)
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such entry of a rotation matrix; name a node, a row "
-                             "and a column",
-                             q->name);
-        break;
-    }
-    case SCENE_BALANCE:
-        if (scene_balance_in(q) < SCENE_KINETIC || scene_balance_in(q) >= SCENE_BALANCES)
-            return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: no such energy or momentum; name KINETIC to LZ",
-                             q->name);
-        break;
-    case SCENE_CRITICAL_FACTOR:
-    case SCENE_GROWTH:
-    case SCENE_FREQUENCY:
-    case SCENE_FACTOR_AT:
-    case SCENE_CRITICAL_POINT:
-        break;
-    }
-    return STATUS_OK;
 }
 
 /* Only places and rates are followed between the stations of a motion. */
@@ -276,14 +170,12 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
         if (strcmp(s->quantity[k].name, q->name) == 0)
             return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name; rename one",
                              q->name);
-    if (q->analysis < 0 || q->analysis >= s->analyses)
-        return fault_set(f, STATUS_REFUSED, "quantity %s: no such analysis; add the analysis first",
-                         q->name);
     if (!scene_gives(s->analysis[q->analysis].kind, q->what.kind))
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: an analysis of this kind does not have it; name another one",
                          q->name);
     TRY(check_passing(s, q, f));
     TRY(check_abscissa(s, q, f));
-    return check_extract(s, q, f);
+    const quantity_type *type = quantity_type_of(q);
+    return type->check != NULL ? type->check(s, q, f) : STATUS_OK;
 }

@@ -56,21 +56,27 @@ static void is_compared(void)
 
 static void is_in_range(void)
 {
-    scene_member m = {.damping = 1};
+    const scene s = {.nodes = 2};
+    scene_member m = {.p = 0, .q = 1, .damping = 1};
     fault f = {""};
-    gsl_test(entry_check(entry_member, &m, &f) != STATUS_OK, "in range");
+    gsl_test(entry_check(&s, entry_member, &m, &f) != STATUS_OK, "in range");
     m.divisions = -3;
-    gsl_test(entry_check(entry_member, &m, &f) != STATUS_REFUSED ||
+    gsl_test(entry_check(&s, entry_member, &m, &f) != STATUS_REFUSED ||
                  strcmp(f.text, "divisions = -3; give a whole number from 0 to 10000000") != 0,
              "below: %s", f.text);
     m.divisions = 0;
     m.damping = INFINITY;
-    gsl_test(entry_check(entry_member, &m, &f) != STATUS_REFUSED ||
+    gsl_test(entry_check(&s, entry_member, &m, &f) != STATUS_REFUSED ||
                  strcmp(f.text, "damping = inf; give at least 0") != 0,
              "endless: %s", f.text);
     m.damping = 0;
     m.curvature[1] = NAN;
-    gsl_test(entry_check(entry_member, &m, &f) != STATUS_REFUSED, "no number");
+    gsl_test(entry_check(&s, entry_member, &m, &f) != STATUS_REFUSED, "no number");
+    m.curvature[1] = 0;
+    m.q = 2;
+    gsl_test(entry_check(&s, entry_member, &m, &f) != STATUS_REFUSED ||
+                 strcmp(f.text, "to: node 2 does not exist; add the node first") != 0,
+             "no node: %s", f.text);
 }
 
 static void is_mirrored(void)

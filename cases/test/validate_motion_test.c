@@ -225,8 +225,8 @@ static const refusal refusals[] = {
     {load_without_value, "load 0: ", "at 0 s its factor is not finite"},
     {idle_function, "load 0: ", "no analysis is in time"},
     {relative_to_itself, "quantity asked: ", "no such relative coordinate"},
-    {orientation_of_nothing, "quantity asked: ", "no such entry of a rotation matrix"},
-    {rate_of_nothing, "quantity asked: ", "no such coordinate"},
+    {orientation_of_nothing, "quantity asked: ", "row: no word has the value 3; give one of x|y|z"},
+    {rate_of_nothing, "quantity asked: ", "node: node 9 does not exist"},
     {rate_at_rest, "quantity v: ", "does not have it"},
     {frequency_of_motion, "quantity asked: ", "does not have it"},
 };

@@ -106,7 +106,7 @@ static const refusal refusals[] = {
     {fork_across, "node 1: ", "no member there runs along"},
     {body_of_body, "node 1: ", "attached to node 2, which is no body"},
     {body_of_itself, "node 2: ", "attached to node 2, which is no body"},
-    {body_of_nothing, "node 2: ", "attached to node 9, which is no body"},
+    {body_of_nothing, "node 2: ", "part_of: node 9 does not exist"},
     {body_held, "node 2: ", "it moves with node 1"},
     {negative_mass, "node 1: ", "mass = -"},
     {endless_inertia, "node 1: ", "inertia = "},

@@ -282,13 +282,13 @@ static void coupled_to_nothing(scene *s)
 }
 
 static const refusal refusals[] = {
-    {spring_nowhere, "spring 0: ", "a node that does not exist"},
+    {spring_nowhere, "spring 0: ", "to: node 9 does not exist"},
     {spring_of_one, "spring 0: ", "both its ends are node 1"},
     {unsymmetric_spring, "spring 0: ", "is not symmetric"},
     {negative_spring, "spring 0: ", "gives energy away"},
     {indefinite_spring, "spring 0: ", "gives energy away"},
     {coupled_to_nothing, "spring 0: ", "gives energy away"},
-    {end_of_member, "member 0: ", "a node that does not exist"},
+    {end_of_member, "member 0: ", "to: node 5 does not exist"},
     {no_section, "member 0: ", "its section does not exist"},
     {no_length, "member 0: ", "its ends coincide"},
     {y_along, "member 0: ", "its y axis is parallel"},
@@ -296,9 +296,9 @@ static const refusal refusals[] = {
     {divisions, "member 0: ", "divisions = -3"},
     {damping, "member 0: ", "damping = -0.001; give at least 0"},
     {idle_driver, "driver push: ", "it moves nothing"},
-    {unknown_driver, "driver sought: ", "no condition fixes it"},
+    {unknown_driver, "driver sought: ", "motion: no driver is named"},
     {condition_not_driven, "driver sought: ", "does not drive the coordinate of its condition"},
-    {condition_nowhere, "driver sought: ", "no condition fixes it"},
+    {condition_nowhere, "driver sought: ", "node: node 9 does not exist"},
     {value_of_driver, "driver push: ", "station 1 is not a number"},
     {path_of_driver, "driver push: ", "must ascend"},
     {no_load_there, "load 0: ", "does not exist"},

@@ -139,10 +139,10 @@ static const refusal refusals[] = {
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "needs a station"},
     {spin, "analysis 0: ", "omega = "},
-    {uncontrolled, "analysis 0: ", "control coordinate"},
+    {uncontrolled, "analysis 0: ", "component: no word has the value 3; give one of ux|uy|uz"},
     {step, "analysis 0: ", "steps of 0 to 0.1"},
     {smaller_step, "analysis 0: ", "steps of 0.1 to 0.05"},
-    {compliance_nowhere, "analysis 1: ", "a compliance needs a node"},
+    {compliance_nowhere, "analysis 1: ", "node: no node is named; name one"},
     {compliance_of_compliance, "analysis 2: ", "follows a path or nothing"},
     {critical_about_linear, "analysis 2: ", "name a static one, or leave about out"},
     {critical_about_buckling, "analysis 2: ", "name a static one, or leave about out"},
@@ -150,11 +150,11 @@ static const refusal refusals[] = {
     {station_of_linear, "quantity v: ", "analysis 1 has one state and no stations"},
     {largest_of_frequencies, "quantity f: ", "analysis 1 has one state and no stations"},
     {two_names, "quantity u: ", "two of that name"},
-    {no_analysis, "quantity u: ", "no such analysis"},
-    {no_coordinate, "quantity u: ", "no such coordinate"},
+    {no_analysis, "quantity u: ", "analysis: analysis 1 does not exist"},
+    {no_coordinate, "quantity u: ", "component: no word has the value 6"},
     {not_of_a_path, "quantity frequency: ", "does not have it"},
-    {no_entry, "quantity entry: ", "no such entry"},
-    {no_driver, "quantity angle: ", "no such driver"},
+    {no_entry, "quantity entry: ", "column: no word has the value 6"},
+    {no_driver, "quantity angle: ", "motion: driver 1 does not exist"},
 };
 
 static void accepts_continuation(void)

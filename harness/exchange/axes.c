@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "cases/scene/quantity_type.h"
+
 const axes axes_same = {{0, 1, 2}, {1, 1, 1}};
 
 /* "x=-z" into the entry of x; what follows, or NULL. */
@@ -46,99 +48,27 @@ static int component_of(const axes *a, int theirs, int *sign)
     return a->ours[axis] + (turns ? SCENE_RX : SCENE_UX);
 }
 
-/* An entry of a rotation matrix: both of its vectors are seen in our axes. */
-static scene_extract orientation_of(const axes *a, const scene_orientation *what, int *sign)
+static int *word_in(const entry_field *k, scene_quantity *q)
 {
-    *sign *= a->sign[what->row] * a->sign[what->column];
-    return scene_orientation_entry(what->node, a->ours[what->row], a->ours[what->column]);
+    return (int *)((char *)q + k->at);
 }
 
-/* Energies have no axes; an angular momentum turns as a moment does. */
-static scene_extract balance_of(const axes *a, scene_balance what, int *sign)
+/* What their quantity extracts, in our axes; what is in those of the section or has none stays. 1:
+ * it has axes. */
+static int turn_extract(const axes *a, scene_quantity *q, int *sign)
 {
-    if (what < SCENE_PX)
-        return scene_balance_of(what);
-    const int theirs =
-                  what >= SCENE_LX ? SCENE_RX + (what - SCENE_LX) : SCENE_UX + (what - SCENE_PX),
-              ours = component_of(a, theirs, sign);
-    return scene_balance_of(ours >= SCENE_RX ? SCENE_LX + (ours - SCENE_RX) : SCENE_PX + ours);
-}
-
-/* What their quantity extracts, in our axes. */
-static scene_extract extract_of(const axes *a, const scene_quantity *q, int *sign)
-{
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-        return scene_coordinate(scene_component_of(q)->node,
-                                component_of(a, scene_component_of(q)->component, sign));
-    case SCENE_REACTION:
-        return scene_reaction(scene_component_of(q)->node,
-                              component_of(a, scene_component_of(q)->component, sign));
-    case SCENE_RATE:
-        return scene_rate(scene_component_of(q)->node,
-                          component_of(a, scene_component_of(q)->component, sign));
-    case SCENE_RELATIVE:
-        return scene_relative_to(scene_relative_of(q)->node,
-                                 component_of(a, scene_relative_of(q)->component, sign),
-                                 scene_relative_of(q)->from);
-    case SCENE_ORIENTATION:
-        return orientation_of(a, scene_orientation_of(q), sign);
-    case SCENE_BALANCE:
-        return balance_of(a, scene_balance_in(q), sign);
-    case SCENE_COMPLIANCE_ENTRY: {
-        const int row = component_of(a, scene_entry_of(q)->row, sign);
-        return scene_compliance_entry(row, component_of(a, scene_entry_of(q)->column, sign));
+    int turns = 0;
+    for (const entry_field *k = quantity_type_of(q)->field; k->name != NULL; k++) {
+        int *word = word_in(k, q), both = 1;
+        const int theirs = *word - k->first;
+        if (k->turns == ENTRY_AXIS) {
+            *sign *= a->sign[theirs];
+            *word = k->first + a->ours[theirs];
+        } else if (k->turns != ENTRY_STAYS)
+            *word = k->first + component_of(a, theirs, k->turns == ENTRY_DIAGONAL ? &both : sign);
+        turns |= k->turns != ENTRY_STAYS;
     }
-    case SCENE_STIFFNESS_ENTRY: {
-        int both = 1;
-        return scene_stiffness_entry(component_of(a, scene_entry_of(q)->row, &both));
-    }
-    case SCENE_CRITICAL_FACTOR:
-    case SCENE_GROWTH:
-    case SCENE_FREQUENCY:
-    case SCENE_FACTOR_AT:
-    case SCENE_CRITICAL_POINT:
-    case SCENE_DRIVER_VALUE:
-    case SCENE_INTERNAL: /* in the section's own axes */
-    case SCENE_STRESS:
-        break;
-    }
-    return q->what;
-}
-
-/* Of a kind that has axes. */
-static int same_extract(const scene_quantity *a, const scene_quantity *b)
-{
-    if (a->what.kind != b->what.kind)
-        return 0;
-    switch (a->what.kind) {
-    case SCENE_COORDINATE:
-    case SCENE_REACTION:
-    case SCENE_RATE:
-        return scene_component_of(a)->node == scene_component_of(b)->node &&
-               scene_component_of(a)->component == scene_component_of(b)->component;
-    case SCENE_RELATIVE:
-        return scene_relative_of(a)->node == scene_relative_of(b)->node &&
-               scene_relative_of(a)->from == scene_relative_of(b)->from &&
-               scene_relative_of(a)->component == scene_relative_of(b)->component;
-    case SCENE_ORIENTATION:
-        return scene_orientation_of(a)->node == scene_orientation_of(b)->node &&
-               scene_orientation_of(a)->row == scene_orientation_of(b)->row &&
-               scene_orientation_of(a)->column == scene_orientation_of(b)->column;
-    case SCENE_BALANCE:
-        return scene_balance_in(a) == scene_balance_in(b);
-    default:
-        return scene_entry_of(a)->row == scene_entry_of(b)->row &&
-               scene_entry_of(a)->column == scene_entry_of(b)->column;
-    }
-}
-
-static int has_axes(const scene_quantity *q)
-{
-    static const int with = 1 << SCENE_COORDINATE | 1 << SCENE_REACTION | 1 << SCENE_RATE |
-                            1 << SCENE_RELATIVE | 1 << SCENE_ORIENTATION | 1 << SCENE_BALANCE |
-                            1 << SCENE_COMPLIANCE_ENTRY | 1 << SCENE_STIFFNESS_ENTRY;
-    return with >> q->what.kind & 1;
+    return turns;
 }
 
 /* The largest value of what turns its sign is the least one, a level that it rises through it falls
@@ -176,15 +106,15 @@ const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_q
                                     int *sign)
 {
     *sign = 1;
-    if (!has_axes(q) || memcmp(a, &axes_same, sizeof *a) == 0)
-        return q;
     scene_quantity ours = *q;
-    ours.what = extract_of(a, q, sign);
+    if (memcmp(a, &axes_same, sizeof *a) == 0 || !turn_extract(a, &ours, sign))
+        return q;
     turn_reduction(&ours, sign);
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *one = &s->quantity[i];
         if (same_reduction(one, &ours) && one->factor == q->factor && one->offset == q->offset &&
-            same_extract(one, &ours))
+            one->what.kind == ours.what.kind &&
+            entry_same(quantity_type_of(&ours)->field, one, &ours))
             return one;
     }
     return NULL;

@@ -113,69 +113,15 @@ static inline int same_analysis(const scene_analysis *a, const scene_analysis *b
             same_numbers(1, &scene_motion_of(a)->alpha.force, &scene_motion_of(b)->alpha.force));
 }
 
-static inline int same_extract(const scene_quantity *a, const scene_quantity *b)
-{
-    if (a->what.kind != b->what.kind)
-        return 0;
-    switch (a->what.kind) {
-    case SCENE_COORDINATE:
-    case SCENE_REACTION:
-    case SCENE_RATE:
-        return scene_component_of(a)->node == scene_component_of(b)->node &&
-               scene_component_of(a)->component == scene_component_of(b)->component;
-    case SCENE_COMPLIANCE_ENTRY:
-    case SCENE_STIFFNESS_ENTRY:
-        return scene_entry_of(a)->row == scene_entry_of(b)->row &&
-               scene_entry_of(a)->column == scene_entry_of(b)->column;
-    case SCENE_CRITICAL_FACTOR:
-        return scene_critical_load_of(a)->sign == scene_critical_load_of(b)->sign &&
-               scene_critical_load_of(a)->order == scene_critical_load_of(b)->order;
-    case SCENE_FREQUENCY:
-        return memcmp(scene_mode_of(a), scene_mode_of(b), sizeof(scene_mode)) == 0;
-    case SCENE_CRITICAL_POINT:
-        return memcmp(scene_point_of(a), scene_point_of(b), sizeof(scene_point)) == 0;
-    case SCENE_DRIVER_VALUE:
-        return scene_driver_of(a) == scene_driver_of(b);
-    case SCENE_INTERNAL:
-        return scene_internal_of(a)->member == scene_internal_of(b)->member &&
-               scene_internal_of(a)->resultant == scene_internal_of(b)->resultant &&
-               scene_internal_of(a)->along == scene_internal_of(b)->along &&
-               scene_internal_of(a)->place == scene_internal_of(b)->place &&
-               scene_internal_of(a)->before == scene_internal_of(b)->before;
-    case SCENE_STRESS:
-        return scene_stress_of(a)->member == scene_stress_of(b)->member &&
-               scene_stress_of(a)->measure == scene_stress_of(b)->measure &&
-               scene_stress_of(a)->whole == scene_stress_of(b)->whole &&
-               scene_stress_of(a)->place == scene_stress_of(b)->place &&
-               scene_stress_of(a)->before == scene_stress_of(b)->before;
-    case SCENE_ORIENTATION:
-        return memcmp(scene_orientation_of(a), scene_orientation_of(b),
-                      sizeof(scene_orientation)) == 0;
-    case SCENE_BALANCE:
-        return scene_balance_in(a) == scene_balance_in(b);
-    case SCENE_RELATIVE:
-        return memcmp(scene_relative_of(a), scene_relative_of(b), sizeof(scene_relative)) == 0;
-    case SCENE_GROWTH:
-    case SCENE_FACTOR_AT:
-        break;
-    }
-    return 1;
-}
-
 static inline int same_quantity(const scene_quantity *a, const scene_quantity *b)
 {
-    const double x[] = {a->factor,      a->offset,   a->near_zero, a->tolerance,
-                        a->least_order, a->x.factor, a->x.offset,  a->prediction.value},
-                 y[] = {b->factor,      b->offset,   b->near_zero, b->tolerance,
-                        b->least_order, b->x.factor, b->x.offset,  b->prediction.value};
-    const scene_passing *p = &a->passing, *r = &b->passing;
+    const double x[] = {a->at, a->x.factor, a->x.offset, a->prediction.value},
+                 y[] = {b->at, b->x.factor, b->x.offset, b->prediction.value};
     const char *one = a->prediction.source, *two = b->prediction.source;
-    return strcmp(a->name, b->name) == 0 && strcmp(a->unit, b->unit) == 0 &&
-           a->analysis == b->analysis && same_extract(a, b) && a->reduction == b->reduction &&
-           p->level == r->level && p->direction == r->direction && p->order == r->order &&
-           p->from == r->from && p->until == r->until && a->at == b->at &&
+    return entry_same(entry_quantity, a, b) && strcmp(a->name, b->name) == 0 &&
+           strcmp(a->unit, b->unit) == 0 && a->reduction == b->reduction &&
            strcmp(a->x.name, b->x.name) == 0 && strcmp(a->x.unit, b->x.unit) == 0 &&
-           same_numbers(8, x, y) && (one == NULL) == (two == NULL) &&
+           same_numbers(4, x, y) && (one == NULL) == (two == NULL) &&
            (one == NULL || strcmp(one, two) == 0);
 }
 

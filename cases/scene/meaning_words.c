@@ -1,5 +1,6 @@
 /* Nodes, coordinates and ordinals in words. */
-#include "cases/format/meaning_impl.h"
+#include "cases/scene/meaning_words.h"
+
 #include "cases/scene/names.h"
 
 char meaning_axis(int component)
@@ -33,4 +34,24 @@ void meaning_coordinate(FILE *to, const scene *s, int node, int component)
         fprintf(to, ", component %c of its rotation vector", meaning_axis(component));
     else
         fprintf(to, " along %c", meaning_axis(component));
+}
+
+const char *meaning_load(int component)
+{
+    return component < SCENE_RX ? "force along" : "moment about";
+}
+
+void meaning_member(FILE *to, const scene *s, int index)
+{
+    fprintf(to, " of %s (%s to %s)", scene_name(s, SCENE_MEMBERS, index).text,
+            scene_name(s, SCENE_NODES, s->member[index].p).text,
+            scene_name(s, SCENE_NODES, s->member[index].q).text);
+}
+
+void meaning_place(FILE *to, double where, int before)
+{
+    if (where == 0 || where == 1)
+        fprintf(to, " at the %s", where == 0 ? "beginning" : "end");
+    else
+        fprintf(to, "%s at %.10g of the length", before ? " right before what acts" : "", where);
 }

@@ -1,0 +1,35 @@
+/* Entry of the compliance matrix of a node. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"row", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "response",
+     ENTRY_IN(scene_quantity, what.of.entry.row), .turns = ENTRY_COMPONENT},
+    {"column", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS, .summary = "force or moment",
+     ENTRY_IN(scene_quantity, what.of.entry.column), .turns = ENTRY_COMPONENT},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return scene_compliance_unit(q->what.of.entry.row, q->what.of.entry.column);
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    const scene_entry *e = &q->what.of.entry;
+    fputs(e->row < SCENE_RX ? "displacement" : "rotation", to);
+    meaning_node(to, s, "of", scene_compliance_of(&s->analysis[q->analysis])->node);
+    fprintf(to, " %s %c for a small unit %s %c there", e->row < SCENE_RX ? "along" : "about",
+            meaning_axis(e->row), meaning_load(e->column), meaning_axis(e->column));
+}
+
+const quantity_type quantity_compliance = {.key = "compliance",
+                                           .summary = "entry of the matrix",
+                                           .kind = SCENE_COMPLIANCE_ENTRY,
+                                           .field = fields,
+                                           .analyses = 1u << SCENE_COMPLIANCE,
+                                           .unit = unit,
+                                           .meaning = meaning};

@@ -1,0 +1,29 @@
+/* Displacement of a node, or a component of its rotation vector. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {QUANTITY_ANALYSIS,
+                                     QUANTITY_NODE(component.node),
+                                     QUANTITY_COMPONENT("of its coordinates", component.component),
+                                     QUANTITY_TAKEN,
+                                     {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.component.component <= SCENE_UZ ? "m" : "rad";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    meaning_coordinate(to, s, q->what.of.component.node, q->what.of.component.component);
+}
+
+const quantity_type quantity_displacement = {.key = "displacement",
+                                             .summary = "or rotation, of a node",
+                                             .kind = SCENE_COORDINATE,
+                                             .field = fields,
+                                             .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
+                                             .passing = QUANTITY_CROSSINGS,
+                                             .unit = unit,
+                                             .meaning = meaning};

@@ -1,0 +1,45 @@
+/* Energy of a whole motion. */
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"of", ENTRY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
+     .summary = "drift: energy and what was dissipated, less energy of the begin and work",
+     ENTRY_IN(scene_quantity, what.of.balance)},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    (void)q;
+    return "J";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    static const char *const word[] = {
+        [SCENE_KINETIC] = "kinetic energy",
+        [SCENE_STRAIN] = "strain energy, springs included",
+        [SCENE_ENERGY] = "kinetic and strain energy",
+        [SCENE_WORK] = "work of loads and of what is driven, since the begin",
+        [SCENE_DISSIPATED] = "energy that damping took, since the begin",
+        [SCENE_DRIFT] = "energy and what damping took, less energy of the begin and work"};
+    fputs(word[q->what.of.balance], to);
+}
+
+static int is(const scene_quantity *q)
+{
+    return q->what.of.balance < SCENE_PX;
+}
+
+const quantity_type quantity_energy = {.key = "energy",
+                                       .summary = "of a motion",
+                                       .kind = SCENE_BALANCE,
+                                       .field = fields,
+                                       .analyses = 1u << SCENE_MOTION,
+                                       .passing = QUANTITY_EXTREMES,
+                                       .unit = unit,
+                                       .meaning = meaning,
+                                       .is = is};

@@ -1,0 +1,47 @@
+/* Natural frequency. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"which", ENTRY_WHOLE, .summary = "counted from 0, of the family", .usual = "0",
+     ENTRY_IN(scene_quantity, what.of.mode.order), .most = ENTRY_MOST_ORDER},
+    {"family", ENTRY_WORD, .words = "any|not_axial|axial|bending_y|bending_z|torsion",
+     .summary = "of modes", .usual = "any", ENTRY_IN(scene_quantity, what.of.mode.family),
+     .always = 1},
+    {"half_waves", ENTRY_WHOLE, .summary = "of the mode; 0: any", .usual = "0",
+     ENTRY_IN(scene_quantity, what.of.mode.half_waves), .most = ENTRY_MOST_ORDER},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    (void)q;
+    return "Hz";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    static const char *const family[] = {
+        [SCENE_ANY] = "",
+        [SCENE_NOT_AXIAL] = ", stretching modes left out",
+        [SCENE_AXIAL] = " of the stretching modes",
+        [SCENE_BENDING_Y] = " of the modes that bend along the section's y",
+        [SCENE_BENDING_Z] = " of the modes that bend along the section's z",
+        [SCENE_TORSION] = " of the modes that twist"};
+    const scene_mode *mode = &q->what.of.mode;
+    meaning_ordinal(to, mode->order);
+    fprintf(to, " natural frequency%s", family[mode->family]);
+    if (mode->half_waves > 0)
+        fprintf(to, " with %d half-wave%s", mode->half_waves, mode->half_waves > 1 ? "s" : "");
+}
+
+const quantity_type quantity_frequency = {.key = "frequency",
+                                          .summary = "natural frequency",
+                                          .kind = SCENE_FREQUENCY,
+                                          .field = fields,
+                                          .analyses = 1u << SCENE_MODAL | 1u << SCENE_ROTATION,
+                                          .unit = unit,
+                                          .meaning = meaning};

@@ -1,0 +1,26 @@
+/* Largest rate of growth of a small motion; 0: stable. */
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {QUANTITY_ANALYSIS, QUANTITY_TAKEN, {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    (void)q;
+    return "1/s";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    (void)q;
+    fputs("rate at which the fastest growing small motion grows, 0 where none does", to);
+}
+
+const quantity_type quantity_growth = {.key = "growth",
+                                       .summary = "largest rate of growth of a small motion",
+                                       .kind = SCENE_GROWTH,
+                                       .field = fields,
+                                       .analyses = 1u << SCENE_MODAL | 1u << SCENE_ROTATION,
+                                       .unit = unit,
+                                       .meaning = meaning};

@@ -1,0 +1,67 @@
+/* Resultant of the stresses on a section of a member. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"member", ENTRY_NAME, .needed = 1, .summary = "member",
+     ENTRY_IN(scene_quantity, what.of.internal.member), .of = SCENE_MEMBERS},
+    /* before the end, which is a place, too */
+    {"where", ENTRY_NUMBER, .needed = 1, .group = 2, .summary = "0 'from' to 1 'to', of its length",
+     ENTRY_IN(scene_quantity, what.of.internal.place), .most = 1,
+     .range = "a part of the member's length, from 0 to 1"},
+    {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "of the member",
+     ENTRY_IN(scene_quantity, what.of.internal.place)},
+    {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
+     .summary = "over the member: largest and least value, or largest magnitude",
+     ENTRY_IN(scene_quantity, what.of.internal.along), .first = SCENE_ALONG_MAX},
+    QUANTITY_SIDE(internal.before),
+    {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
+     .summary = "of what lies towards 'to', in the turned section's principal axes",
+     ENTRY_IN(scene_quantity, what.of.internal.resultant)},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.internal.resultant == SCENE_BIMOMENT ? "N m^2"
+           : q->what.of.internal.resultant < SCENE_MX      ? "N"
+                                                           : "N m";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    static const char *const resultant[SCENE_RESULTANTS] = {
+        [SCENE_N] = "normal force",
+        [SCENE_QY] = "shear force along the section's y",
+        [SCENE_QZ] = "shear force along the section's z",
+        [SCENE_MX] = "torque",
+        [SCENE_MY] = "bending moment about the section's y",
+        [SCENE_MZ] = "bending moment about the section's z",
+        [SCENE_BIMOMENT] = "bimoment",
+        [SCENE_MX_SAINT_VENANT] = "torque of Saint-Venant's torsion",
+        [SCENE_MX_WARPING] = "torque of the restrained warping",
+        [SCENE_MX_WAGNER] = "torque of the stresses along twisted fibres"};
+    static const char *const along[] = {[SCENE_ALONG_PLACE] = "",
+                                        [SCENE_ALONG_MAX] = "largest ",
+                                        [SCENE_ALONG_MIN] = "least ",
+                                        [SCENE_ALONG_LARGEST] = "largest magnitude of the "};
+    const scene_internal *c = &q->what.of.internal;
+    fprintf(to, "%s%s", along[c->along], resultant[c->resultant]);
+    if (c->along == SCENE_ALONG_PLACE)
+        meaning_place(to, c->place, c->before);
+    else
+        fputs(" along the length", to);
+    meaning_member(to, s, c->member);
+}
+
+const quantity_type quantity_internal = {.key = "internal",
+                                         .summary =
+                                             "resultant of stresses on a section of a member",
+                                         .kind = SCENE_INTERNAL,
+                                         .field = fields,
+                                         .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
+                                         .passing = QUANTITY_EXTREMES,
+                                         .unit = unit,
+                                         .meaning = meaning};

@@ -1,0 +1,40 @@
+/* Momentum of a whole motion, or its angular momentum about the origin. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"component", ENTRY_WORD, .needed = 1, .words = "px|py|pz|lx|ly|lz",
+     .summary = "p: linear; l: angular, about the origin",
+     ENTRY_IN(scene_quantity, what.of.balance), .first = SCENE_PX, .turns = ENTRY_COMPONENT},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.balance < SCENE_LX ? "kg m/s" : "kg m^2/s";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    const int component = (int)q->what.of.balance - (int)SCENE_PX;
+    fprintf(to, component < SCENE_RX ? "momentum along %c" : "angular momentum about the %c axis",
+            meaning_axis(component));
+}
+
+static int is(const scene_quantity *q)
+{
+    return q->what.of.balance >= SCENE_PX;
+}
+
+const quantity_type quantity_momentum = {.key = "momentum",
+                                         .summary = "of a motion",
+                                         .kind = SCENE_BALANCE,
+                                         .field = fields,
+                                         .analyses = 1u << SCENE_MOTION,
+                                         .passing = QUANTITY_EXTREMES,
+                                         .unit = unit,
+                                         .meaning = meaning,
+                                         .is = is};

@@ -1,0 +1,34 @@
+/* Velocity of a node, or its angular velocity in its own axes. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {QUANTITY_ANALYSIS,
+                                     QUANTITY_NODE(component.node),
+                                     QUANTITY_COMPONENT("of its coordinates", component.component),
+                                     QUANTITY_TAKEN,
+                                     {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.component.component <= SCENE_UZ ? "m/s" : "rad/s";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    const int turn = q->what.of.component.component >= SCENE_RX;
+    fputs(turn ? "angular velocity" : "velocity", to);
+    meaning_node(to, s, "of", q->what.of.component.node);
+    fprintf(to, turn ? " about its own %c axis" : " along %c",
+            meaning_axis(q->what.of.component.component));
+}
+
+const quantity_type quantity_rate = {.key = "rate",
+                                     .summary =
+                                         "velocity of a node, or angular velocity in its own axes",
+                                     .kind = SCENE_RATE,
+                                     .field = fields,
+                                     .analyses = 1u << SCENE_MOTION,
+                                     .passing = QUANTITY_CROSSINGS,
+                                     .unit = unit,
+                                     .meaning = meaning};

@@ -1,0 +1,70 @@
+/* Force or moment that holds or drives a component of a node. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    QUANTITY_NODE(component.node),
+    {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
+     .summary = "of its coordinates; turn_1: about the first axis of its sequence",
+     ENTRY_IN(scene_quantity, what.of.component.component), .turns = ENTRY_COMPONENT},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.component.component <= SCENE_UZ ? "N" : "N m";
+}
+
+/* Does the node follow a motion in this component, or in any of the turns that follow each other?
+ */
+static int is_driven(const scene_node *n, int component)
+{
+    if (component < SCENE_RX)
+        return n->translation[component] >= 0;
+    if (n->rotation == SCENE_ROTATION_SPATIAL)
+        return n->angle[component - SCENE_RX] >= 0;
+    return n->angle[0] >= 0 || n->angle[1] >= 0 || n->angle[2] >= 0;
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    const scene_component *what = &q->what.of.component;
+    fprintf(to, "%s %c", what->component >= SCENE_RX ? "moment about" : "force along",
+            meaning_axis(what->component));
+    meaning_node(to, s,
+                 is_driven(&s->node[what->node], what->component) ? "that drives" : "that holds",
+                 what->node);
+}
+
+/* turn_1: the moment about the first axis of a sequence, which is fixed in space. */
+static const char *settle(const scene *s, scene_quantity *q, const char **key)
+{
+    enum { TURN_1 = SCENE_RZ + 1 };
+    scene_component *what = &q->what.of.component;
+    if (what->component != TURN_1)
+        return NULL;
+    what->component = SCENE_RX;
+    if (what->node < 0 || what->node >= s->nodes)
+        return NULL;
+    const scene_node *n = &s->node[what->node];
+    const double *axis = n->axis[0];
+    for (int i = 0; i < 3 && n->rotation == SCENE_ROTATION_SEQUENCE; i++)
+        if (axis[i] > 0 && axis[(i + 1) % 3] == 0 && axis[(i + 2) % 3] == 0) {
+            what->component = SCENE_RX + i;
+            return NULL;
+        }
+    *key = "component";
+    return "turn_1 is of a node with a sequence whose first axis is x, y or z; take rx, ry or rz";
+}
+
+const quantity_type quantity_reaction = {.key = "reaction",
+                                         .summary = "of a held or driven component",
+                                         .kind = SCENE_REACTION,
+                                         .field = fields,
+                                         .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
+                                         .passing = QUANTITY_EXTREMES,
+                                         .unit = unit,
+                                         .meaning = meaning,
+                                         .settle = settle};

@@ -1,0 +1,45 @@
+/* Displacement or rotation of a node in the axes of another one that carries it along. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    QUANTITY_NODE(relative.node),
+    {"from", ENTRY_NAME, .needed = 1, .summary = "node in whose axes",
+     ENTRY_IN(scene_quantity, what.of.relative.from), .of = SCENE_NODES},
+    QUANTITY_COMPONENT("of its motion", relative.component),
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.relative.component <= SCENE_UZ ? "m" : "rad";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    meaning_coordinate(to, s, q->what.of.relative.node, q->what.of.relative.component);
+    meaning_node(to, s, "as seen from", q->what.of.relative.from);
+}
+
+static status check(const scene *s, const scene_quantity *q, fault *f)
+{
+    (void)s;
+    return q->what.of.relative.node != q->what.of.relative.from
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "quantity %s: no such relative coordinate; name two nodes, and UX to RZ",
+                           q->name);
+}
+
+const quantity_type quantity_relative = {.key = "relative",
+                                         .summary =
+                                             "displacement or rotation as seen from another node",
+                                         .kind = SCENE_RELATIVE,
+                                         .field = fields,
+                                         .analyses = QUANTITY_ALL_STATES,
+                                         .passing = QUANTITY_CROSSINGS,
+                                         .unit = unit,
+                                         .meaning = meaning,
+                                         .check = check};

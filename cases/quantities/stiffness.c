@@ -1,0 +1,43 @@
+/* One by an entry on the diagonal of the compliance matrix. */
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {QUANTITY_ANALYSIS,
+                                     {"component", ENTRY_WORD, .needed = 1,
+                                      .words = ENTRY_COMPONENTS, .summary = "of the coordinates",
+                                      ENTRY_IN(scene_quantity, what.of.entry.row),
+                                      .turns = ENTRY_DIAGONAL},
+                                     QUANTITY_TAKEN,
+                                     {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    return q->what.of.entry.row <= SCENE_UZ ? "N/m" : "N m/rad";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    const int component = q->what.of.entry.row;
+    fputs("stiffness", to);
+    meaning_node(to, s, "of", scene_compliance_of(&s->analysis[q->analysis])->node);
+    fprintf(to, ": small %s %c for a unit %s, all else free to follow", meaning_load(component),
+            meaning_axis(component), component < SCENE_RX ? "displacement" : "rotation");
+}
+
+static const char *settle(const scene *s, scene_quantity *q, const char **key)
+{
+    (void)s;
+    (void)key;
+    q->what.of.entry.column = q->what.of.entry.row;
+    return NULL;
+}
+
+const quantity_type quantity_stiffness = {.key = "stiffness",
+                                          .summary = "1/compliance, the other components free",
+                                          .kind = SCENE_STIFFNESS_ENTRY,
+                                          .field = fields,
+                                          .analyses = 1u << SCENE_COMPLIANCE,
+                                          .unit = unit,
+                                          .meaning = meaning,
+                                          .settle = settle};

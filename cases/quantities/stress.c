@@ -1,0 +1,83 @@
+/* Largest stress of a member, or of a section of it. */
+#include <math.h>
+
+#include "cases/scene/meaning_words.h"
+#include "cases/scene/quantity_type.h"
+
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    {"member", ENTRY_NAME, .needed = 1, .summary = "member; its section not given by constants",
+     ENTRY_IN(scene_quantity, what.of.stress.member), .of = SCENE_MEMBERS},
+    {"where", ENTRY_NUMBER, .summary = "0 'from' to 1 'to', of its length",
+     ENTRY_IN(scene_quantity, what.of.stress.place), .otherwise = NAN, .left_out = "all along it",
+     .most = 1, .range = "a part of the member's length, from 0 to 1"},
+    QUANTITY_SIDE(stress.before),
+    {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES, .summary = "over the section's points",
+     .usual = "von_mises", ENTRY_IN(scene_quantity, what.of.stress.measure), .always = 1},
+    QUANTITY_TAKEN,
+    {.name = NULL}};
+
+static const char *unit(const scene *s, const scene_quantity *q)
+{
+    (void)s;
+    (void)q;
+    return "Pa";
+}
+
+static void meaning(FILE *to, const scene *s, const scene_quantity *q)
+{
+    static const char *const measure[] = {
+        [SCENE_VON_MISES] = "largest von Mises stress",
+        [SCENE_NORMAL_MAX] = "largest normal stress (tension is positive)",
+        [SCENE_NORMAL_MIN] = "least normal stress (compression is negative)"};
+    const scene_stress *c = &q->what.of.stress;
+    fputs(measure[c->measure], to);
+    if (c->whole)
+        fputs(" of all sections", to);
+    else
+        meaning_place(to, c->place, c->before);
+    meaning_member(to, s, c->member);
+}
+
+/* Given constants have no points. */
+static int has_points(const scene *s, int member)
+{
+    const int profile = member >= 0 && member < s->members ? s->member[member].section : SCENE_NONE;
+    return profile < 0 || profile >= s->sections ||
+           (s->section[profile].kind != SECTION_CONSTANTS &&
+            s->section[profile].kind != SECTION_MATRICES);
+}
+
+static const char *settle(const scene *s, scene_quantity *q, const char **key)
+{
+    scene_stress *c = &q->what.of.stress;
+    c->whole = isnan(c->place);
+    c->place = c->whole ? 0 : c->place;
+    *key = "member";
+    return has_points(s, c->member)
+               ? NULL
+               : "its section is given by numbers and has no points; describe it by sizes or "
+                 "walls, or ask for 'internal'";
+}
+
+static status check(const scene *s, const scene_quantity *q, fault *f)
+{
+    if (has_points(s, q->what.of.stress.member))
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "quantity %s: the section of %s is given by numbers and has no points; "
+                     "describe it by sizes or walls, or ask for a resultant",
+                     q->name, scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text);
+}
+
+const quantity_type quantity_stress = {.key = "stress",
+                                       .summary =
+                                           "largest stress of a member or of a section of it",
+                                       .kind = SCENE_STRESS,
+                                       .field = fields,
+                                       .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
+                                       .passing = QUANTITY_EXTREMES,
+                                       .unit = unit,
+                                       .meaning = meaning,
+                                       .settle = settle,
+                                       .check = check};
