@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cases/format/builder.h"
+#include "cases/scene/functions.h"
 
 enum { MOST_TEXT = 4000 };
 
@@ -17,13 +18,7 @@ typedef struct written_out {
 
 static int is_own_name(const char *text, size_t length)
 {
-    static const char *const own[] = {"t",    "pi",    "deg",  "sin",  "cos", "tan", "asin", "acos",
-                                      "atan", "sinh",  "cosh", "tanh", "exp", "log", "sqrt", "abs",
-                                      "sign", "floor", "ceil", "mod",  "min", "max"};
-    for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
-        if (strlen(own[i]) == length && strncmp(own[i], text, length) == 0)
-            return 1;
-    return 0;
+    return (length == 1 && *text == 't') || functions_find(text, (int)length) != NULL;
 }
 
 /* 0: there is no room. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/functions.h"
+#include "cases/scene/functions.h"
 #include "cases/format/section_names.h"
 
 enum { DEEPEST = 60, NUMBER_TEXT = 64 };

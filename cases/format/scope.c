@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "cases/format/functions.h"
+#include "cases/scene/functions.h"
 #include "elements/shared/choice.h"
 
 static const scope *add(const scope *names, const char *name, double number, const char *word,

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/jet.h"
-#include "elements/math/pi.h"
+#include "cases/scene/functions.h"
 
 enum { MOST = 256, DEEPEST = 32 };
 
@@ -88,24 +87,52 @@ static status emit(reader *r, jet_operation what, double number, int grows)
 
 static status read_sum(reader *r);
 
-static const struct {
-    const char *name;
-    jet_operation what;
-} functions[] = {{"sin", JET_SIN},   {"cos", JET_COS},   {"tan", JET_TAN},   {"asin", JET_ASIN},
-                 {"acos", JET_ACOS}, {"atan", JET_ATAN}, {"sinh", JET_SINH}, {"cosh", JET_COSH},
-                 {"tanh", JET_TANH}, {"exp", JET_EXP},   {"log", JET_LOG},   {"sqrt", JET_SQRT}};
+/* The step last written is one number: its value; else NULL, t enters. */
+static const double *constant_from(const reader *r, int first)
+{
+    const instruction *step = &r->to->step[first];
+    return r->to->count == first + 1 && step->what == JET_NUMBER ? &step->number : NULL;
+}
 
-/* Of the language of scene files, and not of time. */
-static const char *const kinked[] = {"abs", "sign", "min", "max", "floor", "ceil", "mod"};
+/* Of numbers, behind "(": all are taken together as they are read. */
+static status read_arguments(reader *r, const function *f, int word)
+{
+    int count = 0;
+    do {
+        const int first = r->to->count;
+        TRY(read_sum(r));
+        const double *given = constant_from(r, first);
+        if (given == NULL && f->in_time == JET_NUMBER) {
+            r->at = word;
+            return wrong(
+                r, !f->kinked ? "it is of numbers only, and t is in it; write it with atan or sqrt"
+                              : "it makes kinks, where steps must end; give pieces instead");
+        }
+        if (count++ == 0)
+            continue;
+        double *before = &r->to->step[first - 1].number;
+        *before = f->of_two != NULL ? f->of_two(*before, *given) : *before;
+        r->to->count--;
+        r->depth--;
+    } while (takes(r, ','));
+    if (!takes(r, ')'))
+        return wrong(r, "missing )");
+    if (f->arguments < 0 ? count < 2 : count != f->arguments)
+        return wrong(r, "too few or too many arguments; see 'beamwork scene --keys'");
+    return STATUS_OK;
+}
 
-static status read_function(reader *r, jet_operation what)
+static status read_function(reader *r, const function *f, int word)
 {
     if (!takes(r, '('))
         return wrong(r, "a function needs its argument in parentheses");
-    TRY(read_sum(r));
-    if (!takes(r, ')'))
-        return wrong(r, "missing )");
-    return emit(r, what, 0, 0);
+    TRY(read_arguments(r, f, word));
+    if (f->in_time != JET_NUMBER)
+        return emit(r, f->in_time, 0, 0);
+    double *number = &r->to->step[r->to->count - 1].number;
+    *number = f->of_one != NULL ? f->of_one(*number) : *number;
+    return isfinite(*number) ? STATUS_OK
+                             : wrong(r, "what stands before it has no finite value; mend it");
 }
 
 static status read_word(reader *r)
@@ -114,30 +141,15 @@ static status read_word(reader *r)
     int length = 0;
     while (isalnum((unsigned char)r->text[first + length]) || r->text[first + length] == '_')
         length++;
-    const char *word = r->text + first;
-    if (length == 1 && *word == 't') {
-        r->at += length;
+    const function *f = functions_find(r->text + first, length);
+    const int is_time = length == 1 && r->text[first] == 't';
+    if (f == NULL && !is_time)
+        return wrong(r,
+                     "no such name; there are t, pi, deg, and functions as sin, cosh, exp, sqrt");
+    r->at += length;
+    if (is_time)
         return emit(r, JET_TIME, 0, 1);
-    }
-    if (length == 2 && strncmp(word, "pi", 2) == 0) {
-        r->at += length;
-        return emit(r, JET_NUMBER, PI, 1);
-    }
-    if (length == 3 && strncmp(word, "deg", 3) == 0) {
-        r->at += length;
-        return emit(r, JET_NUMBER, PI / 180, 1);
-    }
-    for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++)
-        if ((int)strlen(functions[i].name) == length &&
-            strncmp(functions[i].name, word, (size_t)length) == 0) {
-            r->at += length;
-            return read_function(r, functions[i].what);
-        }
-    for (size_t i = 0; i < sizeof kinked / sizeof kinked[0]; i++)
-        if ((int)strlen(kinked[i]) == length && strncmp(kinked[i], word, (size_t)length) == 0)
-            return wrong(r, "it makes kinks, where steps must end; give pieces instead");
-    return wrong(r, "no such name; there are t, pi, deg, sin, cos, tan, asin, acos, atan, sinh, "
-                    "cosh, tanh, exp, log, sqrt");
+    return f->arguments == 0 ? emit(r, JET_NUMBER, f->value, 1) : read_function(r, f, first);
 }
 
 /* Decimal. */

@@ -90,6 +90,10 @@ static void check_binding(void)
     check_value("30*deg*t", 6, 3.14159265358979323846);
     check_value(" 1e-3 * t ", 2, 2e-3);
     check_value("+.5", 0, 0.5);
+    check_value("max(1, 3, 2)*t", 2, 6);
+    check_value("hypot(3, 2*2)*t", 2, 10);
+    check_value("abs(-2)^t", 3, 8);
+    check_value("sinh(atan2(0, 1)) + t", 3, 3);
 }
 
 /* 1: finite, 0: not, of value, velocity and acceleration. */
@@ -149,6 +153,11 @@ static void check_refusals(void)
     check_refused("2 + x*t", 5, "no such name");
     check_refused("abs(t)", 1, "give pieces");
     check_refused("max(t, 1)", 1, "give pieces");
+    check_refused("2*max(1, t)", 3, "give pieces");
+    check_refused("atan2(t, 1)", 1, "of numbers only");
+    check_refused("sin(t, 1)", 10, "too many arguments");
+    check_refused("min(1)*t", 7, "too few");
+    check_refused("mod(1, 0)*t", 10, "no finite value");
     check_refused("3mm", 2, "20e-3 for 20 mm");
     check_refused("2*t + 4t", 8, "put * between");
     check_refused("0x10", 1, "not a decimal number");

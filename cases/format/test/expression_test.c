@@ -34,6 +34,7 @@ static void check_values(const scope *names)
                {"sin(pi/2)", 1},
                {"atan2(1, -1)", 2.356194490192345},
                {"hypot(3,4)", 5},
+               {"tanh(log(2))*5", 3},
                {"min(3, 1, 2)", 1},
                {"max(3, 7)", 7},
                {"mod(-1, 4)", 3},

@@ -1,6 +1,8 @@
-/* Functions and constants of expressions. */
+/* Functions and constants of expressions, and which of them functions of time have. */
 #ifndef BEAMWORK_FUNCTIONS_H
 #define BEAMWORK_FUNCTIONS_H
+
+#include "cases/scene/jet.h"
 
 typedef struct function {
     const char *name;
@@ -8,6 +10,8 @@ typedef struct function {
     double value;  /* of a constant */
     double (*of_one)(double);
     double (*of_two)(double, double); /* of more: taken again and again */
+    int kinked;                       /* 1: it has kinks or jumps */
+    jet_operation in_time; /* JET_NUMBER: none, of what changes in time it cannot be taken */
 } function;
 
 /* The function or constant with that name of `length` bytes, or NULL. */
