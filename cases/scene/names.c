@@ -44,8 +44,6 @@ static char *room_of(const scene *s, scene_list list, int i)
         return s->analysis[i].name;
     case SCENE_QUANTITIES:
         return s->quantity[i].name;
-    case SCENE_LISTS:
-        break;
     }
     return NULL;
 }

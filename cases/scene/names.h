@@ -12,9 +12,9 @@ typedef enum scene_list {
     SCENE_DRIVERS,
     SCENE_LOADS,
     SCENE_ANALYSES,
-    SCENE_QUANTITIES,
-    SCENE_LISTS
+    SCENE_QUANTITIES
 } scene_list;
+enum { SCENE_LISTS = SCENE_QUANTITIES + 1 };
 
 typedef struct scene_words {
     char text[SCENE_NAME + 16];
