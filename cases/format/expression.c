@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene/functions.h"
 #include "cases/format/section_names.h"
+#include "cases/scene/functions.h"
 
 enum { DEEPEST = 60, NUMBER_TEXT = 64 };
 

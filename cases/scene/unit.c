@@ -119,6 +119,10 @@ static void scale_entries(scene *s, entry_base base, double times)
         entry_scale(entry_node, &s->node[i], base, times);
     for (int i = 0; i < s->members; i++)
         entry_scale(entry_member, &s->member[i], base, times);
+    for (int i = 0; i < s->springs; i++)
+        entry_scale(entry_spring, &s->spring[i], base, times);
+    for (int i = 0; i < s->drivers; i++)
+        entry_scale(entry_driver, &s->driver[i], base, times);
     for (int i = 0; i < s->loads; i++) {
         entry_scale(entry_load, &s->load[i], base, times);
         scale_load(&s->load[i], base, times);
