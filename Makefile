@@ -16,8 +16,8 @@ endif
 BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPIC $(WARNINGS)
 
 FORMULATIONS := $(sort $(wildcard elements/*.c))
-CASES := $(sort $(wildcard cases/*.c))
-LIBRARY_SOURCES := $(FORMULATIONS) $(CASES) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
+CASES := $(sort $(wildcard cases/*.c cases/*.yaml))
+LIBRARY_SOURCES := $(FORMULATIONS) $(filter %.c,$(CASES)) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
 LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/cli/main.c,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
@@ -28,11 +28,14 @@ PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py
 REGISTRY := $(BUILD)/registry.c
 PRICES := $(BUILD)/price_table.c
 EXPENSES := $(BUILD)/expense_table.c
+# Scene files among the cases are read while the program is built, and are C in it.
+PACKED := $(patsubst cases/%.yaml,$(BUILD)/packed/%.o,$(filter %.yaml,$(CASES)))
+PACK_CASE := $(BUILD)/pack_case
 LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
 PLANTED := $(BUILD)/planted
 TRUTHS := $(BUILD)/truths.h5
-OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o)
+OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
 WIDE := elements/math/congruence.c elements/beamw/in_time.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/*/triangular_*.c))
 ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
@@ -233,6 +236,12 @@ needs-report needs-test needs-truths needs-layout:
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
 
+$(PACK_CASE): $(BUILD)/harness/tools/pack/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
+	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+
+$(PACKED:.o=.c): $(BUILD)/packed/%.c: cases/%.yaml $(PACK_CASE)
+	@mkdir -p $(@D); $(PACK_CASE) $< >$@
+
 $(PRICES): harness/study/prices.csv harness/tools/price_table.sh
 	@harness/tools/price_table.sh $@ $<
 
@@ -267,7 +276,8 @@ $(BUILD)/%.avx2.o: %.c
 
 $(PRICES:.c=.o): harness/study/price.h
 $(EXPENSES:.c=.o): harness/study/expense.h
-$(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o): $(BUILD)/%.o: $(BUILD)/%.c
+$(PACKED): cases/format/packed.h cases/case.h elements/shared/parameter.h
+$(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
 
 $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list

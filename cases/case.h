@@ -1,5 +1,6 @@
 /* A case: a table of parameters and a function from their values to a scene.
- * One file in cases/ defines one const case_type whose symbol is case_<file name>. */
+ * One file in cases/ defines one const case_type whose symbol is case_<file name>: in C, or as a
+ * scene file, which the build reads (cases/format/packed.h). */
 #ifndef BEAMWORK_CASE_H
 #define BEAMWORK_CASE_H
 
@@ -14,8 +15,8 @@ typedef struct case_type {
     /* value[i] belongs to the i-th of all parts and is inside its range.  Refuses combinations that
      * make no sense. */
     status (*build)(const double value[], scene *s, fault *f);
-    /* The same of a case that is made at run time, in the place of build; context: what it is made
-     * from. */
+    /* The same of a case that is made from a scene file, where build is NULL; context: what it is
+     * made from. */
     status (*build_from)(const void *context, const double value[], scene *s, fault *f);
     const void *context;
     const char *file; /* of a scene file; NULL: built in */

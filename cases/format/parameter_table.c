@@ -101,17 +101,16 @@ void parameter_table_read(scene_file *file, mistakes *m)
     file->type.parameters[0] = file->parameter;
 }
 
-const scope *parameter_table_names(const scene_file *file, const double value[], arena *a)
+const scope *parameter_table_names(const parameter_type *p, const double value[], arena *a)
 {
     const scope *names = NULL;
-    for (int i = 0; i < file->parameters; i++) {
-        const parameter_type *p = &file->parameter[i];
+    for (; p->name != NULL; p++, value++) {
         char word[48];
         if (p->choices == NULL) {
-            names = scope_number(names, p->name, value[i], a);
+            names = scope_number(names, p->name, *value, a);
             continue;
         }
-        choice_name(p->choices, (int)value[i], word, sizeof word);
+        choice_name(p->choices, (int)*value, word, sizeof word);
         const char *kept = arena_copy(a, word, strlen(word));
         if (kept != NULL)
             names = scope_word(names, p->name, kept, a);

@@ -64,7 +64,7 @@ static void build_at(const scene_file *file, const double value[], build_ends en
                      mistakes *m)
 {
     arena a = {0};
-    build_scene(file->root, parameter_table_names(file, value, &a), ends, &a, m, s);
+    build_scene(file->root, parameter_table_names(file->parameter, value, &a), ends, &a, m, s);
     arena_free(&a);
 }
 

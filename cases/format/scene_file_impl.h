@@ -16,8 +16,8 @@ struct scene_file {
 
 /* The table of parameters; defaults are in their ranges where there is no mistake. */
 void parameter_table_read(scene_file *file, mistakes *m);
-/* The names of the parameters with these values. */
-const scope *parameter_table_names(const scene_file *file, const double value[], arena *a);
+/* The names of the parameters of a table with these values. */
+const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
 /* Mistakes of the truths, whose quantities are those of the scene, at a point. */
 void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
                              mistakes *m);

@@ -58,9 +58,7 @@ static void place_mass(scene *s, scene_mass mass)
 
 status case_build(const case_type *c, const double value[], scene *s, fault *f)
 {
-    if (c->build_from != NULL)
-        return c->build_from(c->context, value, s, f);
-    TRY(c->build(value, s, f));
+    TRY(c->build != NULL ? c->build(value, s, f) : c->build_from(c->context, value, s, f));
     if (case_omits_nothing(c, value))
         s->omits = 0;
     place_mass(s, mass_of(c, value));

@@ -87,7 +87,7 @@ static void features_of_cases(const formulation *chosen, claims *c)
         scene s;
         parameters_default(registry_cases[i], value);
         scene_init(&s, registry_cases[i]->name);
-        if (registry_cases[i]->build(value, &s, NULL) == STATUS_OK &&
+        if (case_build(registry_cases[i], value, &s, NULL) == STATUS_OK &&
             !missing_words(&s, chosen->type, words, sizeof words)) {
             accepted(chosen, features_needed_of(&s, chosen->type), registry_cases[i]->name, c);
             runs++;

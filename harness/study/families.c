@@ -294,7 +294,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
 /* May agreements of it become truths? */
 static int is_open(const point *p, int files_only)
 {
-    return p->status == STATUS_OK && (!files_only || p->type->build_from != NULL);
+    return p->status == STATUS_OK && (!files_only || p->type->file != NULL);
 }
 
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f)

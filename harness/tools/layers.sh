@@ -42,9 +42,9 @@ hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' 
         file != home { print $0 "   <- this is the inside of " home }' || true)
 [ -z "$hits" ] || { echo "$hits"; bad=1; }
 # The harness walks generated lists: neither a formulation nor a case is named in it.
-for file in elements/*.c cases/*.c; do
+for file in elements/*.c cases/*.c cases/*.yaml; do
     [ -f "$file" ] || continue
-    name=$(basename "$file" .c)
+    name=$(basename "${file%.*}")
     quoted="\"$name\"|"
     case $name in release) quoted="" ;; esac # a word of scene files, too
     hits=$(grep -rnwE "${quoted}element_$name|case_$name" harness cases/format --include='*.c' --include='*.h' 2>/dev/null | grep -vE '/(test|kit)/' || true)

@@ -1,13 +1,13 @@
 #!/bin/sh
 # Writes the two generated lists (formulations, cases) from the names of the files that exist.
-# usage: registry.sh OUT.c elements/a.c ... cases/b.c ...   Rewrites OUT.c only when it changes.
+# usage: registry.sh OUT.c elements/a.c ... cases/b.c cases/c.yaml ...   Rewrites OUT.c only when it changes.
 set -eu
 out=$1
 shift
 formulations=
 cases=
 for file in "$@"; do
-    name=$(basename "$file" .c)
+    name=$(basename "${file%.*}")
     case $file in
     elements/*) formulations="$formulations $name" ;;
     cases/*) cases="$cases $name" ;;

@@ -156,7 +156,7 @@ static void jump_ends_constant_steps(void)
 
 static status build_adaptive(const double value[], scene *s, fault *f)
 {
-    const status outcome = case_find("c_cantilever", f)->build(value, s, f);
+    const status outcome = case_build(case_find("c_cantilever", f), value, s, f);
     s->analysis[0].of.continuation.control.constant_steps = 0;
     return outcome;
 }
@@ -176,7 +176,7 @@ static void jump_is_walked_around(void)
 
 static status build_long_arcs(const double value[], scene *s, fault *f)
 {
-    const status outcome = case_find("lee_frame", f)->build(value, s, f);
+    const status outcome = case_build(case_find("lee_frame", f), value, s, f);
     s->analysis[0].of.continuation.control.constant_steps = 1;
     s->analysis[0].of.continuation.control.step *= 5;
     s->analysis[0].of.continuation.control.step_max *= 5;
@@ -219,7 +219,7 @@ static void refusals(void)
     const case_type *type = case_find("c_cantilever", &f);
     parameters_default(type, value);
     scene_init(&s, "refused");
-    gsl_test_int((int)type->build(value, &s, &f), STATUS_OK, "a scene to spoil");
+    gsl_test_int((int)case_build(type, value, &s, &f), STATUS_OK, "a scene to spoil");
     s.analysis[0].of.continuation.control.component = SCENE_RX;
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED,
                  "a rotation as control coordinate: %s", f.text);

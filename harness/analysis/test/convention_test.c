@@ -155,7 +155,7 @@ static void turn_vector(const double q[4], double v[3])
 static status tilted_hinge(const double value[], scene *s, fault *f)
 {
     double q[4];
-    const status outcome = case_find("cross_flexure", NULL)->build(value, s, f);
+    const status outcome = case_build(case_find("cross_flexure", NULL), value, s, f);
     const int arm = 0, edge = scene_add_attached(s, arm, 0.01, 0.02, 0);
     scene_add_load(s, SCENE_FORCE, edge, value[TILTED], -2 * value[TILTED], 20 * value[TILTED]);
     rotation_exp(turn_of_axes, q);

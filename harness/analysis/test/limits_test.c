@@ -52,7 +52,7 @@ static double curved(const element_type *e, double curvature, ask_tally *tally)
     const case_type *type = case_find("elastica", &f);
     parameters_default(type, value);
     scene_init(&s, type->name);
-    gsl_test(type->build(value, &s, &f) != STATUS_OK, "elastica: built (%s)", f.text);
+    gsl_test(case_build(type, value, &s, &f) != STATUS_OK, "elastica: built (%s)", f.text);
     scene_member_at(&s, 0)->curvature[2] = curvature;
     ask_scene(&s, e, NULL, 4, &a);
     scene_free(&s);

@@ -121,7 +121,7 @@ static void rests(const point *p, const formulation *chosen, int elements)
     fault f = {""};
     double worst = INFINITY;
     scene_init(&s, p->type->name);
-    status outcome = p->type->build(p->parameter, &s, &f);
+    status outcome = case_build(p->type, p->parameter, &s, &f);
     leave_alone(&s);
     ask_for_all(&s);
     const model_request what = {&s, chosen->type, chosen->option, elements, 0, 0};

@@ -155,7 +155,8 @@ static void all_cases_are_held(void)
         fault f = {""};
         scene_init(&s, registry_cases[i]->name);
         parameters_default(registry_cases[i], value);
-        gsl_test(registry_cases[i]->build(value, &s, &f) != STATUS_OK, "%s: %s", s.name, f.text);
+        gsl_test(case_build(registry_cases[i], value, &s, &f) != STATUS_OK, "%s: %s", s.name,
+                 f.text);
         for (int k = 0; registry_formulations[k] != NULL && !tried; k++) {
             const model_request what = {&s, registry_formulations[k], NULL, 2, 0};
             tried = model_alloc(&what, &m, &f) == STATUS_OK;

@@ -19,7 +19,7 @@ enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 static status turned(const double value[], scene *s, fault *f)
 {
     const double c = cos(value[ANGLE]), d = sin(value[ANGLE]);
-    const status outcome = registry_cases[(int)value[ORIGINAL]]->build(value, s, f);
+    const status outcome = case_build(registry_cases[(int)value[ORIGINAL]], value, s, f);
     for (int i = 0; i < s->sections && outcome == STATUS_OK; i++)
         for (int k = 0; k < s->section[i].points; k++) {
             const double y = s->section[i].point[k][0], z = s->section[i].point[k][1];

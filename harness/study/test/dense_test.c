@@ -21,7 +21,7 @@ static int order_of(const cell_request *request)
                                   .type = request->formulation,
                                   .options = request->option,
                                   .elements = request->elements};
-    if (request->type->build(request->parameter, &s, &f) == STATUS_OK &&
+    if (case_build(request->type, request->parameter, &s, &f) == STATUS_OK &&
         model_alloc(&wanted, &m, &f) == STATUS_OK)
         order = uncondensed_size(m);
     gsl_test(order < 0, "%s: %s", request->type->name, f.text);

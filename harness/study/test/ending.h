@@ -29,7 +29,7 @@ static inline formulation ending_good(void)
     char words[200];
     scene_init(&s, "test");
     parameters_default(registry_cases[0], value);
-    registry_cases[0]->build(value, &s, NULL);
+    case_build(registry_cases[0], value, &s, NULL);
     int i = 0;
     while (registry_formulations[i + 1] != NULL &&
            missing_words(&s, registry_formulations[i], words, sizeof words))

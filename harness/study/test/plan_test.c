@@ -119,7 +119,7 @@ static status with_meshes(const double value[], scene *s, fault *f)
     double defaults[CASE_MAX_PARAMETERS] = {0};
     int mesh[SCENE_MESHES];
     parameters_default(registry_cases[0], defaults);
-    const status built = registry_cases[0]->build(defaults, s, f);
+    const status built = case_build(registry_cases[0], defaults, s, f);
     for (int i = 0; i < SCENE_MESHES; i++)
         mesh[i] = value[0] > 0 ? (int)value[0] : i + 1;
     scene_meshes(s, SCENE_MESHES, mesh);

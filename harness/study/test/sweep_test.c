@@ -156,7 +156,7 @@ static status build_in_plan(const double value[], scene *s, fault *f)
     if (getpid() != (pid_t)value[0])
         return fault_set(f, STATUS_REFUSED, "the scene is built once more");
     parameters_default(registry_cases[0], defaults);
-    return registry_cases[0]->build(defaults, s, f);
+    return case_build(registry_cases[0], defaults, s, f);
 }
 
 static void cells_share_a_scene(void)
