@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "cases/format/builder.h"
+#include "cases/format/choose.h"
 #include "cases/format/expression.h"
 #include "cases/format/range.h"
+#include "cases/format/substitute.h"
 #include "cases/scene/omission.h"
 #include "cases/scene/unit.h"
 #include "cases/scene/warping.h"
@@ -91,6 +93,33 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
+/* Of a word of 'omit': yes, or the values that names have where it is left out. */
+static int is_omitted(const fields *f, const document_node *n)
+{
+    if (n->kind == DOCUMENT_MAP)
+        return choose_holds(n, f->names, f->b->mistakes);
+    if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "yes") == 0)
+        return 1;
+    document_mistake(f->b->mistakes, n, 0,
+                     "give yes, or the values that names have where it is left out: {NAME: VALUE}");
+    return 0;
+}
+
+/* A list of words, or a map of them. */
+static unsigned read_omit(const fields *f, const char *choices)
+{
+    const document_node *n = document_find(f->map, "omit");
+    unsigned bits = 0;
+    if (n == NULL || n->kind != DOCUMENT_MAP)
+        return fields_words(f, "omit", choices);
+    for (int i = 0; i < n->count; i++) {
+        const int index = fields_word_of(f, n->key[i], "omit", choices, -1);
+        if (is_omitted(f, n->item[i]) && index >= 0)
+            bits |= 1u << index;
+    }
+    return bits;
+}
+
 static void read_physics(builder *b)
 {
     static const char choices[] =
@@ -98,7 +127,7 @@ static void read_physics(builder *b)
     enum { ALL = 1 << 6 };
     const fields f = {b, b->names, b->root, b->root, NULL};
     if (!fields_have(&f, "needs")) {
-        const unsigned omits = fields_words(&f, "omit", choices);
+        const unsigned omits = read_omit(&f, choices);
         for (int i = 0; scene_omissions[i].word != NULL; i++)
             if (omits >> i & 1u || omits & ALL)
                 scene_omit(b->scene, scene_omissions[i].feature);
@@ -125,15 +154,15 @@ static void read_plane(builder *b)
 static void read_meshes(builder *b)
 {
     static const int usual[] = {1, 2, 4, 8};
-    const fields f = {b, b->names, b->root, b->root, NULL};
     double *value;
     int mesh[SCENE_MESHES];
-    const int count = fields_values(&f, "meshes", &value);
-    if (count == 0) {
+    const document_node *said = document_find(b->root, "meshes"),
+                        *n = said != NULL ? choose_value(said, b->names, b->mistakes) : NULL;
+    const int count = n != NULL ? range_values(n, b->names, b->arena, b->mistakes, &value) : 0;
+    if (count <= 0) {
         scene_meshes(b->scene, 4, usual);
         return;
     }
-    const document_node *n = document_find(b->root, "meshes");
     if (count > SCENE_MESHES)
         document_mistake(b->mistakes, n, 0, "%d meshes; give at most %d", count, SCENE_MESHES);
     for (int i = 0; i < count && i < SCENE_MESHES; i++) {
@@ -167,6 +196,21 @@ static void tell_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
+/* 1: values of parameters are refused. */
+static int refuses(const builder *b)
+{
+    const document_node *all = document_find(b->root, "refuse");
+    const int before = b->mistakes->count;
+    for (int i = 0; all != NULL && i < all->count; i++) {
+        const document_node *say = document_find(all->item[i], "say");
+        if (!choose_holds(document_find(all->item[i], "if"), b->names, b->mistakes))
+            continue;
+        const char *text = substitute_said(say, b->names, b->arena, b->mistakes);
+        document_mistake(b->mistakes, say, 0, "%s", text != NULL ? text : "");
+    }
+    return b->mistakes->count > before;
+}
+
 /* From the units of the file, in which quantities are reported. own: the rest are not of the file.
  */
 static void to_si(const builder *b, int own)
@@ -194,6 +238,8 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
     fault f = {""};
     units_read(document_find(root, "units"), m, &b.units);
     b.names = unroll_let(document_find(root, "let"), names, a, m);
+    if (refuses(&b))
+        return;
     build_sections(&b);
     list_entries(&b);
     if (a->failed) {

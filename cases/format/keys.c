@@ -6,8 +6,14 @@
 #include "cases/scene/scene.h"
 #include "elements/shared/choice.h"
 
-static const entry_field number[] = {{"", ENTRY_NUMBER, .summary = "an expression"},
-                                     {.name = NULL}};
+const entry_field keys_let[] = {
+    {"", ENTRY_FORMS, .summary = "an expression, or a choice: {NAME: {VALUE: ..., else: ...}}"},
+    {.name = NULL}};
+
+const entry_field keys_refusal[] = {
+    {"if", ENTRY_FORMS, .needed = 1, .summary = "as of entries"},
+    {"say", ENTRY_TEXT, .needed = 1, .summary = "why, and what to do; $NAME is replaced"},
+    {.name = NULL}};
 
 static const entry_field nothing[] = {{.name = NULL}};
 
@@ -17,7 +23,8 @@ const entry_field keys_parameter[] = {
     {"unit", ENTRY_TEXT, .summary = "SI unit; 1 for a plain number", .usual = "1"},
     {"min", ENTRY_NUMBER, .summary = "least value", .left_out = "no limit"},
     {"max", ENTRY_NUMBER, .summary = "largest value", .left_out = "no limit"},
-    {"choices", ENTRY_FORMS, .summary = "[WORD, ...]: the words that may be chosen",
+    {"choices", ENTRY_FORMS,
+     .summary = "[WORD, ...]: the words that may be chosen; [0, 1]: a switch",
      .left_out = "it is a number"},
     {"about", ENTRY_TEXT, .summary = "what it is, in one line", .left_out = "none"},
     {.name = NULL}};
@@ -42,7 +49,7 @@ const entry_field keys_truth[] = {
     {.name = NULL}};
 
 const entry_field keys_part[] = {
-    {"let", ENTRY_NAMES, .below = number, .summary = "values derived for the part",
+    {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for the part",
      .left_out = "none"},
     {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "NAME is INSTANCE.NAME in the scene",
      .left_out = "none"},
@@ -84,8 +91,12 @@ const entry_field keys_instance[] = {
 const entry_field keys_loop[] = {
     {"for", ENTRY_FORMS, .summary = "{NAME: a..b | a..b step c | a..b/n | [list], ...}: loops",
      .left_out = "it is there once"},
-    {"let", ENTRY_NAMES, .below = number, .summary = "values derived for this entry",
+    {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for this entry",
      .left_out = "none"},
+    {"if", ENTRY_FORMS,
+     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the values that names "
+                "have where the entry is there",
+     .left_out = "it is always there"},
     {.name = NULL}};
 
 #define PHYSICS "shear|trapeze|wagner_moments|wagner_torque|rotary_inertia|warping"
@@ -101,8 +112,10 @@ const entry_field keys_root[] = {
      .left_out = "SI"},
     {"parameters", ENTRY_ENTRIES, .below = keys_parameter, .summary = "what --set may change",
      .left_out = "none"},
-    {"let", ENTRY_NAMES, .below = number, .summary = "derived values, in order",
+    {"let", ENTRY_NAMES, .below = keys_let, .summary = "derived values, in order",
      .left_out = "none"},
+    {"refuse", ENTRY_LIST, .below = keys_refusal,
+     .summary = "values of parameters that make no scene", .left_out = "nothing is refused"},
     {"sections", ENTRY_ENTRIES, .needed = 1, .below = entry_section, .summary = "cross-sections"},
     {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "ends, supports, bodies",
      .left_out = "those of the instances"},
@@ -122,7 +135,9 @@ const entry_field keys_root[] = {
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
-    {"omit", ENTRY_WORDS, .words = PHYSICS "|all|none", .summary = "physics that is left out",
+    {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
+     .summary = "physics that is left out: a word, a list of them, or {WORD: yes, WORD: {NAME: "
+                "VALUE}}, the values that names have where it is",
      .left_out = "none: all that sections, loads and analyses call for is there"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
      .summary = "of shear in stability; own: that of each formulation", .usual = "haringx"},
@@ -134,7 +149,9 @@ const entry_field keys_root[] = {
      .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "
                 "omit stands for it now",
      .left_out = "omit says it"},
-    {"meshes", ENTRY_NUMBERS, .summary = "elements per member", .usual = "[1, 2, 4, 8]"},
+    {"meshes", ENTRY_FORMS,
+     .summary = "elements per member: [EXPR, ...], or a choice of such: {NAME: {VALUE: [...]}}",
+     .usual = "[1, 2, 4, 8]"},
     {"parts", ENTRY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
      .left_out = "none"},
     {"instances", ENTRY_ENTRIES, .below = keys_instance, .summary = "parts placed in the scene",
@@ -177,7 +194,7 @@ static void tell_kind(const document_node *n, const document_node *name, const c
 
 int keys_loops(const entry_field *table)
 {
-    return table != keys_parameter && table != keys_part;
+    return table != keys_parameter && table != keys_part && table != keys_refusal;
 }
 
 static void check_entries(const document_node *n, const entry_field *k, const document_node *name,

@@ -6,9 +6,10 @@
 #include "cases/format/document.h"
 #include "cases/scene/entry.h"
 
-extern const entry_field keys_root[], keys_truth[], keys_parameter[], keys_part[], keys_instance[];
+extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
+    keys_part[], keys_instance[];
 
-/* `for` and `let`, which every entry may have. */
+/* `for`, `let` and `if`, which every entry may have. */
 extern const entry_field keys_loop[];
 /* May its entries have them? */
 int keys_loops(const entry_field *table);

@@ -35,5 +35,7 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
                     &m, s);
     m.out_of_memory |= a.failed;
     arena_free(&a);
-    return mistakes_status(&m, f);
+    /* of a case of the program it says more by itself than with the place in a file */
+    return m.count > 0 && !m.out_of_memory ? fault_set(f, STATUS_REFUSED, "%s", m.list[0].text)
+                                           : mistakes_status(&m, f);
 }

@@ -22,6 +22,22 @@ static double number_of(const document_node *entry, const char *key, double othe
     return n != NULL && expression_number(n, NULL, m, &value) ? value : otherwise;
 }
 
+/* [0, 1] */
+static int is_switch(const document_node *choices)
+{
+    return choices->kind == DOCUMENT_LIST && choices->count == 2 &&
+           choices->item[0]->kind == DOCUMENT_TEXT && strcmp(choices->item[0]->text, "0") == 0 &&
+           choices->item[1]->kind == DOCUMENT_TEXT && strcmp(choices->item[1]->text, "1") == 0;
+}
+
+static void read_switch(parameter_type *p, const document_node *value, mistakes *m)
+{
+    p->unit = "1";
+    p->max = 1;
+    if (expression_number(value, NULL, m, &p->value) && p->value != 0 && p->value != 1)
+        document_mistake(m, value, 0, "%s: the default is none of its choices 0|1", p->name);
+}
+
 /* [a, b, c] -> "a|b|c"; NULL after a mistake. */
 static const char *join_choices(scene_file *file, const document_node *list, mistakes *m)
 {
@@ -91,10 +107,12 @@ void parameter_table_read(scene_file *file, mistakes *m)
                 (parameter_type){.name = all->key[i]->text, .summary = text_of(entry, "about", "")};
             if (scope_accepts(names, all->key[i], m))
                 names = scope_number(names, p->name, 0, &file->arena);
-            if (choices != NULL)
+            if (choices != NULL && !is_switch(choices))
                 p->choices = join_choices(file, choices, m);
             if (p->choices != NULL)
                 read_choice(p, document_find(entry, "value"), m);
+            else if (choices != NULL && is_switch(choices))
+                read_switch(p, document_find(entry, "value"), m);
             else if (choices == NULL)
                 read_number(p, entry, document_find(file->root, "units") != NULL, m);
         }
@@ -113,7 +131,7 @@ const scope *parameter_table_names(const parameter_type *p, const double value[]
         choice_name(p->choices, (int)*value, word, sizeof word);
         const char *kept = arena_copy(a, word, strlen(word));
         if (kept != NULL)
-            names = scope_word(names, p->name, kept, a);
+            names = scope_choice(names, p->name, kept, p->choices, a);
     }
     return names;
 }

@@ -108,8 +108,8 @@ typedef struct truth_reader {
 static truth_reader open_truths(const scene_file *file, const double value[], arena *a, mistakes *m)
 {
     truth_reader r = {.b = {.arena = a, .mistakes = m, .root = file->root}};
-    r.b.names =
-        unroll_let(document_find(file->root, "let"), parameter_table_names(file->parameter, value, a), a, m);
+    r.b.names = unroll_let(document_find(file->root, "let"),
+                           parameter_table_names(file->parameter, value, a), a, m);
     /* constants of sections are names, too */
     scene of_sections;
     scene_init(&of_sections, "");

@@ -58,7 +58,8 @@ static json_t *value_of(const entry_field *k)
         return json_pack("{s:s, s:o}", "type", "object", "additionalProperties",
                          map_of(k->below, keys_loops(k->below) ? keys_loop : NULL));
     case ENTRY_LIST:
-        return json_pack("{s:s, s:o}", "type", "array", "items", map_of(k->below, keys_loop));
+        return json_pack("{s:s, s:o}", "type", "array", "items",
+                         map_of(k->below, keys_loops(k->below) ? keys_loop : NULL));
     case ENTRY_NAMES:
         return json_pack("{s:s, s:o}", "type", "object", "additionalProperties",
                          k->below->name != NULL ? value_of(k->below) : scalar());

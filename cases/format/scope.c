@@ -28,6 +28,16 @@ const scope *scope_word(const scope *names, const char *name, const char *word, 
     return add(names, name, 0, word, a);
 }
 
+const scope *scope_choice(const scope *names, const char *name, const char *word,
+                          const char *choices, arena *a)
+{
+    scope *one = arena_take(a, sizeof *one);
+    if (one == NULL)
+        return names;
+    *one = (scope){.name = name, .word = word, .choices = choices, .before = names};
+    return one;
+}
+
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a)
 {
     scope *one = arena_take(a, sizeof *one);

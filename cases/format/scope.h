@@ -10,6 +10,7 @@ typedef struct scope {
     const char *name;
     double number;           /* NAN: its expression has a mistake, which is told */
     const char *word;        /* of a choice; NULL: a number */
+    const char *choices;     /* "a|b|c" of a parameter; NULL: not known */
     const double *constants; /* of a section, whose name ends in a point; NULL: it is none */
     const struct scope *before;
 } scope;
@@ -17,6 +18,9 @@ typedef struct scope {
 /* The scope with one name more, a number or a word; the scope itself where memory ran out. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
+/* A word of a parameter that has these. */
+const scope *scope_choice(const scope *names, const char *name, const char *word,
+                          const char *choices, arena *a);
 /* With the constants of a section: see section_names.h. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* The entry of a name of that length, or NULL. */

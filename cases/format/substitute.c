@@ -33,14 +33,19 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* The text of a name; 0: a mistake was told. */
-static int value_text(const document_node *n, int at, const char *name, size_t length,
-                      const scope *names, mistakes *m, char out[64])
+/* The text of a name, said: for people; 0: a mistake was told. */
+static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
+                      mistakes *m, char out[64])
 {
+    const char *name = n->text + at + (n->text[at + 1] == '{' ? 2 : 1);
     const scope *known = scope_find(names, name, length);
     char word[48], remedy[FAULT_TEXT];
     if (known != NULL && known->word != NULL) {
         snprintf(out, 64, "%s", known->word);
+        return 1;
+    }
+    if (known != NULL && said) {
+        snprintf(out, 64, "%g", known->number);
         return 1;
     }
     if (known != NULL && known->number == floor(known->number) && fabs(known->number) < 1e9) {
@@ -60,7 +65,7 @@ static int value_text(const document_node *n, int at, const char *name, size_t l
     return 0;
 }
 
-static const char *substitute_text(const document_node *n, const scope *names, arena *a,
+static const char *substitute_text(const document_node *n, int said, const scope *names, arena *a,
                                    mistakes *m)
 {
     char text[LONGEST];
@@ -69,8 +74,7 @@ static const char *substitute_text(const document_node *n, const scope *names, a
         int braces;
         const size_t length = name_at(at, &braces);
         char value[64];
-        if (length > 0 &&
-            value_text(n, (int)(at - n->text), at + 1 + braces, length, names, m, value)) {
+        if (length > 0 && value_text(n, (int)(at - n->text), length, said, names, m, value)) {
             used += (size_t)snprintf(text + used, sizeof text - used, "%s", value);
             at += 1 + length + 2 * (size_t)braces;
         } else {
@@ -78,6 +82,11 @@ static const char *substitute_text(const document_node *n, const scope *names, a
         }
     }
     return arena_copy(a, text, used);
+}
+
+const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m)
+{
+    return substitute_text(n, 1, names, a, m);
 }
 
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
@@ -90,7 +99,7 @@ const document_node *substitute_node(const document_node *n, const scope *names,
         return NULL;
     *copy = *n;
     if (n->kind == DOCUMENT_TEXT) {
-        copy->text = substitute_text(n, names, a, m);
+        copy->text = substitute_text(n, 0, names, a, m);
         copy->inset = strcmp(n->text, copy->text != NULL ? copy->text : "") == 0 ? n->inset : -1;
         return copy->text != NULL ? copy : NULL;
     }

@@ -9,6 +9,8 @@
  * out. What cannot be replaced is a mistake and stays. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
+/* A text for people: numbers of any kind, with six digits. */
+const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m);
 /* 1: a loop name is left in this text: it could not be replaced, which was told. */
 int substitute_is_left(const char *text);
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cases/format/choose.h"
 #include "cases/format/expression.h"
 #include "cases/format/range.h"
 #include "cases/format/substitute.h"
@@ -26,6 +27,8 @@ static void add(unroller *u, const scope *names)
         return;
     }
     const scope *inner = unroll_let(document_find(u->value, "let"), names, u->arena, u->mistakes);
+    if (!choose_holds(document_find(u->value, "if"), inner, u->mistakes))
+        return;
     u->list = arena_grow(u->arena, u->list, u->count, sizeof *u->list);
     const document_node *value = substitute_node(u->value, inner, u->arena, u->mistakes);
     const document_node *name =
@@ -109,6 +112,20 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
     return u.count;
 }
 
+/* NAME: EXPR, or a choice among such and words. After a mistake a name is known all the same: it is
+ * not told again wherever it is used. */
+static const scope *add_let(const document_node *key, const document_node *said, const scope *names,
+                            arena *a, mistakes *m)
+{
+    double value;
+    const document_node *n = choose_value(said, names, m);
+    if (n != NULL && n != said && is_word(n, names))
+        return scope_word(names, key->text, n->text, a);
+    if (n == NULL || !expression_number(n, names, m, &value))
+        value = NAN;
+    return scope_number(names, key->text, value, a);
+}
+
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m)
 {
     if (let != NULL && let->kind != DOCUMENT_MAP)
@@ -116,13 +133,9 @@ const scope *unroll_let(const document_node *let, const scope *names, arena *a, 
     if (let == NULL || let->kind != DOCUMENT_MAP)
         return names;
     for (int i = 0; i < let->count; i++) {
-        double value;
         const int accepted = scope_accepts(names, let->key[i], m);
-        /* after a mistake a name is known all the same: it is not told again wherever it is used */
-        if (!expression_number(let->item[i], names, m, &value))
-            value = NAN;
-        if (accepted)
-            names = scope_number(names, let->key[i]->text, value, a);
+        const scope *with = add_let(let->key[i], let->item[i], names, a, m);
+        names = accepted ? with : names;
     }
     return names;
 }
