@@ -41,7 +41,7 @@ static status build(const double value[], scene *s, fault *f)
         for (int k = 0; k < 2; k++)
             scene_set_body(s, legs[i].joint[k], body(0.1, 0.03));
     }
-    const int motion = timed_add_started(s, how, SCENE_NONE, (scene_start){.velocity = {0}});
+    const int motion = timed_add(s, how, SCENE_NONE, (scene_start){.velocity = {0}});
     timed_places(s, motion, platform, 0.1, name);
     scene_add_quantity(s, "platform_turn", "rad", motion, scene_coordinate(platform, SCENE_RZ))
         ->near_zero = 0.01;

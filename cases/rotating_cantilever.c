@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cases/shared/cantilever.h"
+#include "cases/case.h"
 #include "elements/math/pi.h"
 
 enum { OMEGA, SLENDERNESS, HUB_RADIUS, AXIS, STIFFNESS_RATIO, STATIONS };
@@ -63,18 +63,42 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         }
 }
 
+/* Only the products matter: E = G = 1 Pa. */
+static void add_beam(scene *s, double area, double stiffness_ratio, int *root, int *tip)
+{
+    const double y_axis[3] = {0, 1, 0};
+    section_spec spec = section_spec_constants(1, 1);
+    spec.density = 1 / area;
+    section *c = &spec.constants;
+    c->A = area;
+    c->Iy = c->It = 1;
+    c->Iz = stiffness_ratio;
+    c->Ip = c->Iy + c->Iz;
+    const int profile = scene_add_section(s, &spec);
+    *root = scene_add_node(s, 0, 0, 0);
+    *tip = scene_add_node(s, 1, 0, 0);
+    scene_add_member(s, *root, *tip, profile, y_axis);
+    scene_hold_all(s, *root);
+    /* a rod of no fibres; Bernoulli's has no rotary inertia either */
+    scene_omit(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
+}
+
+static void add_turning(scene *s, int rotation, int root, int tip)
+{
+    scene_add_quantity(s, "stretch", "1", rotation, scene_coordinate(tip, SCENE_UX))->least_order =
+        1.8;
+    scene_quantity *pull =
+        scene_add_quantity(s, "root_force", "1", rotation, scene_reaction(root, SCENE_UX));
+    pull->factor = -1;
+    pull->least_order = 1.8;
+}
+
 static status build(const double value[], scene *s, fault *f)
 {
     (void)f;
     const double area = value[SLENDERNESS] * value[SLENDERNESS], omega = value[OMEGA];
-    const cantilever_stiffness k = {.EA = area, .GJ = 1, .EI = 1, .density = 1 / area};
     int root, tip;
-    cantilever_build(1, &k, s, &root, &tip);
-    if (s->sections > 0) {
-        section *c = &s->section[0].constants;
-        c->Iz *= value[STIFFNESS_RATIO];
-        c->Ip = c->Iy + c->Iz;
-    }
+    add_beam(s, area, value[STIFFNESS_RATIO], &root, &tip);
     const int intervals = omega > 0 ? (int)value[STATIONS] - 1 : 0;
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
@@ -91,7 +115,8 @@ static status build(const double value[], scene *s, fault *f)
     growth->least_order = 1.8;
     if (intervals > 0)
         make_curve(scene_add_quantity(s, "growth_curve", "1", rotation, scene_growth()), omega);
-    cantilever_turning(s, rotation, root, tip);
+    add_turning(s, rotation, root, tip);
+    scene_meshes_doubled(s, 2, 64);
     return STATUS_OK;
 }
 

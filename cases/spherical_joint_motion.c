@@ -49,7 +49,7 @@ static status build(const double value[], scene *s, fault *f)
     scene_set_body(s, body, ball(0.1, 0.03));
     scene_drive(s, effector, SCENE_RX, timed_driver(s, how[TILT], how[DURATION]));
     scene_hold(s, effector, SCENE_RY, SCENE_RZ);
-    const int motion = timed_add_started(s, how, SCENE_NONE, (scene_start){.velocity = {0}});
+    const int motion = timed_add(s, how, SCENE_NONE, (scene_start){.velocity = {0}});
     for (int i = 0; i < 3; i++)
         scene_add_quantity(s, place[i], "m", motion, scene_coordinate(effector, SCENE_UX + i))
             ->near_zero = 1e-3;

@@ -18,17 +18,11 @@ const parameter_type sheet_parameters[] = {
     [SHEET_WARPING] = {"warping", "1", 1, 0, 1, NULL, "1: restrained warping, 0: uniform torsion"},
     [SHEET_SHEAR] = {"shear", "1", 1, 0, 1, NULL, "1: flexible in shear, 0: shear-rigid"},
     [SHEET_TRAPEZE] = {"trapeze", "1", 1, 0, 1, NULL, "1: shortening of a twisted sheet (N Eq. 8)"},
-    {0},
-};
-
-#define WAGNER(is_default) {"wagner", "1", is_default, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"}
-const parameter_type sheet_wagner[] = {WAGNER(1), {0}}, sheet_no_wagner[] = {WAGNER(0), {0}};
-
-/* SHEET_SHEAR_FACTOR, SHEET_MOMENTS. */
-const parameter_type sheet_moments[] = {
-    {"shear_factor", "1", 0, 0, 10, NULL, "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"},
-    {"moment_convention", "", SCENE_MOMENTS_SPATIAL, 0, 0, SCENE_MOMENTS_CHOICES,
-     "moments on the tip while it turns, in C_*"},
+    [SHEET_WAGNER] = {"wagner", "1", 0, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"},
+    [SHEET_SHEAR_FACTOR] = {"shear_factor", "1", 0, 0, 10, NULL,
+                            "k of the shear stiffness; 0: 10 (1 + nu)/(12 + 11 nu)"},
+    [SHEET_MOMENTS] = {"moment_convention", "", SCENE_MOMENTS_SPATIAL, 0, 0, SCENE_MOMENTS_CHOICES,
+                       "moments on the tip while it turns, in C_*"},
     {0},
 };
 

@@ -23,8 +23,8 @@ enum {
     SHEET_PARAMETERS
 };
 
-/* Their entries: a part before, the default of SHEET_WAGNER, a part behind. */
-extern const parameter_type sheet_parameters[], sheet_wagner[], sheet_no_wagner[], sheet_moments[];
+/* Their entries. */
+extern const parameter_type sheet_parameters[];
 
 /* Steel-like sheet section; width along the member's local z. shear_factor 0: the formula. */
 void sheet_section(double width, double thickness, double young, double poisson,

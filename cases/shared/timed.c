@@ -2,26 +2,7 @@
 
 #include <stdio.h>
 
-section_spec timed_profile(const timed_section *of)
-{
-    const double stiffness[6] = {of->EA, of->GA, of->GA, of->GJ, of->EI, of->EI},
-                 mass[6] = {of->mass, of->mass, of->mass, of->polar, of->rotary, of->rotary};
-    section_spec spec;
-    section_spec_init(&spec);
-    spec.kind = SECTION_MATRICES;
-    for (int i = 0; i < 6; i++) {
-        spec.constants.stiffness[7 * i] = stiffness[i];
-        spec.constants.mass[7 * i] = mass[i];
-    }
-    return spec;
-}
-
-int timed_add(scene *s, const double value[], int follows)
-{
-    return timed_add_started(s, value, follows, (scene_start){.velocity = {0}});
-}
-
-int timed_add_started(scene *s, const double value[], int follows, scene_start start)
+int timed_add(scene *s, const double value[], int follows, scene_start start)
 {
     const scene_motion how = {.scheme = (scene_scheme)value[TIMED_INTEGRATOR],
                               .alpha = scene_alpha_of_radius(0.9),

@@ -22,17 +22,9 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
         NULL,                                                                                      \
         "of the error of time, relative to the largest motion; 0: all steps are alike"}
 
-/* A straight section by its products [N, N, N m^2, N m^2] and [kg/m, kg m]. */
-typedef struct timed_section {
-    double EA, GA, GJ, EI, mass, polar, rotary;
-} timed_section;
-section_spec timed_profile(const timed_section *);
-
-/* A motion that ends when it is looked at; follows: SCENE_NONE, or a static path. */
-int timed_add(scene *s, const double value[], int follows);
-/* The same with velocities at its begin, of any beam: shear and rotary inertia are not asked for.
- */
-int timed_add_started(scene *s, const double value[], int follows, scene_start start);
+/* A motion that ends when it is looked at; follows: SCENE_NONE, or a static path; start: velocities
+ * at its begin. */
+int timed_add(scene *s, const double value[], int follows, scene_start start);
 /* Where a node is: those of its coordinates x, y, z that have a name. size: what their errors are
  * measured by where they are smaller [m]. */
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);

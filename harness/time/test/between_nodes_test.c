@@ -4,8 +4,8 @@
  * the lumped masses. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact, element_collocation;
 

@@ -2,8 +2,8 @@
  * and a flexible rod between two bodies beside its ends. */
 #include <stdio.h>
 
-#include "cases/shared/timed.h"
 #include "harness/time/test/flight.h"
+#include "harness/tools/kit/scenes.h"
 
 static const double y_axis[] = {0, 1, 0};
 

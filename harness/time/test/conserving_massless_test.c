@@ -3,9 +3,9 @@
  * that turns has inertia is refused, as is a node that turns by two free angles. */
 #include <stdio.h>
 
-#include "cases/shared/timed.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flight.h"
+#include "harness/tools/kit/scenes.h"
 
 static const double y_axis[] = {0, 1, 0};
 

@@ -4,9 +4,9 @@
  * does not go with it is refused by name. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "harness/formulations/formulation.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_beamw_consistent, element_collocation,
     element_geometrically_exact;

@@ -2,9 +2,9 @@
  * decay, and what is lost is accounted for. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "elements/math/pi.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 

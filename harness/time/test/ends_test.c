@@ -2,8 +2,8 @@
  * integrator: all come to one motion and one reaction, with errors of second order or less. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 

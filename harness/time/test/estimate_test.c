@@ -3,9 +3,9 @@
  * estimate where masses are driven, turn and are damped. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "elements/math/dense.h"
 #include "harness/time/test/flying.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_collocation;
 

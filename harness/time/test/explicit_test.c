@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/shared/timed.h"
 #include "harness/tools/kit/cells.h"
+#include "harness/tools/kit/scenes.h"
 
 static const double J[3] = {1, 2, 3}, start[3] = {0.5, 0.2, 2};
 

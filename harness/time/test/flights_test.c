@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "cases/scene/edit.h"
-#include "cases/shared/timed.h"
 #include "harness/time/test/flight.h"
+#include "harness/tools/kit/scenes.h"
 
 static struct {
     double stiffening, turn[4]; /* the scene's axes, a quaternion */

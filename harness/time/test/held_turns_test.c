@@ -6,6 +6,7 @@
 #include "cases/shared/timed.h"
 #include "elements/math/rotation.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 

@@ -3,8 +3,8 @@
  * where nothing is held. */
 #include <stdio.h>
 
-#include "cases/shared/timed.h"
 #include "harness/time/test/flight.h"
+#include "harness/tools/kit/scenes.h"
 
 static const double y_axis[] = {0, 1, 0};
 

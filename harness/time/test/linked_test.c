@@ -2,8 +2,8 @@
  * released ends moves with them, or energy would be made from nothing. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 

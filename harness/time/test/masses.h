@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/shared/timed.h"
 #include "elements/math/vec3.h"
 #include "elements/test/random.h"
 #include "harness/formulations/formulation.h"
@@ -18,6 +17,7 @@
 #include "harness/model/state.h"
 #include "harness/time/carried.h"
 #include "harness/time/increment.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_collocation, element_geometrically_exact,
     element_beamw_consistent;

@@ -4,12 +4,12 @@
  * are in balance, another start changes nothing. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "elements/math/dense.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 

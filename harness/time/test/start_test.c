@@ -3,8 +3,8 @@
  * beyond them; a state at rest rings when its load is dropped. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 

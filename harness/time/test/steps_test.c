@@ -3,11 +3,11 @@
  * hit. */
 #include <math.h>
 
-#include "cases/shared/timed.h"
 #include "elements/test/worst.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
+#include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;

@@ -10,6 +10,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/parameters.h"
 #include "harness/study/cell.h"
+#include "harness/tools/kit/scenes.h"
 
 typedef struct swung {
     int member, tip, base;

@@ -2,6 +2,20 @@
 
 #include <stdio.h>
 
+section_spec timed_profile(const timed_section *of)
+{
+    const double stiffness[6] = {of->EA, of->GA, of->GA, of->GJ, of->EI, of->EI},
+                 mass[6] = {of->mass, of->mass, of->mass, of->polar, of->rotary, of->rotary};
+    section_spec spec;
+    section_spec_init(&spec);
+    spec.kind = SECTION_MATRICES;
+    for (int i = 0; i < 6; i++) {
+        spec.constants.stiffness[7 * i] = stiffness[i];
+        spec.constants.mass[7 * i] = mass[i];
+    }
+    return spec;
+}
+
 int scenes_cantilever(scene *s, const section_spec *spec)
 {
     const double y_axis[3] = {0, 1, 0};

@@ -4,6 +4,12 @@
 
 #include "cases/scene/scene.h"
 
+/* A straight section by its products [N, N, N m^2, N m^2] and [kg/m, kg m]. */
+typedef struct timed_section {
+    double EA, GA, GJ, EI, mass, polar, rotary;
+} timed_section;
+section_spec timed_profile(const timed_section *);
+
 /* A bar of 1 m along x, clamped at the origin; its section's y axis is that of the scene. Returns
  * its free tip; the root is the node before it. */
 int scenes_cantilever(scene *, const section_spec *);
