@@ -236,7 +236,7 @@ needs-report needs-test needs-truths needs-layout:
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
 
-$(PACK_CASE): $(BUILD)/harness/tools/pack/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
+$(PACK_CASE): $(BUILD)/harness/tools/pack/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 $(PACKED:.o=.c): $(BUILD)/packed/%.c: cases/%.yaml $(PACK_CASE)
