@@ -133,15 +133,16 @@ static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
     keep(c, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(c->model));
     for (int i = 0; i < c->scene->analyses; i++) {
         const analysis_outcome *o = &c->outcomes[i];
+        const analysis_context own = context_of(c, i);
         if (o->kind == SCENE_MOTION) {
-            keep_motion(c, i, s);
+            keep_motion(&own, i, s);
         } else if (outcome_has_path(o)) {
-            keep_path(c, i, most, s);
+            keep_path(&own, i, most, s);
         } else if (outcome_has_spectrum(o)) {
-            TRY(keep_modes(c, i, &outcome_spectrum_of(o)->positive, s, f));
-            TRY(keep_modes(c, i, &outcome_spectrum_of(o)->negative, s, f));
+            TRY(keep_modes(&own, i, &outcome_spectrum_of(o)->positive, s, f));
+            TRY(keep_modes(&own, i, &outcome_spectrum_of(o)->negative, s, f));
         } else if (outcome_displacements(o) != NULL) {
-            TRY(keep_linear(c, i, s, f));
+            TRY(keep_linear(&own, i, s, f));
         }
     }
     return STATUS_OK;

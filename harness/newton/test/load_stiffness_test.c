@@ -24,7 +24,6 @@ static void stiffness(int body)
                  sparse_alloc_like(pattern, &K, &f) != STATUS_OK,
              "pattern");
     rotating_frame_load_stiffness(&eq, s.turned, 1, &K);
-    run_state_end(&run);
     double largest = 0;
     for (int j = 0; j < s.n; j++)
         for (int k = K.column[j]; k < K.column[j + 1]; k++) {
@@ -41,6 +40,7 @@ static void stiffness(int body)
     gsl_test(!(largest > 0.1), "%s: the force has a stiffness: %g", turned_body_name[body],
              largest);
     sparse_free_values(&K);
+    run_state_end(&run);
     turned_body_release(&s);
 }
 
@@ -64,7 +64,6 @@ static void stiffness_of_angles(int body, scene_load_kind kind, int follower, co
     gsl_test((follower || kind == SCENE_MOMENT) && K.symmetric, "%s: an unsymmetric pattern",
              turned_body_name[body]);
     rotating_frame_load_stiffness(&eq, s.turned, 1, &K);
-    run_state_end(&run);
     for (int j = 0; j < s.n; j++) {
         double load[2][MOST];
         for (int side = 0; side < 2; side++) {
@@ -85,6 +84,7 @@ static void stiffness_of_angles(int body, scene_load_kind kind, int follower, co
         }
     }
     sparse_free_values(&K);
+    run_state_end(&run);
     turned_body_release(&s);
 }
 
