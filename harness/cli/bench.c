@@ -4,7 +4,6 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/contest.h"
-#include "harness/cli/help.h"
 #include "harness/cli/timing_work.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
@@ -30,34 +29,35 @@ static int all_formulations(formulation out[COMMAND_MAX_FORMULATIONS])
 
 /* The named cases at the parameters given, with the formulations and meshes given (or all, and the
  * case's). */
-static status plan_named(command_request *r, sweep *s, fault *f)
+static status plan_named(bench_request *r, sweep *s, fault *f)
 {
     formulation all[COMMAND_MAX_FORMULATIONS];
-    const int some = r->formulations > 0, count = some ? r->formulations : all_formulations(all);
-    const int named = r->scene == NULL ? r->case_count : 1;
+    const int some = r->chosen.formulations > 0,
+              count = some ? r->chosen.formulations : all_formulations(all);
+    const int named = r->of.scene == NULL ? r->of.line->arguments : 1;
     for (int i = 0; i < named; i++) {
-        const case_type *type =
-            r->scene == NULL ? case_find(r->cases[i], f) : scene_file_case(r->scene);
+        const case_type *type = r->of.scene == NULL ? case_find(r->of.line->argument[i], f)
+                                                    : scene_file_case(r->of.scene);
         if (type == NULL)
             return STATUS_REFUSED;
-        parameters_default(type, r->parameter);
-        for (int k = 0; k < r->assignments; k++)
-            TRY(parameters_set(type, r->assignment[k], r->parameter, f));
-        TRY(plan_add(s, type, r->parameter, NULL, r->mesh, r->meshes, f));
+        parameters_default(type, r->of.parameter);
+        for (int k = 0; k < r->of.set.count; k++)
+            TRY(parameters_set(type, r->of.set.text[k], r->of.parameter, f));
+        TRY(plan_add(s, type, r->of.parameter, NULL, r->meshes.elements, r->meshes.count, f));
         const point *here = &s->point[s->points - 1];
         if (here->status != STATUS_OK)
             return fault_set(f, here->status, "%s", here->reason);
-        TRY(plan_extend(s, some ? r->formulation : all, count, f));
+        TRY(plan_extend(s, some ? r->chosen.formulation : all, count, f));
     }
     return STATUS_OK;
 }
 
-static int is_named(const command_request *r)
+static int is_named(const bench_request *r)
 {
-    return r->case_count > 0 || r->scene != NULL;
+    return r->of.line->arguments > 0 || r->of.scene != NULL;
 }
 
-static status write_out(const command_request *r, const sweep *s, const judgement *j,
+static status write_out(const bench_request *r, const sweep *s, const judgement *j,
                         const spread_end *end, fault *f)
 {
     const environment e = spread_environment(end, s->threads > 1 ? s->threads : 1);
@@ -69,24 +69,24 @@ static status write_out(const command_request *r, const sweep *s, const judgemen
     return output_flush(f); /* of the table, which may have no reader */
 }
 
-/* With what bench_request frees. */
-static status measure(command_request *r, truths *t, sweep *s, judgement *j, spread_end *end,
+/* With what answer frees. */
+static status measure(bench_request *r, truths *t, sweep *s, judgement *j, spread_end *end,
                       fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
     const sweep_request request = {.select = r->select,
-                                   .jobs = r->jobs,
+                                   .jobs = r->shards.jobs,
                                    .whole_only = 1,
-                                   .formulations = r->formulations,
-                                   .formulation = r->formulation,
+                                   .formulations = r->chosen.formulations,
+                                   .formulation = r->chosen.formulation,
                                    .progress = progress};
     int spread;
-    TRY(files_check(r, 1, case_input_truths_path(r), f));
-    TRY(case_input_truths(r, t, f));
+    TRY(files_check(r->of.line, 1, own_tables_packed(&r->truths), f));
+    TRY(case_input_truths(&r->of, &r->truths, t, f));
     s->whole_only = 1; /* times rank, and another model does not */
     TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
-    s->threads = r->threads;
-    TRY(timing_work_run(r, &request, floor_seconds, s, &spread, end, f));
+    s->threads = r->solver.threads;
+    TRY(timing_work_run(&r->shards, &request, floor_seconds, r->dense, s, &spread, end, f));
     if (end->ended)
         return STATUS_OK;
     if (!spread)
@@ -99,23 +99,26 @@ static status measure(command_request *r, truths *t, sweep *s, judgement *j, spr
     return write_out(r, s, j, end, f);
 }
 
-static int bench_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    bench_request *r = request;
+    (void)l;
     truths t = {0};
     sweep s = {0};
     judgement j = {0};
     spread_end end = {.ended = 0};
     fault f = {""};
-    if (r->against != NULL && (r->into != NULL || r->shard != NULL || r->from_count > 0))
+    if (r->against != NULL &&
+        (r->shards.into != NULL || r->shards.shard != NULL || r->shards.from.count > 0))
         return message_fail(STATUS_REFUSED, "--against compares two on one processor: leave "
                                             "--shard, --into and --from away");
     if (r->against != NULL)
         return contest_run(r);
-    if (r->scene_count > 0 && case_input_find(r) == NULL)
-        return r->refusal;
-    if (r->error != NULL || r->keep_all)
+    if (r->of.scene_path != NULL && case_input_find(&r->of) == NULL)
+        return r->of.refusal;
+    if (r->error != NULL || r->solver.keep_all)
         return message_fail(STATUS_REFUSED, "--error and --keep-all are of --against");
-    if (!is_named(r) && (r->assignments > 0 || r->meshes > 0))
+    if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
         return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
     const status outcome = measure(r, &t, &s, &j, &end, &f);
     judgement_free(&j);
@@ -125,22 +128,49 @@ static int bench_request(command_request *r)
     return outcome == STATUS_OK ? end.code : message_exit(outcome, &f);
 }
 
-int cli_bench(int count, char **arguments)
+/* In a process whose libraries have one thread: main passes what follows the program's name. */
+static void before(char **arguments)
 {
-    if (!help_asked(count, arguments))
-        rounds_single_thread(arguments - 1); /* main passes what follows the program's name */
-    return command_run(
-        "bench", "[CASE...]",
-        "Times every formulation and mesh of the cases named (or, without one, of all cases "
-        "at all parameter points that have a truth, selected with -k): the least of enough "
-        "repetitions in five alternating rounds on one processor, set-up and solution "
-        "apart, with the error. Times whose rounds overlap are undecided. With --against "
-        "FORMULATION: both at equal error, each with the least elements from which on the error "
-        "of every quantity (-k: of those selected) is within it, in alternation until the noise "
-        "allows an answer; with -n: at these meshes. With --against PROGRAM: the same cell of "
-        "another build."
-        "\vbeamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
-        "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
-        "beamwork bench --scene leaf.yaml --against ../before/beamwork",
-        "+fnskFojTAeXDtYK.ZiCbw", count, arguments, bench_request);
+    rounds_single_thread(arguments - 1);
 }
+
+#define IN(at) .member = offsetof(bench_request, at)
+static const verb_option own[] = {
+    {"output", 'o', "FILE", "results as HDF5", IN(output), .traits = OPTION_OUTPUT},
+    {"dense", 0, NULL, "time the published algorithm (newton=dense) beside every cell", IN(dense)},
+    {"against", 0, "OTHER",
+     "compare in alternation with another formulation (without -n: at equal error), or with "
+     "another program (a path with a '/': at equal n)",
+     IN(against), .traits = OPTION_INPUT},
+    {"error", 0, "R[,R...]",
+     "with --against: errors at which to compare, such as 1%,0.1% (default: those of 10, 1, 0.1 "
+     "and 0.01 % that both reach)",
+     IN(error)},
+    {"plant", 0, "PERCENT",
+     "make the other slower by that much, to see whether the comparison finds it", IN(plant),
+     .least = 0, .most = 1000},
+    {0}};
+static const verb_group shared[] = {SHARED(case, of),       SHARED(formulations, chosen),
+                                    SHARED(meshes, meshes), SHARED(select, select),
+                                    SHARED(solver, solver), SHARED(own_truths, truths),
+                                    SHARED(format, format), SHARED(jobs, shards.jobs),
+                                    SHARED(shards, shards), {NULL, 0}};
+const verb verb_bench = {
+    "bench",
+    "[CASE...]",
+    "error against run time: the cheapest way to an error",
+    "Times every formulation and mesh of the cases named (or, without one, of all cases at all "
+    "parameter points that have a truth, selected with -k): the least of enough repetitions in "
+    "five alternating rounds on one processor, set-up and solution apart, with the error. Times "
+    "whose rounds overlap are undecided. With --against FORMULATION: both at equal error, each "
+    "with the least elements from which on the error of every quantity (-k: of those selected) is "
+    "within it, in alternation until the noise allows an answer; with -n: at these meshes. With "
+    "--against PROGRAM: the same cell of another build.",
+    "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
+    "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
+    "beamwork bench --scene leaf.yaml --against ../before/beamwork",
+    shared,
+    own,
+    sizeof(bench_request),
+    .answer = answer,
+    .before = before};

@@ -6,23 +6,97 @@
 
 #include "cases/scene/omission.h"
 #include "cases/scene/unit.h"
+#include "harness/cli/command.h"
 #include "harness/cli/message.h"
-#include "harness/cli/own_tables.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/parameters.h"
 #include "harness/model/features.h"
 #include "harness/study/cell.h"
 #include "harness/study/data_place.h"
+#include "harness/study/own_findings.h"
+#include "harness/study/own_truths.h"
 #include "harness/study/scene_truths.h"
 
-/* All mistakes, a line each; as JSON where that is the form of the output. */
-static void tell_mistakes(const command_request *r, const mistakes *m, status outcome,
-                          const fault *f)
+/* Tables stand beside the packed truths, of which there is one file. */
+static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
+    static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
+    truths_options *t = member;
+    (void)o;
+    const size_t length = strlen(value);
+    if (length > 4 && strcmp(value + length - 4, ".csv") == 0)
+        return option_take(&table, &t->own, value, f);
+    if (t->packed != NULL)
+        return fault_set(f, STATUS_REFUSED,
+                         "--truths is given twice with packed truths; give one, and tables (.csv) "
+                         "beside");
+    t->packed = value;
+    return STATUS_OK;
+}
+
+static const verb_option packed_truths[] = {
+    {"truths", 0, "FILE",
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)",
+     .traits = OPTION_INPUT},
+    {0}};
+static const verb_option own_truths[] = {
+    {"truths", 0, "FILE",
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program); a FILE.csv: "
+     "truths of your own beside them, again for another",
+     .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
+    {0}};
+const option_group options_truths = {packed_truths, NULL, NULL, NULL};
+const option_group options_own_truths = {own_truths, NULL, NULL, NULL};
+
+const char *own_tables_packed(const truths_options *o)
+{
+    static char found[PATH_MAX];
+    if (o->packed != NULL)
+        return o->packed;
+    data_place_truths(found);
+    return found;
+}
+
+static status refuse(const mistakes *m, fault *f)
+{
+    const int others = m->count + m->more - 1;
+    fault first = {""};
+    const status outcome = mistakes_status(m, &first);
+    if (outcome == STATUS_OK || others <= 0)
+        return outcome == STATUS_OK ? outcome : fault_set(f, outcome, "%s", first.text);
+    return fault_set(f, outcome, "%.330s (and %d more)", first.text, others);
+}
+
+status own_tables_truths(const truths_options *o, const case_type *const run[],
+                         const case_type *only, truths *t, fault *f)
+{
+    mistakes m;
+    for (int i = 0; i < o->own.count; i++) {
+        TRY(own_truths_read(o->own.text[i], run, only, t, &m, f));
+        TRY(refuse(&m, f));
+    }
+    return STATUS_OK;
+}
+
+status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
+                           fault *f)
+{
+    mistakes m;
+    for (int i = 0; i < tables->count; i++) {
+        TRY(own_findings_read(tables->text[i], run, t, &m, f));
+        TRY(refuse(&m, f));
+    }
+    return STATUS_OK;
+}
+
+/* All mistakes, a line each; as JSON where that is the form of the output. */
+static void tell_mistakes(const command_line *l, const mistakes *m, status outcome, const fault *f)
+{
+    const char *format = given_value(l, "format");
     fault unwritten;
     if (m->count == 0)
         message_fail(outcome, f->text);
-    else if (strcmp(r->format, "json") != 0)
+    else if (format == NULL || strcmp(format, "json") != 0)
         mistakes_print(m, stderr);
     else if (mistakes_json(m, stdout, &unwritten) != STATUS_OK)
         message_fail(STATUS_FAULT, unwritten.text);
@@ -50,51 +124,48 @@ static void tell_needs(const char *path, const case_type *type)
     scene_free(&s);
 }
 
-static int tell_reading(const command_request *r, const mistakes *m, status outcome, const fault *f)
+static int tell_reading(const command_line *l, const mistakes *m, status outcome, const fault *f)
 {
     if (outcome == STATUS_OK)
         return EXIT_AS_EXPECTED;
-    tell_mistakes(r, m, outcome, f);
+    tell_mistakes(l, m, outcome, f);
     return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
 }
 
-int case_input_read(const command_request *r, const char *path, scene_file **out)
+typedef status scene_reader(const char *path, scene_file **out, mistakes *m, fault *f);
+
+static int read_by(scene_reader *read, const command_line *l, const char *path, scene_file **out)
 {
     mistakes m;
     fault f = {""};
-    const status outcome = scene_file_read(path, out, &m, &f);
+    const status outcome = read(path, out, &m, &f);
     if (outcome == STATUS_OK && scene_file_states(*out, "needs"))
         tell_needs(path, scene_file_case(*out));
-    return tell_reading(r, &m, outcome, &f);
+    return tell_reading(l, &m, outcome, &f);
 }
 
-/* Values that are asked for count, not the defaults beside them. */
-static int read_form(const command_request *r, scene_file **out)
+int case_input_read(const command_line *l, const char *path, scene_file **out)
 {
-    mistakes m;
-    fault f = {""};
-    const status outcome = scene_file_read_form(r->scene_path[0], out, &m, &f);
-    if (outcome == STATUS_OK && scene_file_states(*out, "needs"))
-        tell_needs(r->scene_path[0], scene_file_case(*out));
-    return tell_reading(r, &m, outcome, &f);
+    return read_by(scene_file_read, l, path, out);
 }
 
-static int check_values(const command_request *r)
+static int check_values(const case_options *r)
 {
     mistakes m;
     fault f = {""};
     const status outcome = scene_file_check(r->scene, r->parameter, &m, &f);
-    return tell_reading(r, &m, outcome, &f);
+    return tell_reading(r->line, &m, outcome, &f);
 }
 
-const case_type *case_input_scene(command_request *r)
+const case_type *case_input_scene(case_options *r)
 {
-    if (r->case_name != NULL) {
+    if (r->name != NULL) {
         message_fail(STATUS_REFUSED, "a case and --scene: give one of them");
         return NULL;
     }
-    const int code = r->assignments > 0 ? read_form(r, &r->scene)
-                                        : case_input_read(r, r->scene_path[0], &r->scene);
+    /* values that are asked for count, not the defaults beside them */
+    const int code = read_by(r->set.count > 0 ? scene_file_read_form : scene_file_read, r->line,
+                             r->scene_path, &r->scene);
     if (code == EXIT_AS_EXPECTED)
         return scene_file_case(r->scene);
     r->refusal = code;
@@ -116,52 +187,61 @@ void case_input_tell_units(const scene_file *file, const double parameter[])
     scene_free(&s);
 }
 
-static const case_type *named_case(const command_request *r)
+static const case_type *named_case(const case_options *r)
 {
     fault f;
-    if (r->case_name == NULL) {
+    if (r->name == NULL) {
         message_fail(STATUS_REFUSED, "which case? 'beamwork list cases' shows them");
         return NULL;
     }
-    const case_type *type = case_find(r->case_name, &f);
+    const case_type *type = case_find(r->name, &f);
     if (type == NULL)
         message_fail(STATUS_REFUSED, f.text);
     return type;
 }
 
-void case_input_example(command_request *r)
+/* As if --scene had been given. */
+static void take_example(case_options *r, const char *path)
+{
+    command_line *l = r->line;
+    const char *none;
+    int begun;
+    l->given[l->givens++] = (given_option){verb_word(l->verb, "--scene", &none, &begun), path};
+    l->arguments = 0;
+    r->scene_path = path;
+    r->name = NULL;
+}
+
+void case_input_example(case_options *r)
 {
     static char found[PATH_MAX];
     static const char *const folder[] = {"cases/examples", "examples/scenes"};
     char name[PATH_MAX], path[PATH_MAX];
     fault f;
-    if (r->case_name == NULL || r->scene_count > 0 || r->case_count > 1 ||
-        strchr(r->case_name, '/') != NULL || case_find(r->case_name, &f) != NULL)
+    if (r->name == NULL || r->scene_path != NULL || r->line->arguments > 1 ||
+        strchr(r->name, '/') != NULL || case_find(r->name, &f) != NULL)
         return;
-    for (size_t i = 0; i < sizeof folder / sizeof folder[0] && r->case_name != NULL; i++) {
-        snprintf(name, sizeof name, "%s/%.100s.yaml", folder[i], r->case_name);
-        if (!data_place(name, path) || realpath(path, found) == NULL)
-            continue;
-        r->scene_path[r->scene_count++] = found;
-        r->case_name = NULL;
-        r->case_count = 0;
+    for (size_t i = 0; i < sizeof folder / sizeof folder[0] && r->name != NULL; i++) {
+        snprintf(name, sizeof name, "%s/%.100s.yaml", folder[i], r->name);
+        if (data_place(name, path) && realpath(path, found) != NULL)
+            take_example(r, found);
     }
 }
 
-const case_type *case_input_find(command_request *r)
+const case_type *case_input_find(case_options *r)
 {
     fault f;
     case_input_example(r);
-    const case_type *type = r->scene_count > 0 ? case_input_scene(r) : named_case(r);
+    const case_type *type = r->scene_path != NULL ? case_input_scene(r) : named_case(r);
     if (type == NULL)
         return NULL;
     parameters_default(type, r->parameter);
-    for (int i = 0; i < r->assignments; i++)
-        if (parameters_set(type, r->assignment[i], r->parameter, &f) != STATUS_OK) {
+    for (int i = 0; i < r->set.count; i++)
+        if (parameters_set(type, r->set.text[i], r->parameter, &f) != STATUS_OK) {
             message_fail(STATUS_REFUSED, f.text);
             return NULL;
         }
-    const int code = r->scene != NULL && r->assignments > 0 ? check_values(r) : EXIT_AS_EXPECTED;
+    const int code = r->scene != NULL && r->set.count > 0 ? check_values(r) : EXIT_AS_EXPECTED;
     if (code == EXIT_AS_EXPECTED) {
         case_input_tell_units(r->scene, r->parameter);
         return type;
@@ -170,45 +250,31 @@ const case_type *case_input_find(command_request *r)
     return NULL;
 }
 
-void case_input_close(command_request *r)
+static status add_truths(const case_options *r, const truths_options *of, truths *t, fault *f)
 {
-    scene_file_free(r->scene);
-    r->scene = NULL;
-}
-
-const char *case_input_truths_path(const command_request *r)
-{
-    static char found[PATH_MAX];
-    if (r->truths != NULL)
-        return r->truths;
-    data_place_truths(found);
-    return found;
-}
-
-static status add_truths(const command_request *r, truths *t, fault *f)
-{
-    const case_type *type = r->scene != NULL     ? scene_file_case(r->scene)
-                            : r->case_count == 1 ? case_find(r->case_name, f)
-                                                 : NULL;
+    const char *packed = own_tables_packed(of);
+    const case_type *type = r->scene != NULL          ? scene_file_case(r->scene)
+                            : r->line->arguments == 1 ? case_find(r->name, f)
+                                                      : NULL;
     if (r->scene != NULL)
-        truths_read_rules(case_input_truths_path(r), t, NULL); /* a scene needs none */
+        truths_read_rules(packed, t, NULL); /* a scene needs none */
     if (r->scene != NULL)
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else
-        TRY(truths_read_case(case_input_truths_path(r), type, t, f));
-    return own_tables_truths(r, (const case_type *const[]){type, NULL}, type, t, f);
+        TRY(truths_read_case(packed, type, t, f));
+    return own_tables_truths(of, (const case_type *const[]){type, NULL}, type, t, f);
 }
 
-status case_input_truths(const command_request *r, truths *t, fault *f)
+status case_input_truths(const case_options *r, const truths_options *of, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
-    const status outcome = add_truths(r, t, f);
+    const status outcome = add_truths(r, of, t, f);
     if (outcome != STATUS_OK)
         truths_free(t);
     return outcome;
 }
 
-void case_input_tell_analysis(const command_request *r, const scene *s)
+void case_input_tell_analysis(const case_options *r, const scene *s)
 {
     if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
         return;
@@ -224,3 +290,45 @@ void case_input_tell_analysis(const command_request *r, const scene *s)
             "analyses: {run: {static: {stations: [%g]}}}\n",
             path->value[path->stations - 1]);
 }
+
+static status read_assignment(const verb_option *o, void *member, const char *value, fault *f)
+{
+    const text_list *list = member;
+    const size_t name = strcspn(value, "=");
+    for (int i = 0; i < list->count; i++)
+        if (strcspn(list->text[i], "=") == name && strncmp(list->text[i], value, name) == 0)
+            return fault_set(f, STATUS_REFUSED, "--set %.*s is given twice; give it one value",
+                             (int)(name < 60 ? name : 60), value);
+    const verb_option plain = {o->name, .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS};
+    return option_take(&plain, member, value, f);
+}
+
+static void begin(void *group, command_line *l)
+{
+    case_options *r = group;
+    r->line = l;
+    r->refusal = EXIT_REFUSED;
+}
+
+static status end(void *group, command_line *l, fault *f)
+{
+    case_options *r = group;
+    (void)f;
+    r->name = l->argument[0];
+    return STATUS_OK;
+}
+
+static void close(void *group)
+{
+    case_options *r = group;
+    scene_file_free(r->scene);
+}
+
+static const verb_option both[] = {
+    {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another",
+     .member = offsetof(case_options, set), .traits = OPTION_REPEATS, .read = read_assignment},
+    {"scene", 0, "FILE", "a scene of your own in YAML, in the place of a case",
+     .member = offsetof(case_options, scene_path), .traits = OPTION_INPUT},
+    {0}};
+const option_group options_case = {both, begin, end, close};
+const option_group options_scene = {both + 1, begin, end, close};

@@ -1,73 +1,124 @@
 #include "harness/cli/command.h"
 
-#include <errno.h>
+#include <argp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "harness/cli/case_input.h"
-#include "harness/cli/help.h"
+#include "elements/shared/choice.h"
 #include "harness/cli/message.h"
-#include "harness/cli/named.h"
-#include "harness/cli/option_check.h"
-#include "harness/cli/option_table.h"
-#include "harness/experiments/meshes.h"
-#include "harness/experiments/shard.h"
-#include "harness/newton/shapes.h"
-#include "harness/numerics/team.h"
+#include "harness/terminal/paragraph.h"
 
-static int whole_number(const char *text, const char *what, long least, long most)
+enum { INDENT = 2, COLUMN = 30 };
+
+static void write_option(FILE *to, const verb_option *o)
 {
-    char *end, message[160];
-    errno = 0;
-    const long value = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0 || value < least || value > most) {
-        snprintf(message, sizeof message, "%s '%.40s': give a whole number from %ld to %ld", what,
-                 text, least, most);
-        message_refuse(message);
+    int at = o->letter != 0 ? fprintf(to, "  -%c, ", o->letter) : fprintf(to, "      ");
+    at += fprintf(to, "--%s", o->name);
+    if (o->argument != NULL)
+        at += verb_optional(o) ? fprintf(to, "[=%s", o->argument + 1)
+                               : fprintf(to, "=%s", o->argument);
+    if (at + 1 >= COLUMN) {
+        fputc('\n', to);
+        at = 0;
     }
-    return (int)value;
+    paragraph_write(to, at, COLUMN, o->help);
 }
 
-static void add_meshes(command_request *r, const char *list)
+static void write_examples(FILE *to, const char *lines)
 {
-    fault f;
-    if (meshes_parse(list, COMMAND_MAX_MESHES, r->mesh, &r->meshes, &f) != STATUS_OK)
-        message_refuse(f.text);
+    fprintf(to, strchr(lines, '\n') != NULL ? "\nexamples\n" : "\nexample\n");
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+        fprintf(to, "  %.*s\n", (int)length, lines);
+        lines += length + (lines[length] == '\n');
+    }
 }
 
-static void add_assignment(command_request *r, const char *text)
+void help_write(FILE *to, const verb *v)
 {
-    const size_t name = strcspn(text, "=");
-    char message[160];
-    if (r->assignments == CASE_MAX_PARAMETERS)
-        message_refuse("too many parameters");
-    for (int i = 0; i < r->assignments; i++)
-        if (strcspn(r->assignment[i], "=") == name && strncmp(r->assignment[i], text, name) == 0) {
-            snprintf(message, sizeof message, "--set %.*s is given twice; give it one value",
-                     (int)(name < 60 ? name : 60), text);
-            message_refuse(message);
-        }
-    r->assignment[r->assignments++] = text;
+    const verb_option *o;
+    fprintf(to, "usage: beamwork %s %s%s[OPTION...]\n", v->name, v->arguments,
+            v->arguments[0] != '\0' ? " " : "");
+    paragraph_write(to, 0, INDENT, v->about);
+    fprintf(to, "\noptions\n");
+    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
+        write_option(to, o);
+    write_examples(to, v->examples);
 }
 
-/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given
- * again. */
-static void refuse_again(command_request *r, int key, const struct argp_state *state)
+enum { FIRST_KEY = 256, MOST_ROWS = 256 };
+
+static const char *name_of(const void *context, int i)
 {
-    const struct argp_option *o = state->root_argp->options;
-    char message[160];
-    while (o->name != NULL && o->key != key)
-        o++;
-    if (o->name == NULL || o->arg == NULL || strchr("fxnsYBTWyb", key) != NULL)
-        return;
-    for (int i = 0; i < r->given_count; i++)
-        if (r->given[i] == key) {
-            snprintf(message, sizeof message, "--%s is given twice; give it one value", o->name);
-            message_refuse(message);
-        }
-    r->given[r->given_count++] = (char)key;
+    const verb_option *o = verb_option_at(context, i, NULL);
+    return o != NULL ? o->name : NULL;
+}
+
+static int others_take(const verb *const *verbs, const char *word)
+{
+    const verb_option *o = NULL;
+    for (; *verbs != NULL; verbs++)
+        for (int i = 0; (*verbs)->answer != NULL && (o = verb_option_at(*verbs, i, NULL)) != NULL;
+             i++)
+            if (strcmp(o->name, word) == 0)
+                return 1;
+    return 0;
+}
+
+/* begun: so many options begin so. No option of this verb may be one of another. */
+static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
+                          fault *f)
+{
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(text, "="), text);
+    if (begun > 1)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s begins several options; 'beamwork %s -h' lists them", word, v->name);
+    if (others_take(verbs, word + 2))
+        return fault_set(f, STATUS_REFUSED, "%s takes no %s; 'beamwork %s -h' lists its options",
+                         v->name, word, v->name);
+    const char *near = choice_nearest(word + 2, name_of, v);
+    return fault_set(f, STATUS_REFUSED,
+                     "unknown option %s%s%s%s; 'beamwork %s -h' lists the options", word,
+                     near != NULL ? ", did you mean --" : "", near != NULL ? near : "",
+                     near != NULL ? "?" : "", v->name);
+}
+
+/* *more: 1 where the next argument is its value. */
+static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
+                         int *more, fault *f)
+{
+    const char *value;
+    int begun;
+    const verb_option *o = verb_word(v, word, &value, &begun);
+    if (o == NULL && word[1] != '-')
+        return *value == '?' ? STATUS_OK
+                             : fault_set(f, STATUS_REFUSED,
+                                         "unknown option -%c; 'beamwork %s -h' lists the options",
+                                         *value, v->name);
+    if (o == NULL)
+        return refuse_word(v, verbs, word, begun, f);
+    if (value != NULL && o->argument == NULL)
+        return fault_set(f, STATUS_REFUSED, "--%s takes no value", o->name);
+    *more = value == NULL && o->argument != NULL && !verb_optional(o);
+    return *more && last
+               ? fault_set(f, STATUS_REFUSED, "--%s needs a value: %s", o->name, o->argument)
+               : STATUS_OK;
+}
+
+/* What is none, or lacks its value, is refused in one line with the nearest one, before any is
+ * taken. */
+static status check_options(const verb *v, const verb *const *verbs, int count,
+                            char *const argument[], fault *f)
+{
+    for (int i = 1; i < count && strcmp(argument[i], "--") != 0; i++) {
+        int more = 0;
+        if (argument[i][0] == '-' && argument[i][1] != '\0')
+            TRY(check_word(v, verbs, argument[i], i + 1 == count, &more, f));
+        i += more;
+    }
+    return STATUS_OK;
 }
 
 /* As argp's own, but an output that cannot be written is told. */
@@ -77,204 +128,125 @@ static void show_usage(const struct argp_state *state)
     exit(message_finish(EXIT_AS_EXPECTED));
 }
 
-/* state->name: "beamwork VERB". */
-static void show_help(const struct argp_state *state)
+static void add_argument(command_line *l, const char *text)
 {
-    const struct argp *a = state->root_argp;
-    const help_subject s = {strchr(state->name, ' ') + 1, a->args_doc, a->doc, a->options};
-    help_write(stdout, &s);
-    exit(message_finish(EXIT_AS_EXPECTED));
-}
-
-static void add_case(command_request *r, const char *name)
-{
-    if (r->case_count == r->most_arguments)
+    if (l->arguments == verb_most_arguments(l->verb->arguments))
         message_refuse("too many arguments; 'beamwork --help' shows the usage");
-    r->cases[r->case_count++] = name;
-    r->case_name = r->cases[0];
-    r->second = r->cases[1];
+    l->argument[l->arguments++] = text;
 }
 
-/* One more path of an option that may be given again, each once. */
-static void add_path(const char *path, int most, const char *list[], int *count)
+/* An option that takes one value has it once; lists (-f, -n, --set) and switches may be given
+ * again. */
+static void add_given(command_line *l, const verb_option *o, const char *value)
 {
-    if (*count == most)
-        message_refuse(most == 1 ? "--scene is given twice; give it one value"
-                                 : "too many files of one option; give a folder, join tables");
-    for (int i = 0; i < *count; i++)
-        if (strcmp(list[i], path) == 0)
-            message_refuse("an option is given twice with one path; give it once");
-    list[(*count)++] = path;
+    char text[160];
+    const int once = o->argument != NULL && (o->traits & OPTION_REPEATS) == 0;
+    if (once && given_value(l, o->name) != NULL) {
+        snprintf(text, sizeof text, "--%s is given twice; give it one value", o->name);
+        message_refuse(text);
+    }
+    if (l->givens == COMMAND_MOST_GIVEN)
+        message_refuse("too many options; give fewer");
+    l->given[l->givens++] = (given_option){o, value};
 }
 
-/* Tables stand beside the packed truths, of which there is one file. */
-static void add_truths(command_request *r, const char *path)
-{
-    const size_t length = strlen(path);
-    if (r->takes_tables && length > 4 && strcmp(path + length - 4, ".csv") == 0)
-        add_path(path, COMMAND_MAX_CASES, r->own_truths, &r->own_truths_count);
-    else if (r->truths != NULL)
-        message_refuse(
-            "--truths is given twice with packed truths; give one, and tables (.csv) beside");
-    else
-        r->truths = path;
-}
+typedef struct reading {
+    command_line *line;
+    char *request;
+} reading;
 
-static error_t take_plain(int key, const char *value, command_request *r)
+static void take_option(reading *r, const verb_option *o, size_t at, const char *value)
 {
-    const verb_option *o = option_table;
-    while (o->name != NULL && o->key != key)
-        o++;
-    void *member = (char *)r + o->member;
-    if (o->member == 0)
-        return ARGP_ERR_UNKNOWN;
-    if (o->argument != NULL)
-        *(const char **)member = value;
-    else
-        *(int *)member = 1;
-    return 0;
+    fault f;
+    add_given(r->line, o, value);
+    if (option_take(o, r->request + at + o->member, value, &f) != STATUS_OK)
+        message_refuse(f.text);
 }
 
 static error_t take(int key, char *value, struct argp_state *state)
 {
-    command_request *r = state->input;
-    refuse_again(r, key, state);
-    switch (key) {
-    case '?':
-    case KEY_HELP:
-        show_help(state);
-        return 0;
-    case KEY_USAGE:
+    reading *r = state->input;
+    const verb *v = r->line->verb;
+    size_t at;
+    if (key == ARGP_KEY_ARG)
+        return add_argument(r->line, value), 0;
+    if (key < 0 || key >= FIRST_KEY + MOST_ROWS)
+        return ARGP_ERR_UNKNOWN;
+    const verb_option *o =
+        key >= FIRST_KEY ? verb_option_at(v, key - FIRST_KEY, &at) : verb_letter(v, (char)key, &at);
+    if (o != NULL && key < FIRST_KEY && key != o->letter)
+        fprintf(stderr, "beamwork: -%c is --%s now; the letter goes with the next version\n", key,
+                o->name);
+    if (o == NULL || o == verb_help) { /* -? as well */
+        help_write(stdout, v);
+        exit(message_finish(EXIT_AS_EXPECTED));
+    } else if (o == verb_help + 1)
         show_usage(state);
-        return 0;
-    case ARGP_KEY_ARG:
-        add_case(r, value);
-        return 0;
-    case 'f':
-        named_formulation(r, value);
-        return 0;
-    case 'x':
-        named_element(r, value);
-        return 0;
-    case ARGP_KEY_END:
-        named_load(r);
-        return 0;
-    case 'n':
-        add_meshes(r, value);
-        return 0;
-    case 's':
-        add_assignment(r, value);
-        return 0;
-    case 'y':
-        if (r->varies == CASE_MAX_PARAMETERS)
-            message_refuse("too many --vary; give fewer");
-        r->vary[r->varies++] = value;
-        return 0;
-    case 'z':
-        r->points = whole_number(value, "number of points", 1, 1000000000);
-        return 0;
-    case 'r':
-        r->seed = whole_number(value, "seed", 0, 2147483647);
-        return 0;
-    case 'B':
-        add_path(value, COMMAND_MAX_CASES, r->beside, &r->beside_count);
-        return 0;
-    case 'Y':
-        add_path(value, r->most_scenes, r->scene_path, &r->scene_count);
-        return 0;
-    case 'b':
-        add_path(value, COMMAND_MAX_CASES, r->from, &r->from_count);
-        return 0;
-    case 'T':
-        add_truths(r, value);
-        return 0;
-    case 'W':
-        add_path(value, COMMAND_MAX_CASES, r->findings, &r->findings_count);
-        return 0;
-    case 'F':
-        if (strcmp(value, "text") != 0 && strcmp(value, "json") != 0 && strcmp(value, "csv") != 0)
-            message_refuse("--format: give text, json or csv");
-        r->format = value;
-        return 0;
-    case 'S':
-        r->steps = whole_number(value, "number of steps", 1, 1000000);
-        return 0;
-    case 'j':
-        r->jobs = whole_number(value, "number of processes", 1, 64);
-        return 0;
-    case 'L':
-        r->time_limit = whole_number(value, "time limit", 0, 1000000);
-        return 0;
-    case 't':
-        r->threads = whole_number(value, "number of threads", 1, TEAM_MOST);
-        return 0;
-    case 'P':
-        r->shapes =
-            value != NULL ? whole_number(value, "number of states", 1, SHAPES_ALL) : SHAPES_ALL;
-        return 0;
-    case 'X':
-        r->plant = 0.01 * whole_number(value, "planted percentage", 0, 1000);
-        return 0;
-    case 'C':
-        r->plan = whole_number(value, "number of shards", 1, SHARD_MOST);
-        return 0;
-    case 'N':
-        r->doublings = whole_number(value, "number of doublings", 1, 10);
-        return 0;
-    default:
-        return take_plain(key, value, r);
-    }
+    else
+        take_option(r, o, at, value);
+    return 0;
 }
 
-static int most_arguments(const char *keys)
+/* The options as argp has them: letters are other names of an option. */
+static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
 {
-    if (strchr(keys, '+') != NULL)
-        return COMMAND_MAX_CASES;
-    return strchr(keys, '2') != NULL ? 2 : 1;
+    row[n++] = (struct argp_option){o->name,     FIRST_KEY + index,
+                                    o->argument, verb_optional(o) ? OPTION_ARG_OPTIONAL : 0,
+                                    o->help,     0};
+    for (char letter = '!'; letter <= '~'; letter++)
+        if (verb_is_letter(o, letter))
+            row[n++] = (struct argp_option){
+                .key = letter, .flags = OPTION_ALIAS | (letter != o->letter ? OPTION_HIDDEN : 0)};
+    return n;
 }
 
-void command_parse(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
-                   int count, char **arguments, command_request *out)
+static void end_groups(command_line *l, char *request)
 {
-    struct argp_option chosen[OPTION_MOST + 1] = {{0}};
+    fault f;
+    for (const verb_group *g = l->verb->shared; g->group != NULL; g++)
+        if (g->group->end != NULL && g->group->end(request + g->member, l, &f) != STATUS_OK)
+            message_refuse(f.text);
+}
+
+void command_parse(const verb *v, const verb *const *verbs, int count, char **arguments,
+                   command_line *line, void *request)
+{
+    struct argp_option row[MOST_ROWS] = {{0}};
+    reading r = {line, request};
+    const verb_option *o;
     char name[64];
     fault f;
     int n = 0;
-    for (const verb_option *o = option_table; o->name != NULL; o++) {
-        const int always = o->key == KEY_HELP || o->key == KEY_USAGE;
-        const int taken =
-            strchr(keys, o->key) != NULL || (o->key == 'x' && strchr(keys, 'f') != NULL);
-        if (always || taken)
-            chosen[n++] = (struct argp_option){o->name,     o->key,
-                                               o->argument, o->key == 'P' ? OPTION_ARG_OPTIONAL : 0,
-                                               o->doc,      always ? -1 : 0};
-    }
-    if (option_check(verb, chosen, count, arguments, &f) != STATUS_OK)
+    *line = (command_line){.verb = v, .verbs = verbs};
+    if (check_options(v, verbs, count, arguments, &f) != STATUS_OK)
         message_refuse(f.text);
-    chosen[n] = (struct argp_option){.key = '?', .flags = OPTION_HIDDEN | OPTION_ALIAS};
-    const struct argp parser = {
-        .options = chosen, .parser = take, .args_doc = arguments_doc, .doc = doc};
-    memset(out, 0, sizeof *out);
-    out->time_limit = strcmp(verb, "element-test") == 0 ? 60 : 120;
-    out->refusal = EXIT_REFUSED;
-    out->seed = -1;
-    out->format = "text";
-    out->most_arguments = most_arguments(keys);
-    out->takes_tables = strchr(keys, '.') != NULL;
-    out->most_scenes = strchr(keys, 'I') != NULL ? COMMAND_MAX_CASES : 1;
-    out->jobs = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    snprintf(name, sizeof name, "beamwork %s", verb);
+    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
+        n = add_row(row, n, o, i);
+    row[n] = (struct argp_option){.key = '?', .flags = OPTION_HIDDEN | OPTION_ALIAS};
+    for (const verb_group *g = v->shared; g->group != NULL; g++)
+        if (g->group->begin != NULL)
+            g->group->begin(r.request + g->member, line);
+    const struct argp parser = {.options = row, .parser = take, .args_doc = v->arguments};
+    snprintf(name, sizeof name, "beamwork %s", v->name);
     arguments[0] = name;
     argp_err_exit_status = EXIT_REFUSED;
-    argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, out);
+    argp_parse(&parser, count, arguments, ARGP_NO_HELP, NULL, &r);
+    end_groups(line, request);
 }
 
-int command_run(const char *verb, const char *arguments_doc, const char *doc, const char *keys,
-                int count, char **arguments, command_answer *answer)
+int command_run(const verb *v, const verb *const *verbs, int count, char **arguments)
 {
-    command_request r;
-    command_parse(verb, arguments_doc, doc, keys, count, arguments, &r);
-    const int code = answer(&r);
-    case_input_close(&r);
+    command_line line;
+    if (v->before != NULL)
+        v->before(arguments);
+    char *request = calloc(1, v->request + 1);
+    if (request == NULL)
+        return message_fail(STATUS_FAULT, "out of memory for a command line");
+    command_parse(v, verbs, count, arguments, &line, request);
+    const int code = v->answer(&line, request);
+    for (const verb_group *g = v->shared; g->group != NULL; g++)
+        if (g->group->close != NULL)
+            g->group->close(request + g->member);
+    free(request);
     return code;
 }

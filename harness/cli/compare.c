@@ -7,6 +7,11 @@
 #include "harness/records/results_hash.h"
 #include "harness/study/sweep.h"
 
+typedef struct compare_request {
+    const char *output, *select, *threshold;
+    int hash; /* 1: of stored runs */
+} compare_request;
+
 /* As of diff. */
 enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
 
@@ -41,9 +46,9 @@ static void print_sums(const comparison *c)
 }
 
 /* A line for each count of series that are in one of the two only and are no change. */
-static void print_left(const command_request *r, const results *run[2], const comparison *c)
+static void print_left(const command_line *l, const results *run[2], const comparison *c)
 {
-    const char *const path[] = {r->case_name, r->second};
+    const char *const path[] = {l->argument[0], l->argument[1]};
     for (int i = 0; i < 2; i++) {
         if (c->outside[i] > 0)
             printf("%d series of %s %s outside the selection of %s\n", c->outside[i], path[i],
@@ -75,116 +80,129 @@ static void meet(const char *selection, const results *r, select_words *words)
         select_meet(selection, r->series[i].name, words);
 }
 
-static int compare(const command_request *r, const results *before, const results *after,
-                   const comparison_limits *limits, fault *f)
+static int compare(const command_line *l, const compare_request *r, const results *before,
+                   const results *after, const comparison_limits *limits, fault *f)
 {
     comparison c;
     comparison_run(stdout, before, after, limits, r->select, &c);
     print_sums(&c);
-    print_left(r, (const results *[]){before, after}, &c);
+    print_left(l, (const results *[]){before, after}, &c);
     print_partial(&c);
     if (output_flush(f) != STATUS_OK)
         return trouble(f);
     if (c.pairs > 0)
         return comparison_differs(&c) ? DIFFERS : SAME;
     fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no %s in common",
-              r->case_name, r->second, c.whole ? "cell" : "series");
+              l->argument[0], l->argument[1], c.whole ? "cell" : "series");
     return trouble(f);
 }
 
 /* A sweep is compared with a sweep. */
-static status check_sweeps(const command_request *r, const results *before, const results *after,
+static status check_sweeps(const command_line *l, const results *before, const results *after,
                            fault *f)
 {
-    if (r->second == NULL && before->swept)
+    if (l->argument[1] == NULL && before->swept)
         return fault_set(f, STATUS_REFUSED,
                          "%.80s is a sweep, which has no short table; 'beamwork sweep --format "
                          "csv' writes its values",
-                         r->case_name);
-    if (r->second == NULL || before->swept == after->swept)
+                         l->argument[0]);
+    if (l->argument[1] == NULL || before->swept == after->swept)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      "%.80s is a sweep and %.80s is none: give two sweeps, or two runs of verify",
-                     before->swept ? r->case_name : r->second,
-                     before->swept ? r->second : r->case_name);
+                     before->swept ? l->argument[0] : l->argument[1],
+                     before->swept ? l->argument[1] : l->argument[0]);
 }
 
 /* What is compared, or written; cli_compare frees it. */
-static status read_runs(const command_request *r, comparison_limits *limits, results *before,
-                        results *after, fault *f)
+static status read_runs(const command_line *l, const compare_request *r, comparison_limits *limits,
+                        results *before, results *after, fault *f)
 {
     select_words words;
     if (r->threshold != NULL)
         TRY(comparison_limits_parse(r->threshold, limits, f));
     TRY(select_begin(r->select, &words, f));
-    TRY(files_check(r, 0, NULL, f));
-    TRY(results_read_any(r->case_name, before, f));
-    if (r->second != NULL)
-        TRY(results_read_any(r->second, after, f));
-    TRY(check_sweeps(r, before, after, f));
+    TRY(files_check(l, 0, NULL, f));
+    TRY(results_read_any(l->argument[0], before, f));
+    if (l->argument[1] != NULL)
+        TRY(results_read_any(l->argument[1], after, f));
+    TRY(check_sweeps(l, before, after, f));
     meet(r->select, before, &words);
     meet(r->select, after, &words);
     TRY(select_all_met(r->select, &words, f));
-    return r->second == NULL ? write_table(r->output, before, f) : STATUS_OK;
+    return l->argument[1] == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
 /* A line for each run; of two: are they the same? */
-static int print_hashes(const command_request *r)
+static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};
     fault f = {""};
     if (r->output != NULL || r->threshold != NULL || r->select != NULL)
         return message_fail(STATUS_REFUSED, "--hash is of whole files: leave -o, -k and "
                                             "--threshold away");
-    for (int i = 0; i < r->case_count; i++) {
-        if (results_hash_of(r->cases[i], &h[i], &f) != STATUS_OK)
+    for (int i = 0; i < l->arguments; i++) {
+        if (results_hash_of(l->argument[i], &h[i], &f) != STATUS_OK)
             return trouble(&f);
-        printf("%s %ld %s\n", h[i].text, h[i].values, r->cases[i]);
+        printf("%s %ld %s\n", h[i].text, h[i].values, l->argument[i]);
     }
     if (output_flush(&f) != STATUS_OK)
         return trouble(&f);
-    return r->case_count == 2 && strcmp(h[0].text, h[1].text) != 0 ? DIFFERS : SAME;
+    return l->arguments == 2 && strcmp(h[0].text, h[1].text) != 0 ? DIFFERS : SAME;
 }
 
-int cli_compare(int count, char **arguments)
+static int answer(const command_line *l, void *request)
 {
-    command_request r;
+    const compare_request *r = request;
     comparison_limits limits = comparison_limits_default;
     results before = {0}, after = {0};
     fault f = {""};
-    command_parse(
-        "compare", "OLD [NEW]",
-        "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, "
-        "or, where one is the short table that is kept of a run, series by series, with the limits "
-        "of the default points; a former run is never a truth. Two files of 'sweep -o' are "
-        "compared "
-        "point by point, by the values of their parameters: errors, values, references (a line "
-        "'.../reference'), statuses and costs (threshold work=); points, formulations and meshes "
-        "that one of them has not are named. What one of them was not asked for "
-        "(verify -k, -f, --scene) and new formulations in one of them are counted, and no change. "
-        "-o with OLD alone writes its short "
-        "table. --hash: SHA-256 of all that a run says but times, machines and versions, and of "
-        "how "
-        "many values it is; two runs with the same hash say the same. Exit status: 0 the same "
-        "within the thresholds, 1 something is worse, better, "
-        "changed, gone or new, 2 trouble (file, usage, nothing in common)."
-        "\vbeamwork compare old.h5 new.h5\n"
-        "beamwork compare old_sweep.h5 new_sweep.h5\n"
-        "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",
-        "ok2cQ", count, arguments, &r);
-    if (r.hash && r.case_count > 0)
-        return print_hashes(&r);
-    if (r.case_name == NULL || (r.second == NULL) != (r.output != NULL))
+    if (r->hash && l->arguments > 0)
+        return print_hashes(l, r);
+    if (l->argument[0] == NULL || (l->argument[1] == NULL) != (r->output != NULL))
         return message_fail(
             STATUS_REFUSED,
             "give two stored runs to compare, or one and -o FILE.csv for its short table");
-    const status outcome = read_runs(&r, &limits, &before, &after, &f);
+    const status outcome = read_runs(l, r, &limits, &before, &after, &f);
     int code = SAME;
     if (outcome != STATUS_OK)
         code = trouble(&f);
-    else if (r.second != NULL)
-        code = compare(&r, &before, &after, &limits, &f);
+    else if (l->argument[1] != NULL)
+        code = compare(l, r, &before, &after, &limits, &f);
     results_free(&before);
     results_free(&after);
     return code;
 }
+
+#define IN(at) .member = offsetof(compare_request, at)
+static const verb_option own[] = {
+    {"threshold", 0, "NAME=R[,NAME=R]",
+     "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
+     "itself, of a value relative to its truth, of a count relative to itself",
+     IN(threshold)},
+    {"hash", 0, NULL, "one line for each run: a hash of its values, how many they are, its name",
+     IN(hash)},
+    {0}};
+static const verb_group shared[] = {SHARED(output, output), SHARED(select, select), {NULL, 0}};
+const verb verb_compare = {
+    "compare",
+    "OLD [NEW]",
+    "two stored runs: what became worse or better",
+    "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, or, "
+    "where one is the short table that is kept of a run, series by series, with the limits of the "
+    "default points; a former run is never a truth. Two files of 'sweep -o' are compared point by "
+    "point, by the values of their parameters: errors, values, references (a line "
+    "'.../reference'), statuses and costs (threshold work=); points, formulations and meshes that "
+    "one of them has not are named. What one of them was not asked for (verify -k, -f, --scene) "
+    "and new formulations in one of them are counted, and no change. -o with OLD alone writes its "
+    "short table. --hash: SHA-256 of all that a run says but times, machines and versions, and of "
+    "how many values it is; two runs with the same hash say the same. Exit status: 0 the same "
+    "within the thresholds, 1 something is worse, better, changed, gone or new, 2 trouble (file, "
+    "usage, nothing in common).",
+    "beamwork compare old.h5 new.h5\n"
+    "beamwork compare old_sweep.h5 new_sweep.h5\n"
+    "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",
+    shared,
+    own,
+    sizeof(compare_request),
+    .answer = answer};

@@ -1,57 +1,177 @@
-#include "harness/cli/completion.h"
+/* What may stand at the place of the cursor: words that are written out for a shell, names of the
+ * program, and what the words before the cursor ask for. */
+#include "harness/cli/cli.h"
 
 #include <string.h>
+#include <strings.h>
 
 #include "cases/format/scene_file.h"
-#include "harness/cli/names.h"
+#include "elements/shared/choice.h"
+#include "harness/cli/case_input.h"
 #include "harness/formulations/case_find.h"
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
+#include "harness/formulations/registry.h"
+#include "harness/study/glossary.h"
+#include "harness/study/truths.h"
+
+void offer_text(const offer *o, const char *text, const char *summary)
+{
+    if (strncmp(text, o->begun, strlen(o->begun)) == 0)
+        fprintf(o->to, "%.*s%s\t%s\n", o->length, o->before, text, summary);
+}
+
+/* Each of "a|b|c". */
+static void offer_choices(const offer *o, const char *choices)
+{
+    char word[64];
+    while (*choices != '\0') {
+        const size_t length = strcspn(choices, "|");
+        snprintf(word, sizeof word, "%.*s", (int)length, choices);
+        offer_text(o, word, "");
+        choices += length + (choices[length] == '|');
+    }
+}
+
+/* The same offer behind the last of the characters in what was begun (else: itself). */
+static offer offer_behind(const offer *o, const char *characters)
+{
+    offer behind = *o;
+    for (const char *at = o->begun; *at != '\0'; at++)
+        if (strchr(characters, *at) != NULL)
+            behind.begun = at + 1;
+    behind.length = (int)(o->length + (behind.begun - o->begun));
+    return behind;
+}
+
+static void names_cases(const offer *o)
+{
+    for (int i = 0; registry_cases[i] != NULL; i++)
+        offer_text(o, registry_cases[i]->name, registry_cases[i]->summary);
+}
+
+static void names_formulations(const offer *o)
+{
+    for (int i = 0; formulations_at(i) != NULL; i++)
+        offer_text(o, formulations_at(i)->name, formulations_at(i)->summary);
+}
+
+/* "NAME=" of a table, or behind "NAME=" the choices. */
+static void offer_assignment(const offer *o, const parameter_type *p)
+{
+    char name[100];
+    const size_t length = strlen(p->name);
+    snprintf(name, sizeof name, "%.*s=", (int)sizeof name - 2, p->name);
+    if (strncmp(o->begun, name, length + 1) != 0) {
+        offer_text(o, name, p->summary);
+    } else if (p->choices != NULL) {
+        const offer value = offer_behind(o, "=");
+        offer_choices(&value, p->choices);
+    }
+}
+
+/* Is it among those before, "name:mass=lumped,"? */
+static int is_given(const char *before, int length, const char *name)
+{
+    const size_t size = strlen(name);
+    for (int i = 1; i + (int)size < length; i++)
+        if ((before[i - 1] == ':' || before[i - 1] == ',') &&
+            strncmp(before + i, name, size) == 0 && before[i + (int)size] == '=')
+            return 1;
+    return 0;
+}
+
+static void names_formulation_options(const offer *o)
+{
+    const size_t name = strcspn(o->begun, ":");
+    if (o->begun[name] == '\0') {
+        names_formulations(o);
+        offer_text(o, "all", "every one");
+        return;
+    }
+    const element_type *type = formulations_named(o->begun, name);
+    const offer behind = offer_behind(o, ":,");
+    if (type == NULL)
+        return;
+    const assignment_list all = formulation_options(type);
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(all.part, i)) != NULL; i++)
+        if (!is_given(behind.before, behind.length, p->name))
+            offer_assignment(&behind, p);
+}
+
+static void names_parameters(const offer *o, const case_type *type)
+{
+    const parameter_type *p;
+    for (int i = 0; type != NULL && (p = parameter_at(type->parameters, i)) != NULL; i++)
+        offer_assignment(o, p);
+}
+
+/* NAME= only: of those that are numbers. */
+static void names_numbers(const offer *o, const case_type *type)
+{
+    const parameter_type *p;
+    for (int i = 0; type != NULL && (p = parameter_at(type->parameters, i)) != NULL; i++)
+        if (p->choices == NULL)
+            offer_assignment(o, p);
+}
+
+/* The next word of a term that begins as what was said. */
+static void offer_term(const offer *o, const char *said, const char *term, const char *summary)
+{
+    const size_t length = strlen(said);
+    char word[GLOSSARY_WORD];
+    if (strncasecmp(term, said, length) != 0)
+        return;
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(term + length, " "), term + length);
+    offer_text(o, word, summary);
+}
+
+static void offer_terms(const offer *o, const char *said, const glossary *g)
+{
+    char other[GLOSSARY_WORD];
+    for (int i = 0; i < g->entries; i++) {
+        offer_term(o, said, g->entry[i].term, g->entry[i].group);
+        for (int k = 0; glossary_part(g->entry[i].also, k, other); k++)
+            offer_term(o, said, other, g->entry[i].group);
+    }
+}
+
+/* What `beamwork explain` knows. said: the words before, one behind the other, which a term of
+ * several words begins with. */
+static void names_words(const offer *o, const char *said)
+{
+    const truths_options usual = {.packed = NULL};
+    const char *path = own_tables_packed(&usual);
+    glossary g = {0};
+    truths ledger = {0};
+    if (glossary_read(path, &g, NULL) == STATUS_OK)
+        offer_terms(o, said, &g);
+    glossary_free(&g);
+    if (said[0] != '\0')
+        return;
+    names_cases(o);
+    names_formulations(o);
+    if (truths_read_rules(path, &ledger, NULL) == STATUS_OK)
+        for (int i = 0; i < ledger.rules; i++)
+            offer_text(o, ledger.rule[i].name, "rule of the ledger");
+    truths_free(&ledger);
+}
 
 enum { SAID = 400 };
 
 /* What the words before the cursor say. */
 typedef struct reading {
-    const struct argp_option *chosen;
-    const struct argp_option *open; /* the option whose value the word at the cursor is; or NULL */
-    int only_arguments;             /* behind "--" */
-    const char *last;               /* argument; NULL: none yet */
-    int arguments;                  /* so many */
-    const char *scene;              /* value of --scene */
-    char said[SAID];                /* arguments, with a blank behind each */
+    const verb *verb;
+    const verb_option *open; /* the option whose value the word at the cursor is; or NULL */
+    int only_arguments;      /* behind "--" */
+    const char *last;        /* argument; NULL: none yet */
+    int arguments;           /* so many */
+    const char *scene;       /* value of --scene */
+    char said[SAID];         /* arguments, with a blank behind each */
 } reading;
 
-/* Of a whole name, or the beginning of one only. */
-static const struct argp_option *long_option(const reading *r, const char *name, size_t length)
-{
-    const struct argp_option *found = NULL;
-    int begun = 0;
-    for (const struct argp_option *o = r->chosen; o->name != NULL; o++)
-        if (strncmp(o->name, name, length) == 0) {
-            if (o->name[length] == '\0')
-                return o;
-            found = o;
-            begun++;
-        }
-    return begun == 1 ? found : NULL;
-}
-
-/* The option of "-Kf..." that takes a value, *rest behind its letter; NULL: none does. */
-static const struct argp_option *short_option(const reading *r, const char *word, const char **rest)
-{
-    for (const char *letter = word + 1; *letter != '\0'; letter++)
-        for (const struct argp_option *o = r->chosen; o->name != NULL; o++)
-            if (o->key == *letter && o->arg != NULL) {
-                *rest = letter + 1;
-                return o;
-            }
-    return NULL;
-}
-
-static int is_optional(const struct argp_option *o)
-{
-    return (o->flags & OPTION_ARG_OPTIONAL) != 0;
-}
-
-static void keep_value(reading *r, const struct argp_option *o, const char *value)
+static void keep_value(reading *r, const verb_option *o, const char *value)
 {
     if (o != NULL && strcmp(o->name, "scene") == 0)
         r->scene = value;
@@ -59,15 +179,12 @@ static void keep_value(reading *r, const struct argp_option *o, const char *valu
 
 static void read_option(reading *r, const char *word)
 {
-    const int is_long = word[1] == '-';
-    const size_t length = is_long ? strcspn(word + 2, "=") : 0;
-    const char *value = is_long ? word + 2 + length + (word[2 + length] == '=') : "";
-    const struct argp_option *o =
-        is_long ? long_option(r, word + 2, length) : short_option(r, word, &value);
-    const int given = is_long ? word[2 + length] == '=' : value[0] != '\0';
-    if (given)
+    const char *value;
+    int begun;
+    const verb_option *o = verb_word(r->verb, word, &value, &begun);
+    if (value != NULL)
         keep_value(r, o, value);
-    else if (o != NULL && o->arg != NULL && !is_optional(o))
+    else if (o != NULL && o->argument != NULL && !verb_optional(o))
         r->open = o;
 }
 
@@ -114,9 +231,9 @@ static void offer_part(const offer *o, const reading *r, const char *part)
     else if (strcmp(part, "WORD") == 0)
         offer_words(o, r);
     else if (strcmp(part, "FOLDER") == 0)
-        offer_folders(o);
+        fprintf(o->to, ":folders\n");
     else if (strncmp(part, "FILE", 4) == 0 || strcmp(part, "OLD") == 0 || strcmp(part, "NEW") == 0)
-        offer_files(o);
+        fprintf(o->to, ":files\n");
     else if (part[0] >= 'a' && part[0] <= 'z') {
         const int all = (int)strcspn(part, ":");
         snprintf(word, sizeof word, "%.*s", all + (part[all] == ':'), part);
@@ -135,15 +252,6 @@ static void offer_kinds(const offer *o, const reading *r, const char *kinds)
         offer_part(o, r, part);
         kinds += length;
     }
-}
-
-/* One more than there are? "OLD [NEW]" are two, "CASE..." any number. */
-static int takes_more(const reading *r, const char *arguments)
-{
-    int most = 1;
-    for (const char *at = arguments; *at != '\0'; at++)
-        most += *at == ' ';
-    return strstr(arguments, "...") != NULL || r->arguments < most;
 }
 
 static void offer_selection(const offer *o)
@@ -167,70 +275,62 @@ static void offer_parameters(const offer *o, const reading *r,
     scene_file_free(file);
 }
 
-static void offer_value(const offer *o, const reading *r, const struct argp_option *option)
+static void offer_value(const offer *o, const reading *r, const verb_option *option)
 {
-    switch (option->key) {
-    case 'f':
+    const char *name = option->name;
+    const int other = strcmp(name, "against") == 0;
+    if (strcmp(name, "formulation") == 0 || other)
         names_formulation_options(o);
-        break;
-    case 's':
+    if (other)
+        fprintf(o->to, ":files\n");
+    else if (strcmp(name, "set") == 0)
         offer_parameters(o, r, names_parameters);
-        break;
-    case 'V':
+    else if (strcmp(name, "follow") == 0)
         offer_parameters(o, r, names_numbers);
-        break;
-    case 'k':
+    else if (strcmp(name, "select") == 0)
         offer_selection(o);
-        break;
-    case 'A':
-        names_formulation_options(o);
-        offer_files(o);
-        break;
-    default:
-        offer_kinds(o, r, option->arg);
-    }
+    else if (strcmp(name, "formulation") != 0)
+        offer_kinds(o, r, option->argument);
 }
 
 static void offer_options(const offer *o, const reading *r)
 {
+    const verb_option *one;
     char text[80];
-    for (const struct argp_option *one = r->chosen; one->name != NULL; one++) {
+    for (int i = 0; (one = verb_option_at(r->verb, i, NULL)) != NULL; i++) {
         snprintf(text, sizeof text, "--%s%s", one->name,
-                 one->arg != NULL && !is_optional(one) ? "=" : "");
-        offer_text(o, text, one->doc);
+                 one->argument != NULL && !verb_optional(one) ? "=" : "");
+        offer_text(o, text, one->help);
     }
 }
 
-/* "-Kf" or "--formulation=", and behind it the beginning of a value. */
+/* "-hf" or "--formulation=", and behind it the beginning of a value. */
 static void offer_begun_option(FILE *to, const reading *r, const char *word)
 {
     const offer whole = {to, word, 0, word};
-    const size_t name = strcspn(word, "=");
-    const char *value = NULL;
-    const struct argp_option *o = NULL;
-    if (strncmp(word, "--", 2) != 0)
-        o = short_option(r, word, &value);
-    else if (word[name] == '=')
-        o = long_option(r, word + 2, name - 2), value = word + name + 1;
+    const char *value;
+    int begun;
+    const verb_option *o = verb_word(r->verb, word, &value, &begun);
+    if (value == NULL && word[1] != '-')
+        value = word + strlen(word);
     const offer behind = {to, word, value != NULL ? (int)(value - word) : 0, value};
-    if (o != NULL && o->arg != NULL)
+    if (o != NULL && o->argument != NULL && value != NULL)
         offer_value(&behind, r, o);
     else
         offer_options(&whole, r);
 }
 
-void completion_write(FILE *to, const help_subject *s, const void *context)
+void completion_write(FILE *to, const verb *v, int count, char *const *word)
 {
-    const completion_line *line = context;
-    const char *begun = line->word[line->count - 1];
+    const char *begun = word[count - 1];
     const offer whole = {to, begun, 0, begun};
-    reading r = {.chosen = s->chosen};
-    for (int i = 0; i + 1 < line->count; i++)
-        read_word(&r, line->word[i]);
+    reading r = {.verb = v};
+    for (int i = 0; i + 1 < count; i++)
+        read_word(&r, word[i]);
     if (r.open != NULL)
         offer_value(&whole, &r, r.open);
     else if (begun[0] == '-' && !r.only_arguments)
         offer_begun_option(to, &r, begun);
-    else if (takes_more(&r, s->arguments))
-        offer_kinds(&whole, &r, s->arguments);
+    else if (r.arguments < verb_most_arguments(v->arguments))
+        offer_kinds(&whole, &r, v->arguments);
 }

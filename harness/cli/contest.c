@@ -1,19 +1,275 @@
+/* bench --against: one cell in alternation with another formulation, at equal error or at given
+ * meshes, or with the same cell of another program. */
 #include "harness/cli/contest.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/cli/against_error.h"
 #include "harness/cli/case_input.h"
-#include "harness/cli/contestant.h"
-#include "harness/cli/defaults.h"
 #include "harness/cli/message.h"
+#include "harness/cli/named.h"
 #include "harness/records/json.h"
+#include "harness/study/families.h"
+#include "harness/study/meeting.h"
+#include "harness/study/narrow.h"
+#include "harness/study/plan.h"
+#include "harness/study/reach.h"
+#include "harness/study/rounding.h"
+#include "harness/study/run.h"
+#include "harness/study/sentence.h"
+#include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
 
-static void show(const command_request *r, const point *p, const contestant *a, const contestant *b,
-                 const against *v)
+enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
+
+/* A and B on all meshes of the case, and the errors that are asked for. */
+typedef struct duel {
+    sweep s; /* two series: A and B */
+    truths t;
+    int levels, asked; /* asked: so many by --error */
+    double level[LEVELS];
+    char note[DEFAULTS_NOTE];
+} duel;
+
+/* Where both are within an error, timed. */
+typedef struct bout {
+    meeting at;
+    int measured;
+    contestant one[2];
+    against answer;
+} bout;
+
+/* Not again where a former level has met on the same meshes. */
+static status measure(const duel *d, const bench_request *r, const bout *former, int formers,
+                      bout *m, fault *f)
+{
+    for (int i = 0; i < formers; i++)
+        if (former[i].measured && memcmp(former[i].at.mesh, m->at.mesh, sizeof m->at.mesh) == 0) {
+            *m = former[i];
+            return STATUS_OK;
+        }
+    for (int i = 0; i < 2; i++) {
+        const series *one = &d->s.series[i];
+        contestant_here(&m->one[i], r, &d->s.point[0].scene, &one->formulation,
+                        one->mesh[m->at.mesh[i]]);
+    }
+    m->one[1].plant = 0.01 * r->plant;
+    m->measured = 1;
+    return contestant_compete(&m->one[0], &m->one[1], &m->answer, f);
+}
+
+/* "NAME n = 4 (0.31 ms, largest error 0.021 %)". */
+static void put(char out[NAMED], const bout *m, int i)
+{
+    char error[ROUNDING_TEXT];
+    const double lap = i == 0 ? m->answer.a : m->answer.b;
+    rounding_digits(100 * m->at.error[i], 2, error);
+    snprintf(out, NAMED, "%.150s (%.3g ms, largest error %s %%)", m->one[i].name,
+             1e3 * lap / m->one[i].repeats, error);
+}
+
+static void show_meeting(const duel *d, double level, const bout *m)
+{
+    char line[LINE], winner[NAMED], loser[NAMED];
+    const against *v = &m->answer;
+    const int b_wins = v->outcome == AGAINST_FASTER;
+    const double low = b_wins ? 1 / v->high : v->low, high = b_wins ? 1 / v->low : v->high;
+    const int at = printf("at %g %%: ", 100 * level);
+    if (!m->measured) {
+        snprintf(line, sizeof line, "not reached by %s%s%s with the meshes of the case",
+                 m->at.mesh[0] < 0 ? d->s.series[0].formulation.key : "",
+                 m->at.mesh[0] < 0 && m->at.mesh[1] < 0 ? " and " : "",
+                 m->at.mesh[1] < 0 ? d->s.series[1].formulation.key : "");
+        paragraph_write(stdout, at, 4, line);
+        return;
+    }
+    put(winner, m, b_wins);
+    put(loser, m, !b_wins);
+    if (v->outcome == AGAINST_UNDECIDED)
+        snprintf(line, sizeof line,
+                 "undecided between %s and %s: the second takes %.3f to %.3f times as long", winner,
+                 loser, low, high);
+    else if (reach_unranked(d->s.series[0].formulation.type)[0] != '\0' ||
+             reach_unranked(d->s.series[1].formulation.type)[0] != '\0')
+        snprintf(line, sizeof line, "no rank: beside %s, %s takes %.2f to %.2f times as long",
+                 winner, loser, low, high);
+    else
+        snprintf(line, sizeof line, "%s is faster: %s takes %.2f to %.2f times as long", winner,
+                 loser, low, high);
+    paragraph_write(stdout, at, 4, line);
+}
+
+/* What more elements do not mend. */
+static void show_defects(const duel *d)
+{
+    for (int i = 0; i < 2; i++)
+        for (int q = 0; q < d->s.point[0].scene.quantities; q++) {
+            char text[2 * FAULT_TEXT];
+            const scene_quantity *wanted = &d->s.point[0].scene.quantity[q];
+            verdict v = {.series = i, .quantity = q};
+            if (!meeting_asks(&d->s, &d->t, q))
+                continue;
+            verdict_reach(&d->s, &d->t, &v);
+            if (v.kind != VERDICT_BIASED && v.kind != VERDICT_WRONG_LIMIT &&
+                v.kind != VERDICT_BIASED_AS_PREDICTED && v.kind != VERDICT_WRONG_AS_PREDICTED)
+                continue;
+            sentence_of_verdict(&v, wanted->least_order, text, sizeof text);
+            const int at = printf("%s, %s: ", d->s.series[i].formulation.key, wanted->name);
+            paragraph_write(stdout, at, 4, text);
+        }
+}
+
+static void show(const duel *d, const bout m[])
+{
+    char line[LINE] = "";
+    fputs(d->note, stdout);
+    table_omitted(stdout, &d->s.point[0]);
+    for (int q = 0; q < d->s.point[0].scene.quantities; q++)
+        if (meeting_asks(&d->s, &d->t, q))
+            snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s",
+                     line[0] != '\0' ? ", " : "", d->s.point[0].scene.quantity[q].name);
+    const int at = printf("%s, ", d->s.point[0].type->name);
+    paragraph_say(stdout, at, 2,
+                  "%s against %s, at equal error (99.9 %% confidence) in every one of: %s",
+                  d->s.series[0].formulation.key, d->s.series[1].formulation.key, line);
+    for (int i = 0; i < d->levels; i++)
+        show_meeting(d, d->level[i], &m[i]);
+    if (d->levels > 0 && m[0].measured)
+        contestant_unranked(&m[0].one[0], &m[0].one[1]);
+    show_defects(d);
+}
+
+static json_t *json_mesh(const duel *d, const bout *m, int i)
+{
+    return m->at.mesh[i] >= 0 ? json_integer(d->s.series[i].mesh[m->at.mesh[i]]) : json_null();
+}
+
+static json_t *json_meeting(const duel *d, double level, const bout *m)
+{
+    json_t *one = m->measured ? contestant_json(&m->one[0], &m->one[1], &m->answer)
+                              : json_pack("{s:s}", "outcome", "not reached");
+    json_object_set_new(one, "error", json_real(level));
+    json_object_set_new(one, "elements_a", json_mesh(d, m, 0));
+    json_object_set_new(one, "elements_b", json_mesh(d, m, 1));
+    if (m->measured) {
+        json_object_set_new(one, "error_a", json_real(m->at.error[0]));
+        json_object_set_new(one, "error_b", json_real(m->at.error[1]));
+    }
+    return one;
+}
+
+static void show_json(const duel *d, const bout m[])
+{
+    json_t *list = json_array(), *names = json_array();
+    for (int i = 0; i < d->levels; i++)
+        json_array_append_new(list, json_meeting(d, d->level[i], &m[i]));
+    for (int q = 0; q < d->s.point[0].scene.quantities; q++)
+        if (meeting_asks(&d->s, &d->t, q))
+            json_array_append_new(names, json_string(d->s.point[0].scene.quantity[q].name));
+    json_t *root = json_pack("{s:s,s:s,s:s,s:o,s:o}", "case", d->s.point[0].type->name, "a",
+                             d->s.series[0].formulation.key, "b", d->s.series[1].formulation.key,
+                             "quantities", names, "comparisons", list);
+    json_add_physics(root, &d->s.point[0]);
+    json_dumpf(root, stdout, JSON_INDENT(1));
+    putchar('\n');
+    json_decref(root);
+}
+
+/* The levels that are asked for, or those of reach_level that both reach; their number. */
+static int choose_levels(duel *d, bout m[LEVELS])
+{
+    for (int i = 0; i < REACH_LEVELS && d->asked == 0; i++) {
+        const meeting here = meeting_at(&d->s, &d->t, reach_level[i]);
+        if (meeting_holds(&here))
+            d->level[d->levels++] = reach_level[i];
+    }
+    for (int i = 0; i < d->levels; i++)
+        m[i] = (bout){.at = meeting_at(&d->s, &d->t, d->level[i])};
+    return d->levels;
+}
+
+static status check(const duel *d, const bench_request *r, fault *f)
+{
+    for (int i = 0; i < d->s.seriess; i++)
+        if (d->s.series[i].missing[0] != '\0')
+            return fault_set(f, STATUS_REFUSED, "%.60s does not offer %.100s, which %.60s needs",
+                             d->s.series[i].formulation.key, d->s.series[i].missing,
+                             d->s.point[0].type->name);
+    if (d->s.seriess != 2)
+        return fault_set(f, STATUS_REFUSED, "-k '%.100s' leaves one formulation; select quantities",
+                         r->select);
+    return meeting_asked(&d->s, &d->t) > 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "nothing to measure errors by: no quantity has a truth, or an "
+                           "agreement, for both; give -n for meshes of your choice");
+}
+
+static status compare(duel *d, const bench_request *r, fault *f)
+{
+    static bout m[LEVELS];
+    TRY(check(d, r, f));
+    if (choose_levels(d, m) == 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "no error of 10 %% to 0.01 %% is reached by both; give --error or -n");
+    for (int i = 0; i < d->levels; i++)
+        if (meeting_holds(&m[i].at))
+            TRY(measure(d, r, m, i, &m[i], f));
+    (r->format[0] == 'j' ? show_json : show)(d, m);
+    return STATUS_OK;
+}
+
+/* Errors at which another model would be compared are not those of its elements. */
+static status check_models(const sweep *s, fault *f)
+{
+    for (int i = 0; i < s->seriess; i++)
+        if (s->series[i].without.other)
+            return fault_set(f, STATUS_REFUSED,
+                             "%.60s solves another model of %.60s, without %.100s: there is no "
+                             "error to compare at; give -n for meshes of your choice",
+                             s->series[i].formulation.key, s->point[s->series[i].point].type->name,
+                             s->series[i].without.words);
+    return STATUS_OK;
+}
+
+/* With what against_error frees. */
+static status fight(duel *d, bench_request *r, const case_type *type, fault *f)
+{
+    const sweep_request request = {.jobs = r->shards.jobs,
+                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL};
+    if (r->error != NULL)
+        TRY(errors_parse(r->error, LEVELS, d->level, &d->levels, f));
+    d->asked = d->levels;
+    const defaults missing = contestant_defaults(r, type);
+    TRY(defaults_formulation(&missing, d->note, f));
+    TRY(formulation_parse(r->against, &r->chosen.formulation[1], f));
+    TRY(case_input_truths(&r->of, &r->truths, &d->t, f));
+    TRY(plan_one(type, r->of.parameter, r->chosen.formulation, 2, NULL, 0, &d->s, f));
+    TRY(check_models(&d->s, f));
+    TRY(narrow_to(&d->s, r->select, f));
+    TRY(run_sweep(&request, &d->s, f));
+    TRY(families_add_truths(&d->s, 0, &d->t, f));
+    return compare(d, r, f);
+}
+
+/* For each error the least number of elements of either from which on the error of every asked
+ * quantity is within it (study/reach.h), then these two cells in alternation. Errors: --error, or
+ * those of reach_level that both reach; quantities: -k, or all that both have a truth or an
+ * agreement for. REFUSED: one does not run, nothing to measure errors by, none is reached. */
+static status against_error(bench_request *r, const case_type *type, fault *f)
+{
+    duel d = {.levels = 0};
+    const status outcome = fight(&d, r, type, f);
+    sweep_free(&d.s);
+    truths_free(&d.t);
+    return outcome;
+}
+
+static void show_pair(const bench_request *r, const point *p, const contestant *a,
+                      const contestant *b, const against *v)
 {
     if (r->format[0] != 'j') {
         table_omitted(stdout, p);
@@ -28,51 +284,52 @@ static void show(const command_request *r, const point *p, const contestant *a, 
 }
 
 /* What both are asked for. Its scene is freed by who built it. */
-static point point_of(const command_request *r, const case_type *type, const scene *s)
+static point point_of(const bench_request *r, const case_type *type, const scene *s)
 {
     point p = {.type = type, .scene = *s, .status = STATUS_OK};
-    memcpy(p.parameter, r->parameter, sizeof p.parameter);
+    memcpy(p.parameter, r->of.parameter, sizeof p.parameter);
     return p;
 }
 
 /* Another build at equal n: both are programs, so that both start alike. The scene is freed by
  * against_meshes. */
-static status against_program(const command_request *r, const case_type *type, scene *s, fault *f)
+static status against_program(const bench_request *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
     against answer;
-    TRY(cell_scene(type, r->parameter, NULL, s, f));
+    TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     contestant_elsewhere(&a, r, "/proc/self/exe");
     contestant_elsewhere(&b, r, r->against);
     TRY(contestant_compete(&a, &b, &answer, f));
     const point p = point_of(r, type, s);
-    show(r, &p, &a, &b, &answer);
+    show_pair(r, &p, &a, &b, &answer);
     return STATUS_OK;
 }
 
 /* Another formulation. */
-static status compete(const command_request *r, const case_type *type, scene *s, fault *f)
+static status compete(const bench_request *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
     formulation other;
     against answer;
     TRY(formulation_parse(r->against, &other, f));
-    TRY(cell_scene(type, r->parameter, NULL, s, f));
-    contestant_here(&a, r, s, &r->formulation[0], r->mesh[0]);
-    contestant_here(&b, r, s, &other, r->mesh[r->meshes - 1]);
-    b.plant = r->plant;
+    TRY(cell_scene(type, r->of.parameter, NULL, s, f));
+    contestant_here(&a, r, s, &r->chosen.formulation[0], r->meshes.elements[0]);
+    contestant_here(&b, r, s, &other, r->meshes.elements[r->meshes.count - 1]);
+    b.plant = 0.01 * r->plant;
     TRY(contestant_compete(&a, &b, &answer, f));
     const point p = point_of(r, type, s);
-    show(r, &p, &a, &b, &answer);
+    show_pair(r, &p, &a, &b, &answer);
     return STATUS_OK;
 }
 
 /* At given meshes: A's and B's. */
-static status against_meshes(command_request *r, const case_type *type, int is_program, fault *f)
+static status against_meshes(bench_request *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};
     char note[DEFAULTS_NOTE];
-    TRY(defaults_fill(r, type, note, NULL, f));
+    const defaults missing = contestant_defaults(r, type);
+    TRY(defaults_fill(&missing, note, NULL, f));
     if (r->format[0] == 't')
         fputs(note, stdout);
     const status outcome = (is_program ? against_program : compete)(r, type, &s, f);
@@ -80,7 +337,7 @@ static status against_meshes(command_request *r, const case_type *type, int is_p
     return outcome;
 }
 
-static status against_other(command_request *r, const case_type *type, fault *f)
+static status against_other(bench_request *r, const case_type *type, fault *f)
 {
     const int is_program = strchr(r->against, '/') != NULL;
     if (is_program && access(r->against, X_OK) != 0)
@@ -90,11 +347,11 @@ static status against_other(command_request *r, const case_type *type, fault *f)
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
                          "another program is compared at equal n: leave --error and -k away");
-    if (is_program && (r->plant > 0 || r->meshes > 1))
+    if (is_program && (r->plant > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
                          "--plant and a second mesh are for another formulation "
                          "in the same program");
-    if (r->meshes == 0 && !is_program)
+    if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
@@ -102,10 +359,11 @@ static status against_other(command_request *r, const case_type *type, fault *f)
     return against_meshes(r, type, is_program, f);
 }
 
-int contest_run(command_request *r)
+int contest_run(bench_request *r)
 {
     fault f = {""};
-    if (r->case_count + r->scene_count != 1 || r->formulations > 1 || r->meshes > 2)
+    if (r->of.line->arguments + (r->of.scene_path != NULL) != 1 || r->chosen.formulations > 1 ||
+        r->meshes.count > 2)
         return message_fail(STATUS_REFUSED, "--against compares two: give one CASE or --scene, one "
                                             "-f, and one -n or two (A's and B's) or none");
     if (r->output != NULL)
@@ -113,6 +371,6 @@ int contest_run(command_request *r)
                             "--against writes no file; leave -o away, or give --format json");
     if (r->format[0] == 'c')
         return message_fail(STATUS_REFUSED, "--against is written as text or json");
-    const case_type *type = case_input_find(r);
-    return type != NULL ? message_exit(against_other(r, type, &f), &f) : r->refusal;
+    const case_type *type = case_input_find(&r->of);
+    return type != NULL ? message_exit(against_other(r, type, &f), &f) : r->of.refusal;
 }

@@ -1,4 +1,4 @@
-#include "harness/cli/contestant.h"
+#include "harness/cli/contest.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "harness/cli/command.h"
 #include "harness/model/missing.h"
 #include "harness/numerics/clock.h"
 #include "harness/study/reach.h"
@@ -119,32 +120,45 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
     return STATUS_OK;
 }
 
-void contestant_here(contestant *c, const command_request *r, const scene *s,
+defaults contestant_defaults(bench_request *r, const case_type *type)
+{
+    return (defaults){.wanted = {.type = type,
+                                 .parameter = r->of.parameter,
+                                 .select = r->select,
+                                 .keep_all = r->solver.keep_all,
+                                 .threads = r->solver.threads},
+                      .chosen = &r->chosen,
+                      .meshes = &r->meshes,
+                      .truths = &r->truths};
+}
+
+void contestant_here(contestant *c, const bench_request *r, const scene *s,
                      const formulation *chosen, int elements)
 {
     memset(c, 0, sizeof *c);
-    c->request = (cell_request){.scene = s, .elements = elements, .keep_all = r->keep_all};
+    c->request = (cell_request){.scene = s, .elements = elements, .keep_all = r->solver.keep_all};
     cell_formulation(&c->request, chosen);
     snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
 }
 
-void contestant_elsewhere(contestant *c, const command_request *r, const char *program)
+void contestant_elsewhere(contestant *c, const bench_request *r, const char *program)
 {
     int n = 0;
     memset(c, 0, sizeof *c);
-    snprintf(c->elements, sizeof c->elements, "%d", r->mesh[0]);
-    const char *const first[] = {
-        program, "solve", "--format", "json", "-f", r->formulation[0].key, "-n", c->elements};
+    snprintf(c->elements, sizeof c->elements, "%d", r->meshes.elements[0]);
+    const char *const first[] = {program, "solve",    "--format",
+                                 "json",  "-f",       r->chosen.formulation[0].key,
+                                 "-n",    c->elements};
     for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
         c->argument[n++] = first[i];
-    if (r->scene_count > 0)
+    if (r->of.scene_path != NULL)
         c->argument[n++] = "--scene";
-    c->argument[n++] = r->scene_count > 0 ? r->scene_path[0] : r->case_name;
-    if (r->keep_all)
+    c->argument[n++] = r->of.scene_path != NULL ? r->of.scene_path : r->of.name;
+    if (r->solver.keep_all)
         c->argument[n++] = "--keep-all";
-    for (int i = 0; i < r->assignments; i++) {
+    for (int i = 0; i < r->of.set.count; i++) {
         c->argument[n++] = "--set";
-        c->argument[n++] = r->assignment[i];
+        c->argument[n++] = r->of.set.text[i];
     }
     c->argument[n] = NULL;
     c->program = program;
@@ -246,10 +260,10 @@ void contestant_show(const contestant *a, const contestant *b, const against *v)
 
 json_t *contestant_json(const contestant *a, const contestant *b, const against *v)
 {
-    json_t *work = json_array();
+    json_t *counts = json_array();
     for (int i = 0; i < a->counts; i++)
-        json_array_append_new(work, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a",
-                                              a->count[i], "b", b->count[i]));
+        json_array_append_new(counts, json_pack("{s:s,s:f,s:f}", "name", a->counted[i]->name, "a",
+                                                a->count[i], "b", b->count[i]));
     char lacks[2][OMIT_WORDS];
     lacking(a, lacks[0]);
     lacking(b, lacks[1]);
@@ -257,5 +271,5 @@ json_t *contestant_json(const contestant *a, const contestant *b, const against 
                      b->name, "seconds_a", v->a / a->repeats, "seconds_b", v->b / b->repeats,
                      "ratio", v->ratio, "low", v->low, "high", v->high, "pairs", v->pairs,
                      "outcome", outcome_of(a, b, v), "not_modelled_a", lacks[0], "not_modelled_b",
-                     lacks[1], "work", work);
+                     lacks[1], "work", counts);
 }

@@ -2,11 +2,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
 #include "harness/cli/convergence_work.h"
-#include "harness/cli/errors.h"
 #include "harness/cli/named.h"
-#include "harness/cli/supports_told.h"
 #include "harness/records/csv.h"
 #include "harness/records/json.h"
 #include "harness/records/json_convergence.h"
@@ -18,6 +17,17 @@
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table_beside.h"
 #include "harness/terminal/table_convergence.h"
+
+typedef struct converge_request {
+    case_options of;
+    chosen_formulations chosen;
+    mesh_list meshes;
+    truths_options truths;
+    shard_options shards;
+    const char *select, *output, *format;
+    double error; /* 0: not given */
+    int verbose;
+} converge_request;
 
 /* How many of the formulations run. */
 static int running(const sweep *s)
@@ -36,7 +46,7 @@ static void write_answer(FILE *to, double level, const sweep *s, const truths *t
     paragraph_end(&words, 0, 0);
 }
 
-static void write_text(FILE *to, const command_request *r, double level, const sweep *s,
+static void write_text(FILE *to, const converge_request *r, double level, const sweep *s,
                        const truths *t)
 {
     if (r->verbose || running(s) == 1) {
@@ -47,7 +57,7 @@ static void write_text(FILE *to, const command_request *r, double level, const s
     write_answer(to, level, s, t);
 }
 
-static status write_form(FILE *to, const command_request *r, double level, const sweep *s,
+static status write_form(FILE *to, const converge_request *r, double level, const sweep *s,
                          const truths *t, fault *f)
 {
     if (strcmp(r->format, "json") == 0)
@@ -59,7 +69,7 @@ static status write_form(FILE *to, const command_request *r, double level, const
     return STATUS_OK;
 }
 
-static status write_out(const command_request *r, double level, const sweep *s, const truths *t,
+static status write_out(const converge_request *r, double level, const sweep *s, const truths *t,
                         fault *f)
 {
     output file;
@@ -68,34 +78,32 @@ static status write_out(const command_request *r, double level, const sweep *s, 
 }
 
 /* As far as the first formulation tells that is run. */
-static void tell_supports(const command_request *r, const sweep *s)
+static void tell_supports(const converge_request *r, const sweep *s)
 {
     int i = 0;
     while (i < s->seriess - 1 && s->series[i].missing[0] != '\0')
         i++;
     if (s->seriess > 0)
-        supports_told(r->scene, r->parameter, &s->series[i].formulation, &s->point[0].scene);
+        supports_told(r->of.scene, r->of.parameter, &s->series[i].formulation, &s->point[0].scene);
 }
 
-/* With what converge_request frees. */
-static status converge(command_request *r, const case_type *type, sweep *s, truths *t,
+/* With what answer frees. */
+static status converge(converge_request *r, const case_type *type, sweep *s, truths *t,
                        spread_end *end, fault *f)
 {
-    const sweep_request request = {.jobs = r->jobs,
+    const sweep_request request = {.jobs = r->shards.jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    double level = REACH_LINE_LEVEL;
-    int levels;
-    if (r->error != NULL)
-        TRY(errors_parse(r->error, 1, &level, &levels, f));
-    TRY(files_check(r, 0, case_input_truths_path(r), f));
-    TRY(case_input_truths(r, t, f));
-    TRY(plan_one(type, r->parameter, r->formulation, r->formulations, r->mesh, r->meshes, s, f));
+    const double level = r->error > 0 ? r->error : REACH_LINE_LEVEL;
+    TRY(files_check(r->of.line, 0, own_tables_packed(&r->truths), f));
+    TRY(case_input_truths(&r->of, &r->truths, t, f));
+    TRY(plan_one(type, r->of.parameter, r->chosen.formulation, r->chosen.formulations,
+                 r->meshes.elements, r->meshes.count, s, f));
     TRY(narrow_to(s, r->select, f));
     if (s->points > 0) {
-        case_input_tell_analysis(r, &s->point[0].scene);
+        case_input_tell_analysis(&r->of, &s->point[0].scene);
         tell_supports(r, s);
     }
-    TRY(convergence_work_run(r, &request, s, end, f));
+    TRY(convergence_work_run(&r->shards, &request, s, end, f));
     if (end->ended)
         return STATUS_OK;
     TRY(families_add_truths(s, 0, t, f));
@@ -112,16 +120,18 @@ static int has_solution(const sweep *s)
     return found;
 }
 
-static int converge_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    converge_request *r = request;
+    (void)l;
     sweep s = {0};
     truths t = {0};
     fault f = {""};
-    const case_type *type = case_input_find(r);
+    const case_type *type = case_input_find(&r->of);
     if (type == NULL)
-        return r->refusal;
-    if (r->formulations == 0)
-        named_add(r, "all");
+        return r->of.refusal;
+    if (r->chosen.formulations == 0)
+        named_add(&r->chosen, "all");
     spread_end end = {.ended = 0};
     const status outcome = converge(r, type, &s, &t, &end, &f);
     const int nothing = sweep_cells(&s) == 0, solved = has_solution(&s);
@@ -138,16 +148,29 @@ static int converge_request(command_request *r)
     return code == EXIT_AS_EXPECTED && !solved ? EXIT_DIFFERS : code;
 }
 
-int cli_converge(int count, char **arguments)
-{
-    return command_run(
-        "converge", "CASE",
-        "Solves one case on several meshes and shows errors, observed order and limit: of several "
-        "formulations side by side, a table for each quantity; of one, or with -v of each, with "
-        "values and times. Without -f: all formulations that offer what the case needs; without "
-        "-n: the case's own meshes. The last line says which formulation reaches 1 % with how many "
-        "elements, or the error given by --error."
-        "\vbeamwork converge c_column -k buckling_load\n"
-        "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
-        "fnskeFojTYv.ZiCbw", count, arguments, converge_request);
-}
+#define IN(at) .member = offsetof(converge_request, at)
+static const verb_option own[] = {
+    {"error", 0, "R", "error that is asked for (default 1%)", IN(error), .read = option_error},
+    {"verbose", 'v', NULL, "values, times and limits of each formulation by itself", IN(verbose),
+     .traits = OPTION_ASIDE},
+    {0}};
+static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),
+                                    SHARED(meshes, meshes),     SHARED(select, select),
+                                    SHARED(own_truths, truths), SHARED(output, output),
+                                    SHARED(format, format),     SHARED(jobs, shards.jobs),
+                                    SHARED(shards, shards),     {NULL, 0}};
+const verb verb_converge = {
+    "converge",
+    "CASE",
+    "one case on several meshes: errors, order, limit",
+    "Solves one case on several meshes and shows errors, observed order and limit: of several "
+    "formulations side by side, a table for each quantity; of one, or with -v of each, with values "
+    "and times. Without -f: all formulations that offer what the case needs; without -n: the "
+    "case's own meshes. The last line says which formulation reaches 1 % with how many elements, "
+    "or the error given by --error.",
+    "beamwork converge c_column -k buckling_load\n"
+    "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
+    shared,
+    own,
+    sizeof(converge_request),
+    .answer = answer};

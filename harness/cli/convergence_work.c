@@ -11,7 +11,7 @@ static status run(const sweep_work *of, sweep *part, fault *f)
     return run_sweep(&alone, part, f);
 }
 
-status convergence_work_run(const command_request *r, const sweep_request *request, sweep *s,
+status convergence_work_run(const shard_options *r, const sweep_request *request, sweep *s,
                             spread_end *out, fault *f)
 {
     int asked;

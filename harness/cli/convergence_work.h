@@ -5,7 +5,7 @@
 #include "harness/cli/sweep_work.h"
 
 /* The sweep is planned. */
-status convergence_work_run(const command_request *, const sweep_request *, sweep *, spread_end *,
+status convergence_work_run(const shard_options *, const sweep_request *, sweep *, spread_end *,
                             fault *);
 
 #endif

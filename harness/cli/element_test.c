@@ -8,13 +8,19 @@
 #include "harness/formulations/formulations.h"
 #include "harness/records/output.h"
 
+typedef struct element_test_request {
+    chosen_formulations chosen;
+    const char *output, *format, *json;
+    int jobs, verbose, quiet;
+} element_test_request;
+
 typedef struct found {
     certificate *all;
     int count;
 } found;
 
-static status write_format(const command_request *r, const char *format, FILE *to, const found *c,
-                           fault *f)
+static status write_format(const element_test_request *r, const char *format, FILE *to,
+                           const found *c, fault *f)
 {
     if (strcmp(format, "json") == 0)
         return certificate_json(to, c->all, c->count, f);
@@ -22,7 +28,7 @@ static status write_format(const command_request *r, const char *format, FILE *t
     return STATUS_OK;
 }
 
-static status write_file(const command_request *r, const char *path, const char *format,
+static status write_file(const element_test_request *r, const char *path, const char *format,
                          const found *c, fault *f)
 {
     output file;
@@ -31,60 +37,61 @@ static status write_file(const command_request *r, const char *path, const char 
 }
 
 /* A file, or a command, in the place of a name; NULL: none. */
-static const char *file_among(const command_request *r)
+static const char *file_among(const command_line *l)
 {
-    for (int i = 0; i < r->case_count; i++) {
-        const size_t length = strlen(r->cases[i]);
-        if (strncmp(r->cases[i], "exec:", 5) == 0 || strchr(r->cases[i], '/') != NULL ||
-            (length > 3 && strcmp(r->cases[i] + length - 3, ".so") == 0))
-            return r->cases[i];
+    for (int i = 0; i < l->arguments; i++) {
+        const size_t length = strlen(l->argument[i]);
+        if (strncmp(l->argument[i], "exec:", 5) == 0 || strchr(l->argument[i], '/') != NULL ||
+            (length > 3 && strcmp(l->argument[i] + length - 3, ".so") == 0))
+            return l->argument[i];
     }
     return NULL;
 }
 
 /* Those that are named; else those that were loaded. */
-static void choose(command_request *r)
+static void choose(const command_line *l, element_test_request *r)
 {
-    for (int i = 0; i < r->case_count; i++)
-        named_add(r, r->cases[i]);
-    for (int i = 0; r->formulations == 0 && formulations_at(i) != NULL; i++)
+    for (int i = 0; i < l->arguments; i++)
+        named_add(&r->chosen, l->argument[i]);
+    for (int i = 0; r->chosen.formulations == 0 && formulations_at(i) != NULL; i++)
         if (formulations_is_new(formulations_at(i)))
-            named_add(r, formulations_at(i)->name);
+            named_add(&r->chosen, formulations_at(i)->name);
 }
 
-/* With what cli_element_test frees. */
-static status run(const command_request *r, found *c, fault *f)
+/* With what answer frees. */
+static status run(const command_line *l, const element_test_request *r, found *c, fault *f)
 {
-    const certificate_request what = {.chosen = r->formulation,
-                                      .count = r->formulations,
+    const certificate_request what = {.chosen = r->chosen.formulation,
+                                      .count = r->chosen.formulations,
                                       .jobs = r->jobs,
-                                      .time_limit = r->time_limit};
+                                      .time_limit = r->chosen.time_limit};
     if (strcmp(r->format, "csv") == 0)
         return fault_set(f, STATUS_REFUSED, "element-test: give --format text or json");
-    if (r->formulations == 0)
+    if (r->chosen.formulations == 0)
         return fault_set(
             f, STATUS_REFUSED,
             "element-test: name a formulation, 'all' for every one, or load yours with "
             "--element ./mine.so; 'beamwork list formulations' shows them");
-    TRY(files_check(r, 0, NULL, f));
+    TRY(files_check(l, 0, NULL, f));
     TRY(certificate_find(&what, &c->all, f));
     TRY(write_file(r, r->output, r->format, c, f));
     return r->json != NULL ? write_file(r, r->json, "json", c, f) : STATUS_OK;
 }
 
-static int answer(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    element_test_request *r = request;
     fault f = {""};
-    const char *file = file_among(r);
+    const char *file = file_among(l);
     if (file != NULL) {
         fault_set(&f, STATUS_REFUSED,
                   "element-test: '%.150s' is no name of a formulation; --element '%.150s' loads it",
                   file, file);
         return message_fail(STATUS_REFUSED, f.text);
     }
-    choose(r);
-    found c = {.count = r->formulations};
-    const status outcome = run(r, &c, &f);
+    choose(l, r);
+    found c = {.count = r->chosen.formulations};
+    const status outcome = run(l, r, &c, &f);
     int code = EXIT_AS_EXPECTED;
     for (int i = 0; i < c.count && c.all != NULL; i++)
         if (!certificate_holds(&c.all[i]))
@@ -93,23 +100,32 @@ static int answer(command_request *r)
     return outcome != STATUS_OK ? message_fail(outcome, f.text) : code;
 }
 
-int cli_element_test(int count, char **arguments)
-{
-    return command_run(
-        "element-test", "[FORMULATION...|all]",
-        "Holds a formulation against the interface: derivatives against differences, energy, "
-        "symmetry, rigid motion, calls without memory, bounds, mass; each failure says what to "
-        "mend. "
-        "And measures what a paper should print of it: uniform and linear states, locking, orders "
-        "of "
-        "convergence. Of a formulation of your own (--element) it needs no name. It is written as "
-        "text "
-        "or json. A part that takes longer than the time limit (60 s) fails. Exit status: 0 "
-        "the contract is "
-        "kept, "
-        "1 it is broken, 2 refused, 4 file, disk or memory."
-        "\vbeamwork element-test collocation\n"
-        "beamwork element-test --element ./mine.so\n"
-        "beamwork element-test all --format json -o elements.json",
-        "+foFJLjvq", count, arguments, answer);
-}
+#define IN(at) .member = offsetof(element_test_request, at)
+static const verb_option own[] = {
+    {"verbose", 'v', NULL, "every claim with its numbers", IN(verbose), .traits = OPTION_ASIDE},
+    {"quiet", 'q', NULL, "only what is broken", IN(quiet), .traits = OPTION_ASIDE},
+    {0}};
+static const verb_group shared[] = {SHARED(formulations, chosen),
+                                    SHARED(time_limit, chosen),
+                                    SHARED(output, output),
+                                    SHARED(format, format),
+                                    SHARED(json, json),
+                                    SHARED(jobs, jobs),
+                                    {NULL, 0}};
+const verb verb_element_test = {
+    "element-test",
+    "[FORMULATION...|all]",
+    "a formulation against the interface: what to mend, and what it can do",
+    "Holds a formulation against the interface: derivatives against differences, energy, symmetry, "
+    "rigid motion, calls without memory, bounds, mass; each failure says what to mend. And "
+    "measures what a paper should print of it: uniform and linear states, locking, orders of "
+    "convergence. Of a formulation of your own (--element) it needs no name. It is written as text "
+    "or json. A part that takes longer than the time limit (60 s) fails. Exit status: 0 the "
+    "contract is kept, 1 it is broken, 2 refused, 4 file, disk or memory.",
+    "beamwork element-test collocation\n"
+    "beamwork element-test --element ./mine.so\n"
+    "beamwork element-test all --format json -o elements.json",
+    shared,
+    own,
+    sizeof(element_test_request),
+    .answer = answer};

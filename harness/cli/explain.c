@@ -13,6 +13,10 @@
 #include "harness/study/glossary.h"
 #include "harness/terminal/paragraph.h"
 
+typedef struct explain_request {
+    truths_options truths;
+} explain_request;
+
 enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4 };
 
 typedef struct dictionary {
@@ -241,40 +245,45 @@ static int explain_word(const dictionary *d, const char *word)
 }
 
 /* Arguments are one word, so that none needs quotes. */
-static int explain_words(const command_request *r, const dictionary *d)
+static int explain_words(const command_line *l, const dictionary *d)
 {
     char word[LONGEST] = "";
     size_t used = 0;
-    for (int i = 0; i < r->case_count && used < sizeof word; i++)
+    for (int i = 0; i < l->arguments && used < sizeof word; i++)
         used += (size_t)snprintf(word + used, sizeof word - used, "%s%s", i > 0 ? " " : "",
-                                 r->cases[i]);
-    if (r->case_count > 0)
+                                 l->argument[i]);
+    if (l->arguments > 0)
         return explain_word(d, word);
     list_words(&d->words);
     return EXIT_AS_EXPECTED;
 }
 
-static int explain_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    const explain_request *r = request;
     dictionary d = {.words = {0}};
     fault f = {""};
-    const char *path = case_input_truths_path(r);
+    const char *path = own_tables_packed(&r->truths);
     status outcome = glossary_read(path, &d.words, &f);
     if (outcome == STATUS_OK)
         outcome = truths_read_rules(path, &d.ledger, &f);
-    const int code = outcome == STATUS_OK ? explain_words(r, &d) : message_fail(outcome, f.text);
+    const int code = outcome == STATUS_OK ? explain_words(l, &d) : message_fail(outcome, f.text);
     glossary_free(&d.words);
     truths_free(&d.ledger);
     return code;
 }
 
-int cli_explain(int count, char **arguments)
-{
-    return command_run("explain", "[WORD...]",
-                       "Says what a word means: of verdicts, truths, convergence, analyses, "
-                       "physics, elements, times; a case, a formulation, a quantity, a rule of the "
-                       "ledger. Without a word: lists the words."
-                       "\vbeamwork explain haringx\n"
-                       "beamwork explain wrong limit",
-                       "+T", count, arguments, explain_request);
-}
+#define IN(at) .member = offsetof(explain_request, at)
+static const verb_group shared[] = {SHARED(truths, truths), {NULL, 0}};
+const verb verb_explain = {
+    "explain",
+    "[WORD...]",
+    "what a word means: verdicts, theories, physics, rules of the ledger",
+    "Says what a word means: of verdicts, truths, convergence, analyses, physics, elements, times; "
+    "a case, a formulation, a quantity, a rule of the ledger. Without a word: lists the words.",
+    "beamwork explain haringx\n"
+    "beamwork explain wrong limit",
+    shared,
+    NULL,
+    sizeof(explain_request),
+    .answer = answer};

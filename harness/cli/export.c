@@ -9,20 +9,26 @@
 #include "harness/records/output.h"
 #include "harness/study/cell.h"
 
+typedef struct export_request {
+    case_options of;
+    mesh_list meshes;
+    const char *output, *to;
+} export_request;
+
 enum { DEFAULT_ELEMENTS = 20 };
 
 /* What the deck is of, as an import says it: case or whole path of a scene file; parameters that
  * differ from their defaults. */
-static void name_of(const command_request *r, const case_type *type, char *text, size_t size)
+static void name_of(const export_request *r, const case_type *type, char *text, size_t size)
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];
-    parameters_text(type, r->parameter, parameters, sizeof parameters);
-    const char *file = r->scene_count > 0 ? realpath(r->scene_path[0], path) : NULL;
+    parameters_text(type, r->of.parameter, parameters, sizeof parameters);
+    const char *file = r->of.scene_path != NULL ? realpath(r->of.scene_path, path) : NULL;
     snprintf(text, size, "%s%s%s", file != NULL ? file : type->name,
              parameters[0] != '\0' ? "; " : "", parameters);
 }
 
-static status write_deck(const command_request *r, const deck_request *deck, fault *f)
+static status write_deck(const export_request *r, const deck_request *deck, fault *f)
 {
     output file;
     TRY(deck_check(deck, f));
@@ -30,46 +36,54 @@ static status write_deck(const command_request *r, const deck_request *deck, fau
     return output_finish(&file, deck_write(deck, file.stream, f), f);
 }
 
-/* With a scene that export_request frees. */
-static status export(const command_request *r, const case_type *type, scene *s, fault *f)
+/* With a scene that answer frees. */
+static status export(const export_request *r, const case_type *type, scene *s, fault *f)
 {
     char of[PARAMETERS_TEXT + PATH_MAX];
     if (r->to == NULL || strcmp(r->to, "calculix") != 0)
         return fault_set(f, STATUS_REFUSED, "which program is the deck for? Say --to calculix");
-    if (r->meshes > 1)
+    if (r->meshes.count > 1)
         return fault_set(f, STATUS_REFUSED, "a deck has one mesh; give one number with -n");
-    TRY(files_check(r, 0, NULL, f));
-    TRY(cell_scene(type, r->parameter, NULL, s, f));
+    TRY(files_check(r->of.line, 0, NULL, f));
+    TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     name_of(r, type, of, sizeof of);
-    const deck_request deck = {
-        .scene = s, .of = of, .elements = r->meshes > 0 ? r->mesh[0] : DEFAULT_ELEMENTS};
+    const deck_request deck = {.scene = s,
+                               .of = of,
+                               .elements =
+                                   r->meshes.count > 0 ? r->meshes.elements[0] : DEFAULT_ELEMENTS};
     return write_deck(r, &deck, f);
 }
 
-static int export_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    export_request *r = request;
+    (void)l;
     scene s = {0};
     fault f = {""};
-    const case_type *type = case_input_find(r);
+    const case_type *type = case_input_find(&r->of);
     if (type == NULL)
-        return r->refusal;
+        return r->of.refusal;
     const status outcome = export(r, type, &s, &f);
     scene_free(&s);
     return message_exit(outcome, &f);
 }
 
-int cli_export(int count, char **arguments)
-{
-    return command_run(
-        "export", "[CASE]",
-        "Writes a case, or a scene of your own (--scene FILE), as solids in the words of "
-        "another program: rectangles and straight walls at right angles as bricks with 20 nodes "
-        "and "
-        "reduced integration, ends "
-        "and bodies rigid; -n elements along each member (default 20), dense at its ends. "
-        "What a deck cannot say is refused. harness/exchange/read_back.py makes an import of "
-        "what the program prints."
-        "\vbeamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o "
-        "guide.inp",
-        "nsoYO", count, arguments, export_request);
-}
+#define IN(at) .member = offsetof(export_request, at)
+static const verb_option own[] = {{"to", 0, "calculix", "the program that the deck is for", IN(to)},
+                                  {0}};
+static const verb_group shared[] = {
+    SHARED(case, of), SHARED(meshes, meshes), SHARED(output, output), {NULL, 0}};
+const verb verb_export = {
+    "export",
+    "[CASE]",
+    "a structure as solids, as an input deck of another program",
+    "Writes a case, or a scene of your own (--scene FILE), as solids in the words of another "
+    "program: rectangles and straight walls at right angles as bricks with 20 nodes and reduced "
+    "integration, ends and bodies rigid; -n elements along each member (default 20), dense at its "
+    "ends. What a deck cannot say is refused. harness/exchange/read_back.py makes an import of "
+    "what the program prints.",
+    "beamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o guide.inp",
+    shared,
+    own,
+    sizeof(export_request),
+    .answer = answer};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/cli/cells.h"
-#include "harness/cli/identity.h"
+#include "harness/cli/spread.h"
 #include "harness/cli/sweep_work.h"
 #include "harness/experiments/deal.h"
 #include "harness/study/run.h"
@@ -147,11 +147,11 @@ static void make_items(extreme_work *c)
 }
 
 /* With what extreme_work_run frees. */
-static status spread(extreme_work *c, const command_request *r, identity_texts *texts,
+static status spread(extreme_work *c, const shard_options *r, identity_texts *texts,
                      spread_end *out, fault *f)
 {
     digest plan;
-    TRY(identity_make("stress", r, texts, &plan, f));
+    TRY(identity_make(r->line, texts, &plan, f));
     TRY(extreme_plan(c->request, &c->plan, f));
     if (!alloc(c))
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
@@ -176,7 +176,7 @@ static void free_all(extreme_work *c)
     free(c->cost);
 }
 
-status extreme_work_run(const command_request *r, const extreme_request *request, const char *path,
+status extreme_work_run(const shard_options *r, const extreme_request *request, const char *path,
                         extreme_sweep *s, spread_end *out, fault *f)
 {
     int asked;

@@ -7,7 +7,7 @@
 
 /* A batch is one extreme or several, with the neighbouring meshes that its numbers need: whether
  * they do depends on that extreme alone. path: of the packed ones. */
-status extreme_work_run(const command_request *, const extreme_request *, const char *path,
+status extreme_work_run(const shard_options *, const extreme_request *, const char *path,
                         extreme_sweep *, spread_end *, fault *);
 
 #endif

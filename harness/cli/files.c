@@ -1,33 +1,32 @@
 #include "harness/cli/files.h"
 
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include "harness/formulations/words.h"
 #include "harness/records/output.h"
 #include "harness/records/output_folder.h"
 
-enum { OUTPUTS = 7, INPUTS = 7 };
+enum { OUTPUTS = 7 }; /* of one verb, each once */
 
 typedef struct named_place {
-    const char *option, *path;
-    output_form form;
-    int folder; /* 1: a new one */
+    char option[40];
+    const char *path;
     place where;
 } named_place;
 
-static status check_inputs(const named_place *out, const char *const input[INPUTS], fault *f)
+static status check_input(const void *context, const char *input, fault *f)
 {
-    for (int i = 0; i < INPUTS; i++) {
-        place in;
-        if (input[i] != NULL && input[i][0] != '\0' &&
-            place_find(input[i], &in, NULL) == STATUS_OK && place_same(&in, &out->where))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s %.100s would replace %.100s, which is read; give it another name",
-                             out->option, out->path, input[i]);
-    }
+    const named_place *out = context;
+    place in;
+    if (input != NULL && input[0] != '\0' && place_find(input, &in, NULL) == STATUS_OK &&
+        place_same(&in, &out->where))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s %.100s would replace %.100s, which is read; give it another name",
+                         out->option, out->path, input);
     return STATUS_OK;
 }
 
@@ -40,66 +39,115 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
                      a->path, b->option, b->path);
 }
 
-/* Objects, and the files that a command names. */
-static status check_element(const named_place *out, const char *element, fault *f)
+static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
-    static const char exec[] = "exec:";
+    /* the folder's own name is no pattern */
+    char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
+    if (pattern == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for scene files");
+    for (const char *c = folder; *c != '\0'; c++) {
+        if (strchr("\\*?[", *c) != NULL)
+            *at++ = '\\';
+        *at++ = *c;
+    }
+    memcpy(at, "/*.yaml", sizeof "/*.yaml");
+    const int failed = glob(pattern, 0, NULL, found);
+    free(pattern);
+    if (failed == GLOB_NOMATCH)
+        return fault_set(f, STATUS_REFUSED,
+                         "--scene %.200s: no *.yaml in that folder; give a scene file", folder);
+    return failed == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "--scene %.200s: the folder cannot be read", folder);
+}
+
+static status visit_folder(const char *folder, file_visit *visit, const void *context, fault *f)
+{
+    glob_t found;
+    status outcome = find_scenes(folder, &found, f);
+    TRY(outcome);
+    for (size_t i = 0; i < found.gl_pathc && outcome == STATUS_OK; i++)
+        outcome = visit(context, found.gl_pathv[i], f);
+    globfree(&found);
+    return outcome;
+}
+
+static status visit_command(const char *command, file_visit *visit, const void *context, fault *f)
+{
     char **word;
-    if (strncmp(element, exec, sizeof exec - 1) != 0)
-        return check_inputs(out, (const char *const[INPUTS]){element}, f);
-    if (words_split(element + sizeof exec - 1, &word, NULL) != STATUS_OK)
+    struct stat there;
+    if (words_split(command, &word, NULL) != STATUS_OK)
         return STATUS_OK; /* refused where it is loaded */
     status outcome = STATUS_OK;
     for (int i = 0; word[i] != NULL && outcome == STATUS_OK; i++)
-        if (access(word[i], F_OK) == 0)
-            outcome = check_inputs(out, (const char *const[INPUTS]){word[i]}, f);
+        if (stat(word[i], &there) == 0 && S_ISREG(there.st_mode))
+            outcome = visit(context, word[i], f);
     free(word);
     return outcome;
 }
 
-status files_check(const command_request *r, int whole_file, const char *truths_path, fault *f)
+status files_named(const char *input, file_visit *visit, const void *context, fault *f)
 {
-    named_place out[OUTPUTS] = {
-        {.option = "-o", .path = r->output, .form = whole_file ? OUTPUT_WHOLE_FILE : OUTPUT_TEXT},
-        {.option = "--json", .path = r->json},
-        {.option = "--junit", .path = r->junit},
-        {.option = "--markdown", .path = r->markdown},
-        {.option = "--propose", .path = r->propose},
-        {.option = "--matrices", .path = r->matrices, .folder = 1},
-        {.option = "--ends", .path = r->ends, .form = OUTPUT_WHOLE_FILE}};
-    const int is_path = r->against != NULL && strchr(r->against, '/') != NULL;
-    const char *const input[INPUTS] = {
-        truths_path, r->most_arguments == 2 ? r->case_name : NULL, r->second, r->scene_path[0],
-        r->map,      is_path ? r->against : "/proc/self/exe",      r->restart};
-    for (int i = 0; i < OUTPUTS; i++) {
-        if (out[i].path == NULL)
-            continue;
-        TRY(out[i].folder ? output_folder_try(out[i].path, &out[i].where, f)
-                          : output_try(out[i].path, out[i].form, &out[i].where, f));
-        TRY(check_inputs(&out[i], input, f));
-        for (int k = 0; k < r->elements; k++)
-            TRY(check_element(&out[i], r->element[k], f));
-        if (r->reads_files)
-            for (int k = 0; k < r->case_count; k++)
-                TRY(check_inputs(&out[i], (const char *const[INPUTS]){r->cases[k]}, f));
-        for (int k = 0; k < i; k++)
-            if (out[k].path != NULL)
-                TRY(check_pair(&out[k], &out[i], f));
-    }
+    static const char exec[] = "exec:";
+    struct stat there;
+    if (strncmp(input, exec, sizeof exec - 1) == 0)
+        return visit_command(input + sizeof exec - 1, visit, context, f);
+    return stat(input, &there) == 0 && S_ISDIR(there.st_mode)
+               ? visit_folder(input, visit, context, f)
+               : visit(context, input, f);
+}
+
+/* Arguments are files, or names. */
+static status check_arguments(const named_place *out, const command_line *l, fault *f)
+{
+    const int read =
+        strstr(l->verb->arguments, "FILE") != NULL || strstr(l->verb->arguments, "OLD") != NULL;
+    for (int i = 0; read && i < l->arguments; i++)
+        TRY(check_input(out, l->argument[i], f));
     return STATUS_OK;
 }
 
-status files_check_input(const command_request *r, const char *path, fault *f)
+static status check_inputs(const named_place *out, const command_line *l, const char *truths_path,
+                           fault *f)
 {
-    const char *const option[OUTPUTS] = {"-o",        "--json",     "--junit", "--markdown",
-                                         "--propose", "--matrices", "--ends"};
-    const char *const out[OUTPUTS] = {r->output,  r->json,     r->junit, r->markdown,
-                                      r->propose, r->matrices, r->ends};
-    const char *const input[INPUTS] = {path};
-    for (int i = 0; i < OUTPUTS; i++) {
-        named_place one = {.option = option[i], .path = out[i]};
-        if (out[i] != NULL && place_find(out[i], &one.where, NULL) == STATUS_OK)
-            TRY(check_inputs(&one, input, f));
+    const given_option *g;
+    TRY(check_input(out, truths_path, f));
+    TRY(check_input(out, "/proc/self/exe", f));
+    for (int i = 0; (g = given_next(l, OPTION_INPUT, &i)) != NULL;)
+        TRY(files_named(g->value, check_input, out, f));
+    return check_arguments(out, l, f);
+}
+
+static void name_place(const given_option *g, named_place *out)
+{
+    const verb_option *o = g->option;
+    *out = (named_place){.path = g->value};
+    if (o->letter != 0)
+        snprintf(out->option, sizeof out->option, "-%c", o->letter);
+    else
+        snprintf(out->option, sizeof out->option, "--%s", o->name);
+}
+
+static status try_place(const given_option *g, int whole_file, named_place *out, fault *f)
+{
+    const unsigned traits = g->option->traits;
+    const int whole = (traits & OPTION_HDF5) != 0 || (whole_file && g->option->letter == 'o');
+    name_place(g, out);
+    return (traits & OPTION_FOLDER) != 0
+               ? output_folder_try(out->path, &out->where, f)
+               : output_try(out->path, whole ? OUTPUT_WHOLE_FILE : OUTPUT_TEXT, &out->where, f);
+}
+
+status files_check(const command_line *l, int whole_file, const char *truths_path, fault *f)
+{
+    named_place out[OUTPUTS];
+    const given_option *g;
+    int count = 0;
+    for (int i = 0; (g = given_next(l, OPTION_OUTPUT, &i)) != NULL && count < OUTPUTS; count++) {
+        TRY(try_place(g, whole_file, &out[count], f));
+        TRY(check_inputs(&out[count], l, truths_path, f));
+        for (int k = 0; k < count; k++)
+            TRY(check_pair(&out[k], &out[count], f));
     }
     return STATUS_OK;
 }

@@ -1,13 +1,14 @@
-#include "harness/cli/identity.h"
+#include "harness/cli/spread.h"
 
-#include <dirent.h>
+#include <jansson.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "harness/cli/case_input.h"
-#include "harness/cli/command_words.h"
+#include "harness/cli/files.h"
 #include "harness/formulations/environment.h"
 #include "harness/formulations/words.h"
 
@@ -44,95 +45,94 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-static status add_file(digest *plan, const char *path, fault *f)
+/* How files are named: as they were, by paths that hold in any folder, by what stands behind their
+ * folders. */
+typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
+
+static void add_path(json_t *to, const char *path, path_form form)
 {
-    if (path == NULL)
-        return STATUS_OK;
-    return digest_add_file(plan, path) == 0
+    char whole[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    if (form == PATHS_ABSOLUTE && realpath(path, whole) != NULL)
+        path = whole;
+    else if (form == PATHS_LEAVES && slash != NULL && slash[1] != '\0')
+        path = slash + 1;
+    json_array_append_new(to, json_string(path));
+}
+
+/* Files have paths, commands have none. */
+static void add_given(json_t *to, const given_option *g, path_form form)
+{
+    char text[160];
+    const char *value = g->value;
+    const int optional = verb_optional(g->option) && value != NULL,
+              file = (g->option->traits & OPTION_INPUT) != 0 && strncmp(value, "exec:", 5) != 0;
+    snprintf(text, sizeof text, "--%s%s%s", g->option->name, optional ? "=" : "",
+             optional ? value : "");
+    json_array_append_new(to, json_string(text));
+    if (value != NULL && !optional)
+        add_path(to, value, file ? form : PATHS_GIVEN);
+}
+
+/* All that answers depend on, in the order of the verb's options however they were given; not where
+ * results go, how they look, nor how many processes work. */
+static json_t *words_of(const command_line *l, path_form form)
+{
+    json_t *to = json_array();
+    const verb_option *o;
+    for (int i = 0; i < l->arguments; i++)
+        json_array_append_new(to, json_string(l->argument[i]));
+    for (int i = 0; (o = verb_option_at(l->verb, i, NULL)) != NULL; i++)
+        for (int k = 0; (o->traits & (OPTION_ASIDE | OPTION_OUTPUT)) == 0 && k < l->givens; k++)
+            if (l->given[k].option == o) {
+                add_given(to, &l->given[k], form);
+                if (o->argument == NULL)
+                    break; /* a switch is on, however often it is given */
+            }
+    return to;
+}
+
+static status add_file(const void *context, const char *path, fault *f)
+{
+    return digest_add_file(*(digest *const *)context, path) == 0
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Objects; the files that a command names. */
-static status add_element(digest *plan, const char *element, fault *f)
+/* Truths are those of built-in cases. */
+static status add_files(digest *plan, const command_line *l, fault *f)
 {
-    static const char exec[] = "exec:";
-    struct stat there;
-    char **word;
-    if (strncmp(element, exec, sizeof exec - 1) != 0)
-        return add_file(plan, element, f);
-    TRY(words_split(element + sizeof exec - 1, &word, f));
-    for (int i = 0; word[i] != NULL; i++)
-        if (stat(word[i], &there) == 0 && S_ISREG(there.st_mode))
-            digest_add_file(plan, word[i]);
-    free(word);
+    const truths_options usual = {.packed = NULL};
+    const int built_in = given_value(l, "scene") == NULL || given_value(l, "built-in") != NULL;
+    const given_option *g;
+    if (built_in && given_value(l, "truths") == NULL)
+        TRY(add_file(&plan, own_tables_packed(&usual), f));
+    for (int i = 0; (g = given_next(l, OPTION_INPUT, &i)) != NULL;)
+        if ((g->option->traits & OPTION_VERDICT) == 0)
+            TRY(files_named(g->value, add_file, &plan, f));
     return STATUS_OK;
 }
 
-/* Every *.yaml of a folder, in the order of their names. */
-static status add_folder(digest *plan, const char *folder, fault *f)
+static char *write_origin(const command_line *l)
 {
-    struct dirent **entry;
-    char path[PATH_MAX];
-    const int count = scandir(folder, &entry, NULL, alphasort);
-    status outcome =
-        count >= 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", folder);
-    for (int i = 0; i < count; i++) {
-        const char *name = entry[i]->d_name, *dot = strrchr(name, '.');
-        if (outcome == STATUS_OK && dot != NULL && strcmp(dot, ".yaml") == 0 &&
-            snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path)
-            outcome = add_file(plan, path, f);
-        free(entry[i]);
-    }
-    if (count >= 0)
-        free(entry);
-    return outcome;
-}
-
-static status add_scenes(digest *plan, const command_request *r, fault *f)
-{
-    for (int i = 0; i < r->scene_count; i++) {
-        struct stat there;
-        const char *path = r->scene_path[i];
-        const int folder = stat(path, &there) == 0 && S_ISDIR(there.st_mode);
-        TRY(folder ? add_folder(plan, path, f) : add_file(plan, path, f));
-    }
-    return STATUS_OK;
-}
-
-static status add_files(digest *plan, const command_request *r, fault *f)
-{
-    if (r->scene_count == 0 || r->built_in)
-        TRY(add_file(plan, case_input_truths_path(r), f));
-    for (int i = 0; i < r->own_truths_count; i++)
-        TRY(add_file(plan, r->own_truths[i], f));
-    for (int i = 0; i < r->elements; i++)
-        TRY(add_element(plan, r->element[i], f));
-    return add_scenes(plan, r, f);
-}
-
-static char *write_origin(const char *verb, const command_request *r)
-{
-    json_t *out =
-        json_pack("{s:s,s:o?,s:o?}", "verb", verb, "arguments", command_words(r, PATHS_ABSOLUTE),
-                  "as_given", command_words(r, PATHS_GIVEN));
+    json_t *out = json_pack("{s:s,s:o?,s:o?}", "verb", l->verb->name, "arguments",
+                            words_of(l, PATHS_ABSOLUTE), "as_given", words_of(l, PATHS_GIVEN));
     char *text = out != NULL ? json_dumps(out, JSON_COMPACT) : NULL;
     json_decref(out);
     return text;
 }
 
-status identity_make(const char *verb, const command_request *r, identity_texts *out, digest *plan,
-                     fault *f)
+status identity_make(const command_line *l, identity_texts *out, digest *plan, fault *f)
 {
-    json_t *words = command_words(r, PATHS_LEAVES);
+    json_t *words = words_of(l, PATHS_LEAVES);
     *plan = digest_begin();
     name_build(out->build, sizeof out->build);
     name_request(words, out->request);
     json_decref(words);
-    out->origin = write_origin(verb, r);
+    out->origin = write_origin(l);
     if (out->origin == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory, or the command line is no UTF-8");
-    return add_files(plan, r, f);
+    return add_files(plan, l, f);
 }
 
 static void add_count(digest *plan, int count)

@@ -7,14 +7,18 @@
 #include "harness/records/place.h"
 #include "harness/records/store.h"
 
-static int as_json(const command_request *r)
+typedef struct import_request {
+    const char *output, *format, *map;
+} import_request;
+
+static int as_json(const import_request *r)
 {
     return strcmp(r->format, "json") == 0;
 }
 
 /* All mistakes of a file, a line each; as JSON where that is the form of the output: then of every
  * file, also of one that has none. */
-static status print_mistakes(const command_request *r, const mistakes *m, fault *f)
+static status print_mistakes(const import_request *r, const mistakes *m, fault *f)
 {
     if (as_json(r))
         return mistakes_json(m, stdout, f);
@@ -26,10 +30,10 @@ static status print_mistakes(const command_request *r, const mistakes *m, fault 
 }
 
 /* All files by one map: one series. */
-static status read_mapped(const command_request *r, import_set *set, fault *f)
+static status read_mapped(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};
-    const status outcome = import_map_read(r->map, r->cases, r->case_count, set, &m, f);
+    const status outcome = import_map_read(r->map, l->argument, l->arguments, set, &m, f);
     TRY(print_mistakes(r, &m, f));
     if (m.count > 0)
         fault_set(f, outcome, "nothing was imported: mistakes in %.200s", r->map);
@@ -37,19 +41,19 @@ static status read_mapped(const command_request *r, import_set *set, fault *f)
 }
 
 /* Reads every file, whatever is wrong with those before. */
-static status read_files(const command_request *r, import_set *set, fault *f)
+static status read_files(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     status outcome = STATUS_OK;
-    for (int i = 0; i < r->case_count; i++) {
-        mistakes m = {.file = r->cases[i]};
+    for (int i = 0; i < l->arguments; i++) {
+        mistakes m = {.file = l->argument[i]};
         fault here = {""};
-        const status one = import_file_read(r->cases[i], set, &m, &here);
+        const status one = import_file_read(l->argument[i], set, &m, &here);
         TRY(print_mistakes(r, &m, f));
         if (one == STATUS_OK || outcome == STATUS_FAULT)
             continue;
         outcome = one;
         if (m.count > 0)
-            fault_set(f, one, "nothing was imported: mistakes in %.200s", r->cases[i]);
+            fault_set(f, one, "nothing was imported: mistakes in %.200s", l->argument[i]);
         else
             *f = here;
     }
@@ -84,14 +88,14 @@ static status check_again(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-static status import(command_request *r, import_set *set, fault *f)
+static status import(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
-    if (r->case_count == 0 || r->output == NULL)
+    if (l->arguments == 0 || r->output == NULL)
         return fault_set(f, STATUS_REFUSED, "give files to import, and -o FILE.h5");
     if (strcmp(r->format, "csv") == 0)
         return fault_set(f, STATUS_REFUSED, "--format: give text or json");
-    TRY(files_check(r, 1, NULL, f));
-    TRY(r->map != NULL ? read_mapped(r, set, f) : read_files(r, set, f));
+    TRY(files_check(l, 1, NULL, f));
+    TRY(r->map != NULL ? read_mapped(l, r, set, f) : read_files(l, r, set, f));
     TRY(check_again(&set->sweep, f));
     const environment e = environment_now(1);
     TRY(store_write(r->output, &set->sweep, NULL, &e, f));
@@ -100,22 +104,31 @@ static status import(command_request *r, import_set *set, fault *f)
     return STATUS_OK;
 }
 
-int cli_import(int count, char **arguments)
+static int answer(const command_line *l, void *request)
 {
-    command_request r;
     import_set set = {0};
     fault f = {""};
-    command_parse(
-        "import", "FILE...",
-        "Reads what other programs found of a case or scene: CSV with a declared header "
-        "(harness/exchange/import.md). Names, units and parameters are checked, values "
-        "converted; -o FILE is of the same schema as results of verify, whose --beside takes "
-        "it as one more contestant. --format json: the mistakes of each file, for editors."
-        "\vbeamwork import theirs.csv -o theirs.h5",
-        "o+mF", count, arguments, &r);
-    r.reads_files = 1;
-    const status outcome = import(&r, &set, &f);
+    const status outcome = import(l, request, &set, &f);
     import_block_free_set(&set);
-    case_input_close(&r);
     return message_exit(outcome, &f);
 }
+
+#define IN(at) .member = offsetof(import_request, at)
+static const verb_option own[] = {{"map", 0, "FILE.yaml",
+                                   "which columns of files without a header are which quantities",
+                                   IN(map), .traits = OPTION_INPUT},
+                                  {0}};
+static const verb_group shared[] = {SHARED(output, output), SHARED(format, format), {NULL, 0}};
+const verb verb_import = {
+    "import",
+    "FILE...",
+    "what other programs found, for 'verify --beside'",
+    "Reads what other programs found of a case or scene: CSV with a declared header "
+    "(harness/exchange/import.md). Names, units and parameters are checked, values converted; -o "
+    "FILE is of the same schema as results of verify, whose --beside takes it as one more "
+    "contestant. --format json: the mistakes of each file, for editors.",
+    "beamwork import theirs.csv -o theirs.h5",
+    shared,
+    own,
+    sizeof(import_request),
+    .answer = answer};

@@ -1,3 +1,5 @@
+/* What there is: cases, formulations; what one of them is, offers and lacks, and where it is known
+ * to fail. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -5,22 +7,195 @@
 #include "cases/format/meaning.h"
 #include "elements/feature.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/list_formulation.h"
+#include "harness/cli/named.h"
 #include "harness/experiments/list_json.h"
 #include "harness/experiments/list_subject.h"
 #include "harness/experiments/runs_on.h"
 #include "harness/formulations/formulations.h"
 #include "harness/formulations/registry.h"
+#include "harness/records/schema.h"
 #include "harness/study/cell.h"
 #include "harness/terminal/paragraph.h"
 
-enum { COLUMN = 27 };
+enum { COLUMN = 26, LINE = 4000 };
+
+static const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
+
+/* A text whose further lines are indented by two more. */
+static void hang(int indent, const char *text)
+{
+    const int word = (int)strcspn(text, " ");
+    paragraph_write(stdout, printf("%*s%.*s ", indent, "", word, text), indent + 2, text + word);
+}
+
+/* What it declares, as result files have it; returns the text of a field, or its number. */
+static long declared(const formulation *chosen, const char *name, field_value *out)
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const series one = {.formulation = *chosen};
+    const subject s = {.series = &one};
+    const int fields = schema_fields(&record_declaration, KEY, list);
+    out->text = "";
+    for (int i = 0; i < fields; i++)
+        if (strcmp(list[i]->name, name) == 0)
+            schema_read(&s, list[i], out);
+    return out->whole;
+}
+
+static void show_declared(const formulation *chosen, const char *head, const char *name)
+{
+    field_value v = {.whole = 0};
+    declared(chosen, name, &v);
+    if (v.text[0] != '\0')
+        paragraph_write(stdout, printf("  %s: ", head), 4, v.text);
+}
+
+static void show_numbers(const formulation *chosen)
+{
+    static const char *const order[][2] = {{"statics_least", "statics_highest"},
+                                           {"vibration_least", "vibration_highest"},
+                                           {"motion_least", "motion_highest"},
+                                           {"buckling_least", "buckling_highest"}};
+    static const char *const analysis[] = {"statics", "vibration", "motion", "linear buckling"};
+    field_value v = {.whole = 0};
+    char orders[200];
+    int used = 0;
+    const long nodes = declared(chosen, "nodes", &v), strains = declared(chosen, "strains", &v),
+               inner = declared(chosen, "inner", &v);
+    printf("  element: %ld nodes, %ld generalized strains", nodes, strains);
+    printf(inner > 0 ? ", %ld unknowns inside\n" : "\n", inner);
+    for (int i = 0; i < 4; i++) {
+        const long least = declared(chosen, order[i][0], &v);
+        used += snprintf(orders + used, sizeof orders - (size_t)used, "%s%ld to %ld in %s",
+                         i > 0 ? ", " : "", least, declared(chosen, order[i][1], &v), analysis[i]);
+    }
+    paragraph_write(stdout, printf("  order of convergence: "), 4, orders);
+}
+
+static void show_features(const char *heading, unsigned features)
+{
+    if (features != 0)
+        printf("%s\n", heading);
+    for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
+        if (features & bit)
+            paragraph_write(stdout, printf("  %-*s", COLUMN - 2, feature_name(bit)), COLUMN,
+                            feature_summary(bit));
+}
+
+static void list_formulation_option(const parameter_type *o)
+{
+    char value[ASSIGNMENT_VALUE];
+    assignment_value_text(o, o->value, value, sizeof value);
+    int at = printf("  %s=", o->name);
+    at += o->choices != NULL ? printf("%s", o->choices) : printf("%g..%g", o->min, o->max);
+    at += printf(", default %s: ", value);
+    paragraph_write(stdout, at, 4, o->summary);
+}
+
+static void show_options(const element_type *t)
+{
+    const assignment_list list = formulation_options(t);
+    const parameter_type *o;
+    printf("options (-f %s:NAME=VALUE)\n", t->name);
+    for (int i = 0; (o = parameter_at(list.part, i)) != NULL; i++)
+        list_formulation_option(o);
+}
+
+/* Where, and what comes of it. */
+static void show_verdicts(const rule *r)
+{
+    char line[LINE];
+    snprintf(line, sizeof line, "in %s: ", r->cases);
+    for (const char *v = r->verdicts; v != NULL;
+         v = strchr(v, '|') != NULL ? strchr(v, '|') + 1 : NULL)
+        snprintf(line + strlen(line), sizeof line - strlen(line), "%s%.*s",
+                 v != r->verdicts ? "; " : "", (int)strcspn(v, "|"), v);
+    hang(4, line);
+}
+
+static void show_rules(const formulation *chosen, const rule *rules, int count)
+{
+    int found = 0;
+    for (int i = 0; i < count; i++) {
+        const rule *r = &rules[i];
+        if (!rules_speak_of(r, chosen->key))
+            continue;
+        if (found++ == 0)
+            printf("known findings ('beamwork explain RULE' shows the proof)\n");
+        paragraph_write(stdout, printf("  %s: ", r->name), 4, r->cause);
+        show_verdicts(r);
+    }
+    if (found == 0)
+        printf("known findings: none\n");
+}
+
+/* Those of one kind whose words are the same, behind the first of them. */
+static void show_alike(const runs_on all[], int count, int first, const char *head)
+{
+    char line[LINE];
+    int names = 0;
+    for (int i = 0; i < first; i++)
+        if (all[i].runs == all[first].runs && strcmp(all[i].words, all[first].words) == 0)
+            return;
+    snprintf(line, sizeof line, "%s%s: ", head, all[first].words);
+    for (int i = first; i < count; i++)
+        if (all[i].runs == all[first].runs && strcmp(all[i].words, all[first].words) == 0)
+            snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s",
+                     names++ > 0 ? ", " : "", all[i].name);
+    hang(2, line);
+}
+
+static void show_cases(const element_type *t)
+{
+    enum { ROOM = 256 };
+    static runs_on all[ROOM];
+    const int count = runs_on_cases(t, all, ROOM);
+    printf("cases, at their default parameters\n");
+    for (int i = 0; i < count; i++)
+        if (all[i].runs && all[i].words[0] == '\0')
+            show_alike(all, count, i, "runs");
+    for (int i = 0; i < count; i++)
+        if (all[i].runs && all[i].words[0] != '\0')
+            show_alike(all, count, i, "runs, without ");
+    for (int i = 0; i < count; i++)
+        if (!all[i].runs)
+            show_alike(all, count, i, "not run, for want of ");
+}
+
+static void list_formulation(const formulation *chosen, const rule *rules, int count)
+{
+    const element_type *t = chosen->type;
+    paragraph_write(stdout, printf("%s: ", chosen->key), 2, t->summary);
+    show_declared(chosen, "source", "source");
+    show_declared(chosen, "family", "family");
+    show_numbers(chosen);
+    show_declared(chosen, "shear in stability", "shear_theory");
+    show_declared(chosen, "restricted to", "limits");
+    show_declared(chosen, "lacks", "lacks");
+    show_features("offers", t->offers & ~theories);
+    show_features("does not offer", ~t->offers & (FEATURE_END - 1) & ~theories);
+    show_options(t);
+    if (rules != NULL)
+        show_rules(chosen, rules, count);
+    show_cases(t);
+    printf("next: beamwork converge CASE -f %s; 'beamwork explain WORD' for any word above\n",
+           chosen->key);
+}
+
+typedef struct list_request {
+    case_options of;
+    chosen_formulations chosen; /* that --element loads */
+    truths_options truths;
+    const char *format;
+} list_request;
+
+enum { NAMES = 27 };
 
 static void list_formulations(void)
 {
     printf("formulations ('beamwork list FORMULATION' tells about one)\n");
     for (int i = 0; formulations_at(i) != NULL; i++)
-        paragraph_write(stdout, printf("  %-*s", COLUMN - 2, formulations_at(i)->name), COLUMN,
+        paragraph_write(stdout, printf("  %-*s", NAMES - 2, formulations_at(i)->name), NAMES,
                         formulations_at(i)->summary);
     printf("options of all of them (-f NAME:OPTION=VALUE)\n");
     for (const parameter_type *o = formulation_common; o->name != NULL; o++)
@@ -31,7 +206,7 @@ static void list_features(void)
 {
     printf("physics that a case can need and a formulation can offer\n");
     for (unsigned bit = 1; bit < FEATURE_END; bit <<= 1)
-        paragraph_write(stdout, printf("  %-*s", COLUMN - 2, feature_name(bit)), COLUMN,
+        paragraph_write(stdout, printf("  %-*s", NAMES - 2, feature_name(bit)), NAMES,
                         feature_summary(bit));
 }
 
@@ -39,7 +214,7 @@ static void list_cases(void)
 {
     printf("cases ('beamwork list CASE' shows parameters and quantities)\n");
     for (int i = 0; registry_cases[i] != NULL; i++)
-        paragraph_write(stdout, printf("  %-*s", COLUMN - 2, registry_cases[i]->name), COLUMN,
+        paragraph_write(stdout, printf("  %-*s", NAMES - 2, registry_cases[i]->name), NAMES,
                         registry_cases[i]->summary);
 }
 
@@ -111,13 +286,13 @@ static int list_case(const case_type *type)
 }
 
 /* The ledger, where there is one. */
-static void read_ledger(const command_request *r, truths *ledger)
+static void read_ledger(const list_request *r, truths *ledger)
 {
     memset(ledger, 0, sizeof *ledger);
-    truths_read_rules(case_input_truths_path(r), ledger, NULL);
+    truths_read_rules(own_tables_packed(&r->truths), ledger, NULL);
 }
 
-static void show_formulation(const command_request *r, const formulation *chosen)
+static void show_formulation(const list_request *r, const formulation *chosen)
 {
     truths ledger;
     read_ledger(r, &ledger);
@@ -125,7 +300,7 @@ static void show_formulation(const command_request *r, const formulation *chosen
     truths_free(&ledger);
 }
 
-static int show(const command_request *r, const list_subject *what)
+static int show(const list_request *r, const list_subject *what)
 {
     if (what->type != NULL)
         return list_case(what->type);
@@ -153,7 +328,7 @@ static status write_json(const list_subject *what, const truths *ledger, fault *
 }
 
 /* The file of the ledger also says which formulations gate. */
-static int show_json(const command_request *r, const list_subject *what)
+static int show_json(const list_request *r, const list_subject *what)
 {
     truths ledger;
     fault f = {""};
@@ -163,31 +338,41 @@ static int show_json(const command_request *r, const list_subject *what)
     return message_exit(written, &f);
 }
 
-static int list_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    list_request *r = request;
+    (void)l;
     list_subject what = {.cases = 0};
     fault f;
-    case_input_example(r);
-    if (r->scene_count > 0) {
-        what.type = case_input_scene(r);
+    case_input_example(&r->of);
+    if (r->of.scene_path != NULL) {
+        what.type = case_input_scene(&r->of);
         if (what.type == NULL)
-            return r->refusal;
-    } else if (list_subject_find(r->case_name, &what, &f) != STATUS_OK)
+            return r->of.refusal;
+    } else if (list_subject_find(r->of.name, &what, &f) != STATUS_OK)
         return message_fail(STATUS_REFUSED, f.text);
     if (strcmp(r->format, "csv") == 0)
         return message_fail(STATUS_REFUSED, "list: --format text or json");
     return strcmp(r->format, "json") == 0 ? show_json(r, &what) : show(r, &what);
 }
 
-int cli_list(int count, char **arguments)
-{
-    return command_run(
-        "list", "[cases|formulations|CASE|FORMULATION]",
-        "Shows what there is: all cases and formulations; of a case its parameters, quantities and "
-        "who can run it; of a formulation its theory, orders, options, what it offers and lacks, "
-        "what the ledger knows of it, and the cases that it runs on."
-        "\vbeamwork list\n"
-        "beamwork list c_column\n"
-        "beamwork list collocation",
-        "FYTx", count, arguments, list_request);
-}
+#define IN(at) .member = offsetof(list_request, at)
+static const verb_group shared[] = {SHARED(scene, of),
+                                    SHARED(element, chosen),
+                                    SHARED(truths, truths),
+                                    SHARED(format, format),
+                                    {NULL, 0}};
+const verb verb_list = {
+    "list",
+    "[cases|formulations|CASE|FORMULATION]",
+    "cases and formulations; of one: parameters, quantities, orders, findings",
+    "Shows what there is: all cases and formulations; of a case its parameters, quantities and who "
+    "can run it; of a formulation its theory, orders, options, what it offers and lacks, what the "
+    "ledger knows of it, and the cases that it runs on.",
+    "beamwork list\n"
+    "beamwork list c_column\n"
+    "beamwork list collocation",
+    shared,
+    NULL,
+    sizeof(list_request),
+    .answer = answer};

@@ -1,53 +1,155 @@
 /* Batches of shards put together: the verb that they are of is asked again, to take them. */
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "harness/cli/again.h"
 #include "harness/cli/cli.h"
+#include "harness/experiments/stock.h"
 
-static const struct {
-    const char *name;
-    cli_verb *run;
-} verbs[] = {{"verify", cli_verify},
-             {"converge", cli_converge},
-             {"bench", cli_bench},
-             {"stress", cli_stress},
-             {"sweep", cli_sweep}};
+enum { MOST = 1024 }; /* arguments */
 
-static int ask(const again *a)
+/* The command line that batches were computed by, asked once more. */
+typedef struct again {
+    int count;
+    char *argument[MOST + 1]; /* "beamwork", the verb, ..., NULL; their order may be changed */
+    char *owned[MOST + 1];    /* the same, which again_free releases */
+} again;
+
+static status add(again *out, const char *text, fault *f)
+{
+    char *copy = out->count < MOST ? strdup(text) : NULL;
+    if (copy == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a command line");
+    out->argument[out->count] = out->owned[out->count] = copy;
+    out->count++;
+    return STATUS_OK;
+}
+
+/* A path that held in any folder, as long as it does. */
+static const char *choose(const char *absolute, const char *given)
+{
+    return strcmp(absolute, given) != 0 && access(absolute, F_OK) == 0 ? absolute : given;
+}
+
+static status add_words(again *out, const json_t *origin, fault *f)
+{
+    const json_t *absolute = json_object_get(origin, "arguments"),
+                 *given = json_object_get(origin, "as_given");
+    for (size_t i = 0; i < json_array_size(given); i++) {
+        const char *word = json_string_value(json_array_get(given, i)),
+                   *whole = json_string_value(json_array_get(absolute, i));
+        if (word == NULL)
+            continue;
+        TRY(add(out, whole != NULL ? choose(whole, word) : word, f));
+    }
+    return STATUS_OK;
+}
+
+static status add_outputs(const command_line *l, again *out, fault *f)
+{
+    char text[64];
+    for (int i = 0; i < l->arguments; i++) {
+        TRY(add(out, "--from", f));
+        TRY(add(out, l->argument[i], f));
+    }
+    for (int i = 0; i < l->givens; i++) {
+        snprintf(text, sizeof text, "--%s", l->given[i].option->name);
+        TRY(add(out, text, f));
+        if (l->given[i].value != NULL)
+            TRY(add(out, l->given[i].value, f));
+    }
+    return STATUS_OK;
+}
+
+static status add_all(const batch_label *label, const command_line *l, again *out, fault *f)
+{
+    const char *name = json_string_value(json_object_get(label->origin, "verb"));
+    if (name == NULL)
+        return fault_set(f, STATUS_FAULT, "%.200s: its batches do not say what they are of",
+                         l->argument[0]);
+    TRY(add(out, "beamwork", f));
+    TRY(add(out, name, f));
+    TRY(add_words(out, label->origin, f));
+    return add_outputs(l, out, f);
+}
+
+/* What the first batch of the first folder was asked, with --from for all folders and the outputs
+ * of the request. REFUSED: no batches there; FAULT: memory, or a file that cannot be read.
+ * again_free frees it, also after a failure. */
+static status again_make(const command_line *l, again *out, fault *f)
+{
+    batch_label label;
+    TRY(stock_first(l->argument[0], &label, f));
+    const status outcome = add_all(&label, l, out, f);
+    batch_label_free(&label);
+    return outcome;
+}
+
+static void again_free(again *out)
+{
+    for (int i = 0; i < out->count; i++)
+        free(out->owned[i]);
+}
+
+static int ask(again *a, const verb *const *verbs)
 {
     char text[120];
-    for (size_t i = 0; i < sizeof verbs / sizeof verbs[0]; i++)
-        if (strcmp(verbs[i].name, a->argument[1]) == 0)
-            return verbs[i].run(a->count - 1, a->argument + 1);
+    const verb *v = verb_find(verbs, a->argument[1]);
+    if (v != NULL)
+        return command_run(v, verbs, a->count - 1, a->argument + 1);
     snprintf(text, sizeof text, "batches of '%.40s' are of another version of the program",
              a->argument[1]);
     return message_fail(STATUS_REFUSED, text);
 }
 
-static int merge_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
     again a = {.count = 0};
     fault f = {""};
-    if (r->case_count == 0)
+    (void)request;
+    if (l->arguments == 0)
         return message_fail(STATUS_REFUSED,
                             "merge: which folders? Give those of --shard K/N --into FOLDER");
-    const status outcome = again_make(r, &a, &f);
-    const int code = outcome == STATUS_OK ? ask(&a) : message_fail(outcome, f.text);
+    const status outcome = again_make(l, &a, &f);
+    const int code = outcome == STATUS_OK ? ask(&a, l->verbs) : message_fail(outcome, f.text);
     again_free(&a);
     return code;
 }
 
-int cli_merge(int count, char **arguments)
-{
-    return command_run(
-        "merge", "FOLDER...",
-        "Puts together the batches that shards of verify, stress, converge, bench or sweep wrote "
-        "with "
-        "--into, and writes what the verb would have written in one run. The verb, its "
-        "options and its files are those of the shards. Exit status: that of the verb; 2 batches "
-        "of another request, build or input, or two that differ; 5 batches are missing, which are "
-        "listed: nothing is written, or with --partial what there is, in files named .partial"
-        "\vbeamwork merge parts -o results.h5\n"
-        "beamwork merge first/parts second/parts -o results.h5 --junit junit.xml",
-        "+oFJUMpvqw", count, arguments, merge_request);
-}
+/* Read by nobody here: each is passed on. */
+typedef struct merge_request {
+    const char *output, *format;
+    report_options reports;
+    int on;
+} merge_request;
+
+#define IN(at) .member = offsetof(merge_request, at)
+static const verb_option own[] = {
+    {"partial", 0, NULL, "go on without the batches that are missing", IN(on)},
+    {"verbose", 'v', NULL,
+     "verify: every limit, not only the overview; converge: values, times and limits of each "
+     "formulation by itself",
+     IN(on)},
+    {"quiet", 'q', NULL, "only what is unexpected, and the last sentence", IN(on)},
+    {0}};
+static const verb_group shared[] = {SHARED(output, output),
+                                    SHARED(format, format),
+                                    SHARED(json, reports.json),
+                                    SHARED(reports, reports),
+                                    {NULL, 0}};
+const verb verb_merge = {
+    "merge",
+    "FOLDER...",
+    "what shards of verify, stress, converge or bench computed, as one run",
+    "Puts together the batches that shards of verify, stress, converge, bench or sweep wrote with "
+    "--into, and writes what the verb would have written in one run. The verb, its options and its "
+    "files are those of the shards. Exit status: that of the verb; 2 batches of another request, "
+    "build or input, or two that differ; 5 batches are missing, which are listed: nothing is "
+    "written, or with --partial what there is, in files named .partial",
+    "beamwork merge parts -o results.h5\n"
+    "beamwork merge first/parts second/parts -o results.h5 --junit junit.xml",
+    shared,
+    own,
+    sizeof(merge_request),
+    .answer = answer};

@@ -10,7 +10,13 @@
 #include "harness/study/cell.h"
 #include "harness/terminal/paragraph.h"
 
-static status describe(FILE *to, const command_request *r, fault *f)
+typedef struct scene_request {
+    case_options of;
+    const char *output, *format; /* format: of mistakes */
+    int schema, keys;            /* 1: describe the keys of scene files as JSON Schema, as a list */
+} scene_request;
+
+static status describe(FILE *to, const scene_request *r, fault *f)
 {
     if (r->schema)
         return schema_file_write(to, f);
@@ -19,17 +25,16 @@ static status describe(FILE *to, const command_request *r, fault *f)
 }
 
 /* With a scene that write_out frees. type NULL: a description of the keys. */
-static status write_to(FILE *to, const command_request *r, const case_type *type, scene *s,
-                       fault *f)
+static status write_to(FILE *to, const scene_request *r, const case_type *type, scene *s, fault *f)
 {
     if (type == NULL)
         return describe(to, r, f);
     const write_head head = {type->name, type->summary, type->source};
-    TRY(cell_scene(type, r->parameter, NULL, s, f));
+    TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     return write_scene(to, s, &head, f);
 }
 
-static status write_out(const command_request *r, const case_type *type, fault *f)
+static status write_out(const scene_request *r, const case_type *type, fault *f)
 {
     output file;
     scene s = {0};
@@ -39,23 +44,36 @@ static status write_out(const command_request *r, const case_type *type, fault *
     return output_finish(&file, written, f);
 }
 
-int cli_scene(int count, char **arguments)
+static int answer(const command_line *l, void *request)
 {
-    command_request r;
+    scene_request *r = request;
     fault f = {""};
-    command_parse(
-        "scene", "[CASE]",
-        "Writes a case at a parameter point as a scene file, or one of your own (--scene "
-        "FILE) again: names kept where scenes have them, loops and expressions written out, "
-        "numbers with all their digits. Reading it gives the same scene, bit for bit. "
-        "--keys: what may stand in scene files; --schema: the same as JSON Schema, for editors."
-        "\vbeamwork scene c_column -o column.yaml\n"
-        "beamwork scene --keys",
-        "soFYHE", count, arguments, &r);
-    const case_type *type = r.schema || r.keys ? NULL : case_input_find(&r);
-    int code = r.refusal;
-    if (r.schema || r.keys || type != NULL)
-        code = message_exit(write_out(&r, type, &f), &f);
-    case_input_close(&r);
+    (void)l;
+    const case_type *type = r->schema || r->keys ? NULL : case_input_find(&r->of);
+    int code = r->of.refusal;
+    if (r->schema || r->keys || type != NULL)
+        code = message_exit(write_out(r, type, &f), &f);
     return code;
 }
+
+#define IN(at) .member = offsetof(scene_request, at)
+static const verb_option own[] = {
+    {"schema", 0, NULL, "describe all keys of scene files as JSON Schema", IN(schema)},
+    {"keys", 0, NULL, "list all keys of scene files", IN(keys)},
+    {0}};
+static const verb_group shared[] = {
+    SHARED(case, of), SHARED(output, output), SHARED(format, format), {NULL, 0}};
+const verb verb_scene = {
+    "scene",
+    "[CASE]",
+    "a case, or a structure of your own, written out as a scene file",
+    "Writes a case at a parameter point as a scene file, or one of your own (--scene FILE) again: "
+    "names kept where scenes have them, loops and expressions written out, numbers with all their "
+    "digits. Reading it gives the same scene, bit for bit. --keys: what may stand in scene files; "
+    "--schema: the same as JSON Schema, for editors.",
+    "beamwork scene c_column -o column.yaml\n"
+    "beamwork scene --keys",
+    shared,
+    own,
+    sizeof(scene_request),
+    .answer = answer};

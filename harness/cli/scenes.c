@@ -1,70 +1,103 @@
-#include "harness/cli/scenes.h"
+/* Scene files of a command line: what those of an older version mean now; several of them. */
+#include "harness/cli/case_input.h"
 
-#include <glob.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "harness/cli/command.h"
+#include "harness/cli/files.h"
 #include "harness/cli/message.h"
-#include "harness/cli/own_tables.h"
 #include "harness/formulations/registry.h"
+#include "harness/model/warping_ends.h"
+#include "harness/study/cell.h"
 #include "harness/study/scene_truths.h"
 
-static status add_path(const char *path, scenes *out, fault *f)
+enum { MOST_MEMBERS = 200, ELEMENTS = 2 };
+static const double rounding = 1e-8;
+
+static int is_moved(const scene *s)
 {
-    if (out->count == COMMAND_MAX_CASES)
-        return fault_set(f, STATUS_REFUSED, "more than %d scene files; give fewer",
-                         COMMAND_MAX_CASES);
+    for (int i = 0; i < s->analyses; i++)
+        if (s->analysis[i].kind == SCENE_MOTION)
+            return 1;
+    return 0;
+}
+
+static int is_near(double a, double b, double near_zero)
+{
+    return fabs(a - b) <= rounding * fmax(fmax(fabs(a), fabs(b)), near_zero);
+}
+
+static int is_same_curve(const curve *a, const curve *b, double near_zero)
+{
+    int same = a->points == b->points;
+    for (int i = 0; same && i < a->points; i++)
+        same = is_near(a->value[i], b->value[i], near_zero);
+    return same;
+}
+
+static int is_same(const scene *s, const cell_result *a, const cell_result *b)
+{
+    if (a->solve.quantities != b->solve.quantities ||
+        a->counters.negative_pivots != b->counters.negative_pivots)
+        return 0;
+    for (int i = 0; i < a->solve.quantities; i++) {
+        const quantity_result *p = &a->solve.quantity[i], *q = &b->solve.quantity[i];
+        const double near_zero = s->quantity[i].near_zero;
+        if (p->status != q->status || !is_same_curve(&p->curve, &q->curve, near_zero) ||
+            (p->status == STATUS_OK && s->quantity[i].reduction != SCENE_CURVE &&
+             !is_near(p->value, q->value, near_zero)))
+            return 0;
+    }
+    return 1;
+}
+
+/* Do the answers of the two scenes differ? 1 too where that cannot be told. */
+static int differs(const scene *now, const scene *before, const formulation *chosen)
+{
+    cell_result held = {.size = {0}}, freed = {.size = {0}};
+    cell_request request = {.scene = now, .elements = ELEMENTS};
+    int same = 0;
+    if (now->members > MOST_MEMBERS || is_moved(now))
+        return 1;
+    cell_formulation(&request, chosen);
+    if (cell_run(&request, &held, NULL) == STATUS_OK) {
+        request.scene = before;
+        same = cell_run(&request, &freed, NULL) == STATUS_OK && is_same(now, &held, &freed);
+    }
+    cell_result_free(&held);
+    cell_result_free(&freed);
+    return !same;
+}
+
+void supports_told(const scene_file *file, const double parameter[], const formulation *chosen,
+                   const scene *s)
+{
+    char ends[FAULT_TEXT] = "";
+    scene before;
+    if (file == NULL)
+        return;
+    if (scene_file_build_before(file, parameter, &before, NULL) == STATUS_OK)
+        warping_ends_freed(s, &before, ends, sizeof ends);
+    if (ends[0] != '\0' && differs(s, &before, chosen))
+        fprintf(stderr,
+                "beamwork: warping is %s, as supports say; earlier versions left it free: write "
+                "'warping: free' at these members for the former answer\n",
+                ends);
+    scene_free(&before);
+}
+
+static status add_path(const void *context, const char *path, fault *f)
+{
+    scenes *out = *(scenes *const *)context;
+    if (out->count == SCENES_MOST)
+        return fault_set(f, STATUS_REFUSED, "more than %d scene files; give fewer", SCENES_MOST);
     out->path[out->count] = strdup(path);
     if (out->path[out->count] == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");
     out->count++;
-    return STATUS_OK;
-}
-
-static status add_paths(const glob_t *found, scenes *out, fault *f)
-{
-    for (size_t i = 0; i < found->gl_pathc; i++)
-        TRY(add_path(found->gl_pathv[i], out, f));
-    return STATUS_OK;
-}
-
-/* Every *.yaml of a folder, in the order of their names. */
-static status add_folder(const char *folder, scenes *out, fault *f)
-{
-    glob_t found;
-    /* the folder's own name is no pattern */
-    char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
-    if (pattern == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for scene files");
-    for (const char *c = folder; *c != '\0'; c++) {
-        if (strchr("\\*?[", *c) != NULL)
-            *at++ = '\\';
-        *at++ = *c;
-    }
-    memcpy(at, "/*.yaml", sizeof "/*.yaml");
-    const int failed = glob(pattern, 0, NULL, &found);
-    free(pattern);
-    if (failed == GLOB_NOMATCH)
-        return fault_set(f, STATUS_REFUSED,
-                         "--scene %.200s: no *.yaml in that folder; give a scene file", folder);
-    if (failed != 0)
-        return fault_set(f, STATUS_FAULT, "--scene %.200s: the folder cannot be read", folder);
-    const status outcome = add_paths(&found, out, f);
-    globfree(&found);
-    return outcome;
-}
-
-static status find_paths(const command_request *r, scenes *out, fault *f)
-{
-    for (int i = 0; i < r->scene_count; i++) {
-        struct stat about;
-        if (stat(r->scene_path[i], &about) == 0 && S_ISDIR(about.st_mode))
-            TRY(add_folder(r->scene_path[i], out, f));
-        else
-            TRY(add_path(r->scene_path[i], out, f));
-    }
     return STATUS_OK;
 }
 
@@ -81,10 +114,10 @@ static status check_name(const case_type *one, const case_type *const *others, c
     return STATUS_OK;
 }
 
-static int add_type(const command_request *r, int index, int *types, scenes *out)
+static int add_type(const command_line *l, int index, int *types, scenes *out)
 {
     fault f = {""};
-    const int code = case_input_read(r, out->path[index], &out->file[index]);
+    const int code = case_input_read(l, out->path[index], &out->file[index]);
     if (code != EXIT_AS_EXPECTED)
         return code;
     const case_type *type = scene_file_case(out->file[index]);
@@ -95,20 +128,22 @@ static int add_type(const command_request *r, int index, int *types, scenes *out
     return EXIT_AS_EXPECTED;
 }
 
-int scenes_read(const command_request *r, scenes *out)
+int scenes_read(const command_line *l, const scenes_options *r, scenes *out)
 {
     fault f = {""};
     int types = 0;
     memset(out, 0, sizeof *out);
-    if (r->built_in || r->scene_count == 0)
-        for (; types < COMMAND_MAX_CASES && registry_cases[types] != NULL; types++)
+    if (r->built_in || r->scene.count == 0)
+        for (; types < SCENES_MOST && registry_cases[types] != NULL; types++)
             out->type[types] = registry_cases[types];
-    const status outcome = find_paths(r, out, &f);
+    status outcome = STATUS_OK;
+    for (int i = 0; i < r->scene.count && outcome == STATUS_OK; i++)
+        outcome = files_named(r->scene.text[i], add_path, &out, &f);
     if (outcome != STATUS_OK)
         return message_fail(outcome, f.text);
     int code = EXIT_AS_EXPECTED;
     for (int i = 0; i < out->count; i++) {
-        const int one = add_type(r, i, &types, out);
+        const int one = add_type(l, i, &types, out);
         code = one != EXIT_AS_EXPECTED ? one : code; /* mistakes of all files are told */
     }
     return code;
@@ -123,19 +158,19 @@ void scenes_free(scenes *s)
     memset(s, 0, sizeof *s);
 }
 
-static status add_truths(const scenes *s, const command_request *r, truths *t, fault *f)
+static status add_truths(const scenes *s, const scenes_options *r, truths *t, fault *f)
 {
-    if (r->built_in || r->scene_count == 0)
-        TRY(truths_read(case_input_truths_path(r), t, f));
+    if (r->built_in || r->scene.count == 0)
+        TRY(truths_read(own_tables_packed(&r->truths), t, f));
     else
-        TRY(truths_read_rules(case_input_truths_path(r), t, f));
+        TRY(truths_read_rules(own_tables_packed(&r->truths), t, f));
     for (int i = 0; i < s->count; i++)
         TRY(scene_truths_add_all(s->file[i], t, f));
-    TRY(own_tables_truths(r, s->type, NULL, t, f));
-    return own_tables_findings(r, s->type, t, f);
+    TRY(own_tables_truths(&r->truths, s->type, NULL, t, f));
+    return own_tables_findings(&r->findings, s->type, t, f);
 }
 
-status scenes_truths(const scenes *s, const command_request *r, truths *t, fault *f)
+status scenes_truths(const scenes *s, const scenes_options *r, truths *t, fault *f)
 {
     memset(t, 0, sizeof *t);
     const status outcome = add_truths(s, r, t, f);

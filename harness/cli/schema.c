@@ -1,11 +1,77 @@
 /* What the result file consists of, from the tables it is written by. */
 #include <stdio.h>
+#include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/cli/results.h"
+#include "harness/cli/manual.h"
+#include "harness/experiments/extreme_record.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
 #include "harness/terminal/paragraph.h"
+
+const char *const results_about[] = {
+    "HDF5; the last line of the file, behind it, holds its length and checksum. Attributes of the "
+    "root: schema, schema_version, program_version, commit, compiler, flags, libraries, processor, "
+    "clock (UTC), threads, unfinished_cells (of an interrupted run). Below /cases/CASE "
+    "(attributes: summary, source) stands a table for each kind of record; attributes of a table: "
+    "units and summaries of its columns, in their order.",
+    "The same names stand in JSON and CSV; fields marked * are said there only, in HDF5 by what is "
+    "around them. Numbers that do not exist are NaN (JSON: null). [unit]: that of the column "
+    "'unit'.",
+    "curve_x, curve_value: the points of all curves of a case, one after the other.",
+    "shapes/POINT (verify --shapes, solve --shapes; attributes formulation, elements): members "
+    "(nodes p, q, section), first_point, bodies of the nodes (body or -1, held components as "
+    "bits), released (components at both ends of members, as bits), sections/I (corners of walls, "
+    "y and z in m), and of every state kind, analysis, value, scale and [states x points] "
+    "position, orientation (quaternion), force, moment, bimoment, nodes.",
+    "points has a column for each parameter of the case besides. Keyed by point, formulation and "
+    "elements.",
+    NULL};
+
+/* Place i of a list that ends with NULL, counted down; NULL: it is behind. */
+static const record_type *take(const record_type *const *list, int *i)
+{
+    for (; *list != NULL; list++)
+        if ((*i)-- == 0)
+            return *list;
+    return NULL;
+}
+
+results_record results_record_at(int i)
+{
+    static const record_type *const first[] = {&record_declaration, NULL},
+                                    *const of_solve[] = {&record_truth, NULL},
+                                    *const of_stress[] = {&record_extreme, &record_extreme_count,
+                                                          &record_outcome, NULL};
+    const struct {
+        const char *place;
+        const record_type *const *list;
+    } part[] = {{"/", first},
+                {"/cases/CASE/", record_types},
+                {"solve --format json, ", of_solve},
+                {"stress --json, ", of_stress}};
+    results_record r = {NULL, NULL};
+    for (int k = 0; k < (int)(sizeof part / sizeof part[0]) && r.type == NULL; k++)
+        r = (results_record){part[k].place, take(part[k].list, &i)};
+    return r;
+}
+
+results_field results_field_of(const schema_field *f)
+{
+    results_field out = {.kind = f->key == KEY_AROUND ? "text *" : schema_kind_name(f->kind),
+                         .unit = strcmp(f->unit, OWN_UNIT) == 0 ? "[unit]" : f->unit};
+    int used = snprintf(out.text, sizeof out.text, "%s", f->summary);
+    for (int i = 0; i < f->words && used < (int)sizeof out.text; i++)
+        used += snprintf(out.text + used, sizeof out.text - (size_t)used, "%s%s",
+                         i > 0 ? ", " : " (", f->word(i));
+    if (f->words > 0 && used < (int)sizeof out.text)
+        snprintf(out.text + used, sizeof out.text - (size_t)used, ")");
+    return out;
+}
+
+typedef struct schema_request {
+    const char *format;
+} schema_request;
 
 static void show_field(const schema_field *which)
 {
@@ -32,21 +98,15 @@ static status write_json(fault *f)
                        stdout, f);
 }
 
-int cli_schema(int count, char **arguments)
+static int answer(const command_line *l, void *request)
 {
-    command_request r;
+    const schema_request *r = request;
     fault f = {""};
-    command_parse(
-        "schema", "",
-        "Describes the result file of verify, bench and solve (-o FILE), and the records of "
-        "JSON and CSV."
-        "\vbeamwork schema --format json",
-        "F", count, arguments, &r);
-    if (r.case_name != NULL)
+    if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
-    if (r.format[0] == 'j')
+    if (r->format[0] == 'j')
         return message_exit(write_json(&f), &f);
-    if (r.format[0] == 'c')
+    if (r->format[0] == 'c')
         return message_fail(STATUS_REFUSED, "schema is written as text or json");
     printf("%s, version %d\n", SCHEMA_NAME, SCHEMA_VERSION);
     for (int i = 0; results_about[i] != NULL; i++)
@@ -55,3 +115,16 @@ int cli_schema(int count, char **arguments)
         show(results_record_at(i));
     return EXIT_AS_EXPECTED; /* main flushes */
 }
+
+#define IN(at) .member = offsetof(schema_request, at)
+static const verb_group shared[] = {SHARED(format, format), {NULL, 0}};
+const verb verb_schema = {"schema",
+                          "",
+                          "what the result file consists of: tables, columns, units",
+                          "Describes the result file of verify, bench and solve (-o FILE), and the "
+                          "records of JSON and CSV.",
+                          "beamwork schema --format json",
+                          shared,
+                          NULL,
+                          sizeof(schema_request),
+                          .answer = answer};

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
+#include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/defaults.h"
-#include "harness/cli/guard.h"
-#include "harness/cli/supports_told.h"
+#include "harness/cli/message.h"
+#include "harness/cli/named.h"
 #include "harness/experiments/restart.h"
 #include "harness/formulations/parameters.h"
 #include "harness/records/csv.h"
@@ -17,6 +17,21 @@
 #include "harness/records/system_folder.h"
 #include "harness/terminal/table_follow.h"
 #include "harness/terminal/table_solution.h"
+
+typedef struct solve_request {
+    case_options of;
+    chosen_formulations chosen;
+    mesh_list meshes;
+    truths_options truths;
+    solver_options solver;
+    const char *select, *output, *format;
+    double error; /* 0: not given */
+    int steps;
+    int shapes;                 /* states of a path whose shapes are stored; 0: none */
+    const char *follow;         /* NAME=A..B/N: modes over a parameter */
+    const char *matrices;       /* folder for the matrices of all states */
+    const char *ends, *restart; /* files: where motions stop is kept, and where they go on from */
+} solve_request;
 
 /* One solution from what is asked for to what is known of it. */
 typedef struct work {
@@ -36,8 +51,25 @@ static void work_free(work *w)
     solution_choice_free(&w->why);
 }
 
+/* What is asked for, without -f and -n. */
+static defaults defaults_of(solve_request *r, const case_type *type)
+{
+    return (defaults){.wanted = {.type = type,
+                                 .parameter = r->of.parameter,
+                                 .select = r->select,
+                                 .keep_all = r->solver.keep_all,
+                                 .steps = r->steps,
+                                 .shapes = r->shapes,
+                                 .threads = r->solver.threads,
+                                 .error = r->error,
+                                 .systems = r->matrices != NULL},
+                      .chosen = &r->chosen,
+                      .meshes = &r->meshes,
+                      .truths = &r->truths};
+}
+
 /* note: lines on what was chosen for the user, before what is read by people. */
-static status write_to(FILE *to, const command_request *r, const char *note, const sweep *s,
+static status write_to(FILE *to, const solve_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
 {
     if (strcmp(r->format, "json") == 0)
@@ -51,7 +83,7 @@ static status write_to(FILE *to, const command_request *r, const char *note, con
     return STATUS_OK;
 }
 
-static status write_out(const command_request *r, const char *note, const sweep *s, const truths *t,
+static status write_out(const solve_request *r, const char *note, const sweep *s, const truths *t,
                         fault *f)
 {
     output file;
@@ -67,20 +99,19 @@ static status write_out(const command_request *r, const char *note, const sweep 
 }
 
 /* The matrices of all states that were reached, where they are wanted. */
-static status write_matrices(const command_request *r, const sweep *s, fault *f)
+static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
     char title[200];
     if (r->matrices == NULL)
         return STATUS_OK;
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
-             r->formulation[0].key, r->mesh[0]);
+             r->chosen.formulation[0].key, r->meshes.elements[0]);
     return system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f);
 }
 
 /* NAME=A..B/N: both ends within the limits of the parameter. */
-static status range_of(const command_request *r, const case_type *type, follow_request *out,
-                       fault *f)
+static status range_of(const solve_request *r, const case_type *type, follow_request *out, fault *f)
 {
     const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
                *slash = dots != NULL ? strchr(dots, '/') : NULL;
@@ -94,7 +125,7 @@ static status range_of(const command_request *r, const case_type *type, follow_r
                          "--follow '%.60s': give NAME=A..B/N with N from 1 to 100000, such as "
                          "width=0.01..0.03/20",
                          r->follow);
-    memcpy(value, r->parameter, sizeof value);
+    memcpy(value, r->of.parameter, sizeof value);
     snprintf(text, sizeof text, "%.*s", (int)(dots - r->follow), r->follow);
     TRY(assignment_set(&list, text, value, NULL, &out->parameter, f));
     out->from = value[out->parameter];
@@ -108,7 +139,7 @@ static status range_of(const command_request *r, const case_type *type, follow_r
                            r->follow);
 }
 
-static status write_curves(const command_request *r, const char *note, const char *name,
+static status write_curves(const solve_request *r, const char *note, const char *name,
                            const follow_curves *c, fault *f)
 {
     output file;
@@ -126,11 +157,12 @@ static status write_curves(const command_request *r, const char *note, const cha
 }
 
 /* --follow: modes over a parameter instead of one solution. */
-static status follow_modes(command_request *r, const case_type *type, fault *f)
+static status follow_modes(solve_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
     follow_curves curves;
-    follow_request what = {.cell = {.type = type, .keep_all = r->keep_all, .threads = r->threads}};
+    follow_request what = {
+        .cell = {.type = type, .keep_all = r->solver.keep_all, .threads = r->solver.threads}};
     if (r->shapes > 0 || r->matrices != NULL || r->ends != NULL || r->restart != NULL ||
         r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
@@ -138,12 +170,13 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
                          "and --restart");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
-    TRY(files_check(r, 0, case_input_truths_path(r), f));
-    TRY(defaults_fill(r, type, note, NULL, f));
-    cell_formulation(&what.cell, &r->formulation[0]);
-    what.cell.elements = r->mesh[0];
+    TRY(files_check(r->of.line, 0, own_tables_packed(&r->truths), f));
+    const defaults missing = defaults_of(r, type);
+    TRY(defaults_fill(&missing, note, NULL, f));
+    cell_formulation(&what.cell, &r->chosen.formulation[0]);
+    what.cell.elements = r->meshes.elements[0];
     what.cell.solve.steps_between = r->steps;
-    memcpy(what.cell.parameter, r->parameter, sizeof what.cell.parameter);
+    memcpy(what.cell.parameter, r->of.parameter, sizeof what.cell.parameter);
     TRY(follow_run(&what, &curves, f));
     const status written = write_curves(r, note, name, &curves, f);
     follow_free(&curves);
@@ -151,17 +184,18 @@ static status follow_modes(command_request *r, const case_type *type, fault *f)
 }
 
 /* A motion goes on with the formulation and the elements that it began with. */
-static status take_restart(command_request *r, restart *from, fault *f)
+static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
-    if (r->formulations == 0)
-        TRY(formulation_parse(from->formulation, &r->formulation[r->formulations++], f));
-    if (r->meshes == 0)
-        r->mesh[r->meshes++] = from->elements;
+    if (r->chosen.formulations == 0)
+        TRY(formulation_parse(from->formulation, &r->chosen.formulation[r->chosen.formulations++],
+                              f));
+    if (r->meshes.count == 0)
+        r->meshes.elements[r->meshes.count++] = from->elements;
     return STATUS_OK;
 }
 
-static status prepare_ends(const command_request *r, const restart *from, solution_request *what,
+static status prepare_ends(const solve_request *r, const restart *from, solution_request *what,
                            scene *s, fault *f)
 {
     what->keep_ends = r->ends != NULL;
@@ -171,7 +205,7 @@ static status prepare_ends(const command_request *r, const restart *from, soluti
 }
 
 /* Damping has no matrix among those that are written. */
-static status check_matrices(const command_request *r, const scene *s, fault *f)
+static status check_matrices(const solve_request *r, const scene *s, fault *f)
 {
     for (int i = 0; i < s->members && r->matrices != NULL; i++)
         if (s->member[i].damping > 0)
@@ -182,30 +216,31 @@ static status check_matrices(const command_request *r, const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* What is needed before the solution; solve_request frees it. */
-static status prepare(command_request *r, const case_type *type, work *w, fault *f)
+/* What is needed before the solution; answer frees it. */
+static status prepare(solve_request *r, const case_type *type, work *w, fault *f)
 {
-    if (r->error != NULL && (r->meshes > 0 || r->restart != NULL))
+    if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
         return fault_set(f, STATUS_REFUSED,
                          "--error is met by the choice of the mesh: leave it out, or %s",
-                         r->meshes > 0 ? "-n" : "--restart");
-    TRY(files_check(r, r->shapes > 0, case_input_truths_path(r), f));
-    const status known = case_input_truths(r, &w->t, f);
-    if (known != STATUS_OK && r->truths == NULL && r->scene == NULL)
+                         r->meshes.count > 0 ? "-n" : "--restart");
+    TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
+    const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
+    if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
         fprintf(stderr, "beamwork: without truths: %s\n", f->text); /* a solution needs none */
     else
         TRY(known);
     if (r->restart != NULL)
         TRY(take_restart(r, &w->from, f));
-    TRY(defaults_fill(r, type, w->note, &w->why, f));
-    w->what = defaults_request(r, type);
+    const defaults missing = defaults_of(r, type);
+    TRY(defaults_fill(&missing, w->note, &w->why, f));
+    w->what = defaults_request(&missing);
     TRY(solution_plan(&w->what, &w->s, f));
     TRY(check_matrices(r, &w->s.point[0].scene, f));
     return prepare_ends(r, &w->from, &w->what, &w->s.point[0].scene, f);
 }
 
 /* Of motions that came to their ends. */
-static status write_ends(const command_request *r, const solution_request *what, const sweep *s,
+static status write_ends(const solve_request *r, const solution_request *what, const sweep *s,
                          fault *f)
 {
     if (r->ends == NULL)
@@ -216,7 +251,7 @@ static status write_ends(const command_request *r, const solution_request *what,
     return STATUS_OK;
 }
 
-static status write_all(const command_request *r, const work *w, fault *f)
+static status write_all(const solve_request *r, const work *w, fault *f)
 {
     TRY(write_out(r, w->note, &w->s, &w->t, f));
     TRY(write_ends(r, &w->what, &w->s, f));
@@ -238,13 +273,13 @@ static int tell_missing(status solved, const cell_result *cell, const fault *f)
 }
 
 /* Solved in this process. */
-static int solve_and_write(const command_request *r, work *w)
+static int solve_and_write(const solve_request *r, work *w)
 {
     fault f = {""}, unwritten = {""};
     const scene *s = &w->s.point[0].scene;
-    case_input_tell_analysis(r, s);
-    guard_formulation(&w->what.formulation, r->time_limit);
-    supports_told(r->scene, r->parameter, &w->what.formulation, s);
+    case_input_tell_analysis(&r->of, s);
+    guard_formulation(&w->what.formulation, r->chosen.time_limit);
+    supports_told(r->of.scene, r->of.parameter, &w->what.formulation, s);
     const status solved = solution_run(&w->what, &w->why, &w->s, &f);
     const cell_result *cell = &w->s.series[0].cell[0];
     if (solved == STATUS_FAULT || (solved == STATUS_REFUSED && cell_values(cell) == 0))
@@ -254,13 +289,15 @@ static int solve_and_write(const command_request *r, work *w)
                                 : tell_missing(solved, cell, &f);
 }
 
-static int solve_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    solve_request *r = request;
+    (void)l;
     fault f = {""};
-    const case_type *type = case_input_find(r);
+    const case_type *type = case_input_find(&r->of);
     if (type == NULL)
-        return r->refusal;
-    if (r->formulations > 1 || r->meshes > 1)
+        return r->of.refusal;
+    if (r->chosen.formulations > 1 || r->meshes.count > 1)
         return message_fail(STATUS_REFUSED,
                             "solve takes one -f and one -n; 'beamwork converge' takes several");
     if (r->follow != NULL)
@@ -274,25 +311,57 @@ static int solve_request(command_request *r)
     return code;
 }
 
-int cli_solve(int count, char **arguments)
-{
-    return command_run(
-        "solve", "CASE",
-        "Solves one case with one formulation and one mesh and shows every quantity with its "
-        "error. Without -n elements are refined until no value changes by more than 0.1 % "
-        "(--error) from the mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s "
-        "of counted work; where values change still, the status is not_converged. Digits end where "
-        "values change. Without -f as well it is done with up to five formulations that offer what "
-        "the "
-        "case needs and have no known defect there, the cheapest next mesh first, and the first "
-        "that settles is taken; with -n the one of the highest order. The output says which, and "
-        "why. An analysis that no quantity reads is not run, unless a "
-        "scene has no quantities, or its states are drawn or written; -k asks for some of the "
-        "quantities only."
-        "\vbeamwork solve elastica\n"
-        "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
-        "beamwork solve c_column -k buckling_load\n"
-        "beamwork solve pendulum -f collocation -n 8 --set time=1 --ends pendulum.h5\n"
-        "beamwork solve pendulum --set time=2 --restart pendulum.h5",
-        "fnskFoKSPRVtTYL45e.", count, arguments, solve_request);
-}
+#define IN(at) .member = offsetof(solve_request, at)
+static const verb_option own[] = {
+    {"error", 0, "R", "change from mesh to mesh that counts as none (default 0.1%)", IN(error),
+     .read = option_error},
+    {"steps", 0, "N",
+     "load steps between two stations of a path, to begin with; longer where that goes well",
+     IN(steps), .least = 1, .most = 1000000},
+    {"shapes", 0, "[STATES]",
+     "store centre lines, sections and resultants of at most so many states of a path (default: "
+     "all), and as many frames of a motion, evenly over its time (60 where it is left out or at "
+     "most 5); -o FILE becomes HDF5 for ParaView",
+     IN(shapes), .least = 1, .most = SHAPES_ALL},
+    {"follow", 0, "NAME=A..B/N",
+     "modes over a parameter, in N equal parts or smaller ones: matched by their shapes, so that "
+     "those that cross keep their number",
+     IN(follow)},
+    {"matrices", 0, "FOLDER",
+     "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
+     "table of their rows, into a new folder",
+     IN(matrices), .traits = OPTION_OUTPUT | OPTION_FOLDER},
+    {"ends", 0, "FILE", "also keep where motions in time stop (HDF5): --restart goes on from there",
+     IN(ends), .traits = OPTION_OUTPUT | OPTION_HDF5},
+    {"restart", 0, "FILE",
+     "go on from where the motions of another run stopped, kept by its --ends: the same scene with "
+     "later stations, with the bits of one run where steps stay and end there",
+     IN(restart), .traits = OPTION_INPUT},
+    {0}};
+static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),
+                                    SHARED(meshes, meshes),     SHARED(select, select),
+                                    SHARED(time_limit, chosen), SHARED(solver, solver),
+                                    SHARED(own_truths, truths), SHARED(output, output),
+                                    SHARED(format, format),     {NULL, 0}};
+const verb verb_solve = {
+    "solve",
+    "CASE",
+    "one case, one formulation, one mesh: every quantity with its error",
+    "Solves one case with one formulation and one mesh and shows every quantity with its error. "
+    "Without -n elements are refined until no value changes by more than 0.1 % (--error) from the "
+    "mesh before: on the case's meshes, then doubled, up to 1024 or to 2 s of counted work; where "
+    "values change still, the status is not_converged. Digits end where values change. Without -f "
+    "as well it is done with up to five formulations that offer what the case needs and have no "
+    "known defect there, the cheapest next mesh first, and the first that settles is taken; with "
+    "-n the one of the highest order. The output says which, and why. An analysis that no quantity "
+    "reads is not run, unless a scene has no quantities, or its states are drawn or written; -k "
+    "asks for some of the quantities only.",
+    "beamwork solve elastica\n"
+    "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
+    "beamwork solve c_column -k buckling_load\n"
+    "beamwork solve pendulum -f collocation -n 8 --set time=1 --ends pendulum.h5\n"
+    "beamwork solve pendulum --set time=2 --restart pendulum.h5",
+    shared,
+    own,
+    sizeof(solve_request),
+    .answer = answer};

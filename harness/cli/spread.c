@@ -4,36 +4,37 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/cli/command.h"
 #include "harness/experiments/forecast.h"
 #include "harness/experiments/merge.h"
 #include "harness/experiments/shard.h"
 #include "harness/formulations/words.h"
 #include "harness/records/output.h"
 
-static int writes(const command_request *r)
+static void begin(void *group, command_line *l)
 {
-    return r->output != NULL || r->json != NULL || r->junit != NULL || r->markdown != NULL ||
-           r->propose != NULL;
+    ((shard_options *)group)->line = l;
 }
 
-status spread_asked(const command_request *r, int *asked, fault *f)
+status spread_asked(const shard_options *r, int *asked, fault *f)
 {
     char folder[2 * FAULT_TEXT];
-    int index, count;
-    *asked = r->into != NULL || r->shard != NULL || r->from_count > 0 || r->plan > 0;
-    if (r->plan > 0 && (r->shard != NULL || r->from_count > 0 || writes(r)))
+    int index, count, first = 0;
+    const int writes = given_next(r->line, OPTION_OUTPUT, &first) != NULL;
+    *asked = r->into != NULL || r->shard != NULL || r->from.count > 0 || r->plan > 0;
+    if (r->plan > 0 && (r->shard != NULL || r->from.count > 0 || writes))
         return fault_set(
             f, STATUS_REFUSED,
             "--plan says when all shards would end, on standard output: leave --shard, "
             "--from and outputs away");
-    if (r->from_count > 0 && (r->into != NULL || r->shard != NULL))
+    if (r->from.count > 0 && (r->into != NULL || r->shard != NULL))
         return fault_set(f, STATUS_REFUSED, "--from takes batches, --into computes them: give one");
     if (r->shard != NULL && r->into == NULL)
         return fault_set(f, STATUS_REFUSED, "--shard %.40s: into which folder? Give --into FOLDER",
                          r->shard);
-    if (r->partial && r->from_count == 0)
+    if (r->partial && r->from.count == 0)
         return fault_set(f, STATUS_REFUSED, "--partial is of --from, and of 'beamwork merge'");
-    if (r->into == NULL || !writes(r))
+    if (r->into == NULL || !writes)
         return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
     words_quoted(r->into, folder, sizeof folder);
     return fault_set(f, STATUS_REFUSED,
@@ -43,7 +44,7 @@ status spread_asked(const command_request *r, int *asked, fault *f)
 }
 
 /* What became of the shard, in one line. */
-static int tell_shard(const command_request *r, const shard_request *q, const shard_outcome *o)
+static int tell_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;
     if (left > 0) {
@@ -58,7 +59,7 @@ static int tell_shard(const command_request *r, const shard_request *q, const sh
     return EXIT_AS_EXPECTED;
 }
 
-static status compute(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+static status compute(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
 {
     shard_request q = {.count = 1,
                        .into = r->into,
@@ -91,7 +92,7 @@ environment spread_environment(const spread_end *end, int threads)
     return e;
 }
 
-static status plan(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+static status plan(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
 {
     out->ended = 1;
     out->code = EXIT_AS_EXPECTED;
@@ -99,7 +100,7 @@ static status plan(const command_request *r, const work *w, int times, spread_en
     return output_flush(f);
 }
 
-static status take(const command_request *r, const work *w, int times, const stock *s,
+static status take(const shard_options *r, const work *w, int times, const stock *s,
                    spread_end *out, fault *f)
 {
     char missing[600];
@@ -119,25 +120,25 @@ static status take(const command_request *r, const work *w, int times, const sto
     return merge_take(w, s, f);
 }
 
-static status merge(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+static status merge(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
 {
     stock s = {0};
     out->batches = w->batches;
     out->taken = calloc((size_t)w->batches + 1, 1);
     if (out->taken == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
-    status outcome = stock_take(w, r->from, r->from_count, NULL, stderr, &s, f);
+    status outcome = stock_take(w, r->from.text, r->from.count, NULL, stderr, &s, f);
     if (outcome == STATUS_OK)
         outcome = take(r, w, times, &s, out, f);
     stock_free(&s);
     return outcome;
 }
 
-status spread_work(const command_request *r, const work *w, int times, spread_end *out, fault *f)
+status spread_work(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
 {
     if (r->plan > 0)
         return plan(r, w, times, out, f);
-    return r->from_count > 0 ? merge(r, w, times, out, f) : compute(r, w, times, out, f);
+    return r->from.count > 0 ? merge(r, w, times, out, f) : compute(r, w, times, out, f);
 }
 
 void spread_free(spread_end *out)
@@ -145,3 +146,24 @@ void spread_free(spread_end *out)
     free(out->taken);
     out->taken = NULL;
 }
+
+static const verb_option shards[] = {
+    {"shard", 0, "K/N",
+     "compute the K-th of N shards only, each batch into a file below --into; started again, what "
+     "is missing",
+     .member = offsetof(shard_options, shard), .traits = OPTION_ASIDE},
+    {"into", 0, "FOLDER", "of the batches of --shard (without it: of all); it is made",
+     .member = offsetof(shard_options, into), .traits = OPTION_ASIDE},
+    {"plan", 0, "N",
+     "when would 1, 2, 4, ..., N shards end? Nothing is computed; with --into by what the batches "
+     "of that folder took",
+     .member = offsetof(shard_options, plan), .traits = OPTION_ASIDE, .least = 1,
+     .most = SHARD_MOST},
+    {"from", 0, "FOLDER",
+     "take the batches that are there instead of computing, as 'beamwork merge' does; again for "
+     "another",
+     .member = offsetof(shard_options, from), .traits = OPTION_REPEATS | OPTION_ASIDE},
+    {"partial", 0, NULL, "go on without the batches that are missing",
+     .member = offsetof(shard_options, partial), .traits = OPTION_ASIDE},
+    {0}};
+const option_group options_shards = {shards, begin, NULL, NULL};

@@ -9,6 +9,13 @@
 #include "harness/experiments/extreme_table.h"
 #include "harness/records/output.h"
 
+typedef struct stress_request {
+    chosen_formulations chosen;
+    truths_options truths;
+    shard_options shards;
+    const char *select, *output, *format, *json;
+} stress_request;
+
 static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
 {
     if (strcmp(format, "json") == 0)
@@ -24,24 +31,24 @@ static status write_file(const char *path, const char *format, const extreme_swe
     return output_finish(&file, write_format(format, file.stream, s, f), f);
 }
 
-static status write_out(const command_request *r, const extreme_sweep *s, fault *f)
+static status write_out(const stress_request *r, const extreme_sweep *s, fault *f)
 {
     if (r->json != NULL) /* also where nobody reads the table */
         TRY(write_file(r->json, "json", s, f));
     return write_file(r->output, r->format, s, f);
 }
 
-/* With what cli_stress frees. */
-static status run(const command_request *r, extreme_sweep *s, spread_end *end, fault *f)
+/* With what answer frees. */
+static status run(const stress_request *r, extreme_sweep *s, spread_end *end, fault *f)
 {
     const extreme_request request = {.select = r->select,
-                                     .jobs = r->jobs,
-                                     .formulations = r->formulations,
-                                     .formulation = r->formulation,
-                                     .named = named_alone(r),
+                                     .jobs = r->shards.jobs,
+                                     .formulations = r->chosen.formulations,
+                                     .formulation = r->chosen.formulation,
+                                     .named = named_alone(&r->chosen),
                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(files_check(r, 0, case_input_truths_path(r), f));
-    TRY(extreme_work_run(r, &request, case_input_truths_path(r), s, end, f));
+    TRY(files_check(r->shards.line, 0, own_tables_packed(&r->truths), f));
+    TRY(extreme_work_run(&r->shards, &request, own_tables_packed(&r->truths), s, end, f));
     if (end->ended)
         return STATUS_OK;
     TRY(write_out(r, s, f));
@@ -50,24 +57,15 @@ static status run(const command_request *r, extreme_sweep *s, spread_end *end, f
     return STATUS_OK;
 }
 
-int cli_stress(int count, char **arguments)
+static int answer(const command_line *l, void *request)
 {
-    command_request r;
+    const stress_request *r = request;
     extreme_sweep s = {0};
     spread_end end = {.ended = 0};
     fault f = {""};
-    command_parse(
-        "stress", "",
-        "Drives every formulation to the extremes where numbers become unstable, and judges "
-        "every answer: a value, coarse, a "
-        "named failure, or wrong. Exit status: 0 all as expected, 1 one differs, 2 refused, "
-        "3 nothing was tried, 4 file, disk "
-        "or memory, 5 batches are missing (--shard K/N --into FOLDER, 'beamwork merge')."
-        "\vbeamwork stress -k \"thin_sheet and collocation\"",
-        "fokjJFTZiCbw", count, arguments, &r);
-    if (r.case_name != NULL)
+    if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");
-    const status outcome = run(&r, &s, &end, &f);
+    const status outcome = run(r, &s, &end, &f);
     int code = end.ended ? end.code : extreme_sweep_exit(&s);
     if (outcome != STATUS_OK)
         code = message_fail(outcome, f.text);
@@ -75,3 +73,22 @@ int cli_stress(int count, char **arguments)
     extreme_sweep_free(&s);
     return code;
 }
+
+#define IN(at) .member = offsetof(stress_request, at)
+static const verb_group shared[] = {
+    SHARED(formulations, chosen), SHARED(select, select), SHARED(truths, truths),
+    SHARED(output, output),       SHARED(format, format), SHARED(json, json),
+    SHARED(jobs, shards.jobs),    SHARED(shards, shards), {NULL, 0}};
+const verb verb_stress = {
+    "stress",
+    "",
+    "every formulation at extremes: a value, or a named failure",
+    "Drives every formulation to the extremes where numbers become unstable, and judges every "
+    "answer: a value, coarse, a named failure, or wrong. Exit status: 0 all as expected, 1 one "
+    "differs, 2 refused, 3 nothing was tried, 4 file, disk or memory, 5 batches are missing "
+    "(--shard K/N --into FOLDER, 'beamwork merge').",
+    "beamwork stress -k \"thin_sheet and collocation\"",
+    shared,
+    NULL,
+    sizeof(stress_request),
+    .answer = answer};

@@ -10,8 +10,7 @@
 
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/errors.h"
-#include "harness/cli/identity.h"
+#include "harness/cli/named.h"
 #include "harness/cli/spread.h"
 #include "harness/experiments/merge.h"
 #include "harness/experiments/ranges_collect.h"
@@ -19,6 +18,22 @@
 #include "harness/experiments/ranges_table.h"
 #include "harness/experiments/shard.h"
 #include "harness/study/derive.h"
+
+/* What the command line asks for. */
+typedef struct sweep_options {
+    case_options of;
+    chosen_formulations chosen;
+    mesh_list meshes;
+    truths_options truths;
+    shard_options shards;
+    const char *select, *output, *format;
+    double error;       /* 0: not given */
+    text_list vary;     /* NAME=A..B/N ...: what it is over */
+    const char *design; /* of its points; NULL: a grid */
+    int points, seed;   /* of a design that is no grid */
+    int derive;         /* 1: truths are solved for where none is stored */
+    int verbose;
+} sweep_options;
 
 /* A sweep and what it needs while it runs. */
 typedef struct sweeping {
@@ -36,7 +51,7 @@ typedef struct sweeping {
     int lost;       /* batches that are not there: exit status 5 */
 } sweeping;
 
-static status read_design(const command_request *r, ranges_request *q, fault *f)
+static status read_design(const sweep_options *r, ranges_request *q, fault *f)
 {
     const int kind = r->design != NULL ? choice_index(DESIGN_CHOICES, r->design) : DESIGN_GRID;
     if (kind < 0)
@@ -44,68 +59,66 @@ static status read_design(const command_request *r, ranges_request *q, fault *f)
                          r->design);
     q->design = (design_kind)kind;
     q->points = r->points;
-    q->seed = (unsigned long)(r->seed >= 0 ? r->seed : 1);
+    const int seeded = given_value(r->of.line, "seed") != NULL;
+    q->seed = seeded ? (unsigned long)r->seed : 1;
     if (kind == DESIGN_GRID && r->points > 0)
         return fault_set(f, STATUS_REFUSED,
                          "--points belongs to --design sobol, halton or random; a grid has those "
                          "of --vary");
-    if (kind != DESIGN_RANDOM && r->seed >= 0)
+    if (kind != DESIGN_RANDOM && seeded)
         return fault_set(f, STATUS_REFUSED, "--seed belongs to --design random");
     return STATUS_OK;
 }
 
 /* Nothing that varies is set. */
-static status check_set(const command_request *r, const ranges *s, fault *f)
+static status check_set(const sweep_options *r, const ranges *s, fault *f)
 {
-    for (int i = 0; i < r->assignments; i++)
+    for (int i = 0; i < r->of.set.count; i++)
         for (int k = 0; k < s->design.axes; k++) {
             const char *name = s->axis[k].of->name;
-            if (strncmp(r->assignment[i], name, strlen(name)) == 0 &&
-                r->assignment[i][strlen(name)] == '=')
+            if (strncmp(r->of.set.text[i], name, strlen(name)) == 0 &&
+                r->of.set.text[i][strlen(name)] == '=')
                 return fault_set(f, STATUS_REFUSED, "%s is set and varies; give --set or --vary",
                                  name);
         }
     return STATUS_OK;
 }
 
-static status identify(const command_request *r, sweeping *s, fault *f)
+static status identify(const sweep_options *r, sweeping *s, fault *f)
 {
     digest plan;
     s->all = ranges_work_of(&s->work);
-    TRY(identity_make("sweep", r, &s->texts, &plan, f));
+    TRY(identity_make(r->of.line, &s->texts, &plan, f));
     ranges_identity_add(&s->ranges, &plan);
     identity_set(&s->texts, &plan, &s->all);
     s->output.plan = s->texts.plan;
     return STATUS_OK;
 }
 
-static status prepare(command_request *r, const case_type *type, sweeping *s, fault *f)
+static status prepare(sweep_options *r, const case_type *type, sweeping *s, fault *f)
 {
     ranges_request q = {.type = type,
-                        .file = r->scene,
-                        .base = r->parameter,
-                        .varies = r->varies,
-                        .vary = r->vary,
-                        .formulations = r->formulations,
-                        .formulation = r->formulation,
-                        .meshes = r->meshes,
-                        .mesh = r->mesh,
+                        .file = r->of.scene,
+                        .base = r->of.parameter,
+                        .varies = r->vary.count,
+                        .vary = r->vary.text,
+                        .formulations = r->chosen.formulations,
+                        .formulation = r->chosen.formulation,
+                        .meshes = r->meshes.count,
+                        .mesh = r->meshes.elements,
                         .select = r->select,
-                        .tolerance = 0.01,
-                        .time_limit = r->time_limit};
-    int levels;
+                        .tolerance = r->error > 0 ? r->error : 0.01,
+                        .time_limit = r->chosen.time_limit};
     if (strcmp(r->format, "json") == 0)
         return fault_set(f, STATUS_REFUSED, "sweep writes text, csv, and HDF5 with -o FILE");
     TRY(read_design(r, &q, f));
-    if (r->error != NULL)
-        TRY(errors_parse(r->error, 1, &q.tolerance, &levels, f));
-    TRY(files_check(r, 1, case_input_truths_path(r), f));
-    if (r->scene == NULL) {
-        TRY(case_input_truths(r, &s->truths, f));
+    TRY(files_check(r->of.line, 1, own_tables_packed(&r->truths), f));
+    if (r->of.scene == NULL) {
+        TRY(case_input_truths(&r->of, &r->truths, &s->truths, f));
         q.truths = &s->truths;
     }
     if (r->derive) {
-        TRY(derive_script(r->scene != NULL ? "of_scene.py" : "at.py", s->script, f));
+        TRY(derive_script(r->of.scene != NULL ? "of_scene.py" : "at.py", s->script, f));
         q.derive = s->script;
     }
     TRY(ranges_make(&q, &s->ranges, f));
@@ -115,12 +128,12 @@ static status prepare(command_request *r, const case_type *type, sweeping *s, fa
 }
 
 /* Where results go. */
-static status place_output(const command_request *r, sweeping *s, fault *f)
+static status place_output(const sweep_options *r, sweeping *s, fault *f)
 {
     if (r->output == NULL)
         return STATUS_OK;
     s->output.path = r->output;
-    if (r->partial) {
+    if (r->shards.partial) {
         TRY(output_partial(r->output, s->partial, f));
         s->output.path = s->partial;
     }
@@ -154,7 +167,7 @@ static status hold_batches(const char *folder, fault *f)
 }
 
 /* Where batches are kept until all are there: beside the output, or where nobody looks. */
-static status place_batches(const command_request *r, sweeping *s, fault *f)
+static status place_batches(const sweep_options *r, sweeping *s, fault *f)
 {
     if (r->output != NULL) {
         TRY(ranges_collect_beside(r->output, ".batches", s->batches, f));
@@ -169,22 +182,22 @@ static status place_batches(const command_request *r, sweeping *s, fault *f)
 }
 
 /* Batches of the stock, or those that --from names; where some of these are missing, nothing. */
-static status take_all(const command_request *r, sweeping *s, const stock *there, fault *f)
+static status take_all(const sweep_options *r, sweeping *s, const stock *there, fault *f)
 {
     ranges_collect c;
     status outcome = ranges_collect_begin(&s->work, &s->output, &c, f);
     if (outcome == STATUS_OK)
-        outcome =
-            there != NULL ? merge_take(&s->all, there, f) : spread_work(r, &s->all, 0, &s->end, f);
+        outcome = there != NULL ? merge_take(&s->all, there, f)
+                                : spread_work(&r->shards, &s->all, 0, &s->end, f);
     const int ended = outcome == STATUS_OK && s->end.ended;
     outcome = ranges_collect_end(&c, ended ? STATUS_NO_VALUE : outcome, f);
-    if (outcome == STATUS_OK && s->work.csv == NULL && !r->quiet)
+    if (outcome == STATUS_OK && s->work.csv == NULL && !r->shards.quiet)
         ranges_table(stdout, &c.tally, r->verbose, s->output.folder, f);
     tally_free(&c.tally);
     return ended ? STATUS_OK : outcome;
 }
 
-static status collect(const command_request *r, sweeping *s, fault *f)
+static status collect(const sweep_options *r, sweeping *s, fault *f)
 {
     const char *const folder[] = {s->batches};
     stock there = {.batches = 0};
@@ -199,37 +212,39 @@ static status collect(const command_request *r, sweeping *s, fault *f)
 }
 
 /* All batches here and now. */
-static status run_here(const command_request *r, sweeping *s, fault *f)
+static status run_here(const sweep_options *r, sweeping *s, fault *f)
 {
     shard_outcome done = {0};
     TRY(place_batches(r, s, f));
     const shard_request request = {.count = 1,
                                    .into = s->batches,
-                                   .jobs = r->jobs,
-                                   .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL,
+                                   .jobs = r->shards.jobs,
+                                   .progress =
+                                       isatty(STDERR_FILENO) && !r->shards.quiet ? stderr : NULL,
                                    .tell = stderr};
     TRY(shard_run(&s->all, &request, &done, f));
     return collect(r, s, f);
 }
 
-static status run(command_request *r, const case_type *type, sweeping *s, fault *f)
+static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f)
 {
-    TRY(spread_asked(r, &s->asked, f));
+    TRY(spread_asked(&r->shards, &s->asked, f));
     TRY(prepare(r, type, s, f));
     TRY(place_output(r, s, f));
     if (strcmp(r->format, "csv") == 0)
         s->work.csv = stdout;
-    else if (!r->quiet)
+    else if (!r->shards.quiet)
         ranges_table_head(stdout, &s->ranges);
     if (r->output == NULL) /* else what goes there matters more */
         TRY(output_flush(f));
     if (!s->asked)
         return run_here(r, s, f);
-    return r->from_count > 0 ? take_all(r, s, NULL, f) : spread_work(r, &s->all, 0, &s->end, f);
+    return r->shards.from.count > 0 ? take_all(r, s, NULL, f)
+                                    : spread_work(&r->shards, &s->all, 0, &s->end, f);
 }
 
 /* What is not there is computed when the same command is given again. */
-static int tell(const command_request *r, const sweeping *s)
+static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->asked)
         return s->end.code;
@@ -243,13 +258,15 @@ static int tell(const command_request *r, const sweeping *s)
     return EXIT_INTERRUPTED;
 }
 
-static int sweep_request_of(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    sweep_options *r = request;
+    (void)l;
     sweeping s = {.lost = 0};
     fault f = {""};
-    const case_type *type = case_input_find(r);
+    const case_type *type = case_input_find(&r->of);
     if (type == NULL)
-        return r->refusal;
+        return r->of.refusal;
     const status outcome = run(r, type, &s, &f);
     const int code = outcome == STATUS_OK ? tell(r, &s) : message_fail(outcome, f.text);
     spread_free(&s.end);
@@ -260,28 +277,58 @@ static int sweep_request_of(command_request *r)
     return code;
 }
 
-int cli_sweep(int count, char **arguments)
-{
-    return command_run(
-        "sweep", "CASE",
-        "Solves a case, or a structure of your own (--scene FILE), at many points of its "
-        "parameters "
-        "and shows where formulations are within an error (--error, default 1 %): the share of "
-        "points with each mesh, the least number of elements over the parameters, the worst "
-        "points. "
-        "--vary NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these "
-        "values, or words of a choice. Several make a grid, the last one changing first. --design "
-        "sobol, halton or random --points N: so many points in the box of --vary NAME=A..B (or "
-        "A..B:log). Errors are against a truth stored for the very point, with --derive against "
-        "one "
-        "that is solved for there, else against the limit that the meshes of all formulations of "
-        "the same physics go to; points where that is not known to half of the error are told. A "
-        "point that has no scene, a cell that fails, is a result. -o FILE: all values as HDF5, and "
-        "the worst points as scenes in FILE.worst; batches that are done are kept in FILE.batches "
-        "until all are: the same command goes on from there. Exit status: 0 done, 2 refused, 4 "
-        "file, disk or memory, 5 incomplete."
-        "\vbeamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
-        "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
-        "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
-        "yfnskedzrgojLTYFvqZiCbw", count, arguments, sweep_request_of);
-}
+#define IN(at) .member = offsetof(sweep_options, at)
+static const verb_option own[] = {
+    {"vary", 0, "NAME=A..B/N|A,B,C",
+     "what the sweep is over: N equal parts (N + 1 values), with ':log' behind equal ratios; a "
+     "list of values or words; again for another parameter",
+     IN(vary), .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS},
+    {"design", 0, "grid|sobol|halton|random",
+     "points of the sweep: all of the grid (default), or --points N that fill the box of --vary "
+     "NAME=A..B",
+     IN(design)},
+    {"points", 0, "N", "how many points a design has that is no grid", IN(points), .least = 1,
+     .most = 1000000000},
+    {"seed", 0, "S", "of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
+    {"derive", 0, NULL,
+     "solve for truths where none is stored: about half a second for each point (a scene: 4 s)",
+     IN(derive)},
+    {"error", 0, "R", "error that is asked for (default 1%)", IN(error), .read = option_error},
+    {"verbose", 'v', NULL, "also the least elements for each quantity", IN(verbose),
+     .traits = OPTION_ASIDE},
+    {"quiet", 'q', NULL, "no tables", IN(shards.quiet), .traits = OPTION_ASIDE},
+    {0}};
+static const verb_group shared[] = {SHARED(case, of),
+                                    SHARED(formulations, chosen),
+                                    SHARED(meshes, meshes),
+                                    SHARED(select, select),
+                                    SHARED(time_limit, chosen),
+                                    SHARED(truths, truths),
+                                    SHARED(output, output),
+                                    SHARED(format, format),
+                                    SHARED(jobs, shards.jobs),
+                                    SHARED(shards, shards),
+                                    {NULL, 0}};
+const verb verb_sweep = {
+    "sweep",
+    "CASE",
+    "one case over ranges of its parameters: where is an error kept?",
+    "Solves a case, or a structure of your own (--scene FILE), at many points of its parameters "
+    "and shows where formulations are within an error (--error, default 1 %): the share of points "
+    "with each mesh, the least number of elements over the parameters, the worst points. --vary "
+    "NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these values, or "
+    "words of a choice. Several make a grid, the last one changing first. --design sobol, halton "
+    "or random --points N: so many points in the box of --vary NAME=A..B (or A..B:log). Errors are "
+    "against a truth stored for the very point, with --derive against one that is solved for "
+    "there, else against the limit that the meshes of all formulations of the same physics go to; "
+    "points where that is not known to half of the error are told. A point that has no scene, a "
+    "cell that fails, is a result. -o FILE: all values as HDF5, and the worst points as scenes in "
+    "FILE.worst; batches that are done are kept in FILE.batches until all are: the same command "
+    "goes on from there. Exit status: 0 done, 2 refused, 4 file, disk or memory, 5 incomplete.",
+    "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
+    "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
+    "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",
+    shared,
+    own,
+    sizeof(sweep_options),
+    .answer = answer};

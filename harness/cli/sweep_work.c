@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/cli/cells.h"
-#include "harness/cli/identity.h"
+#include "harness/cli/spread.h"
 #include "harness/experiments/deal.h"
 #include "harness/study/run.h"
 
@@ -134,11 +134,11 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
 }
 
 /* With what sweep_work_do frees. */
-static status spread(cut *c, const command_request *r, identity_texts *texts, spread_end *out,
+static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)
 {
     digest plan;
-    TRY(identity_make(c->of->verb, r, texts, &plan, f));
+    TRY(identity_make(r->line, texts, &plan, f));
     if (!alloc(c))
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
     c->w.cost = c->cost;
@@ -150,7 +150,7 @@ static status spread(cut *c, const command_request *r, identity_texts *texts, sp
     return out->ended || out->taken == NULL ? STATUS_OK : leave_out(c, out, f);
 }
 
-status sweep_work_do(const sweep_work *of, const command_request *r, sweep *s, spread_end *out,
+status sweep_work_do(const sweep_work *of, const shard_options *r, sweep *s, spread_end *out,
                      fault *f)
 {
     identity_texts texts = {.origin = NULL};

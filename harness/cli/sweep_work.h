@@ -20,7 +20,7 @@ struct sweep_work {
 
 /* The sweep is planned. Computes the shard, or takes the cells of --from; what is missing of
  * --partial is taken out and counted as unfinished. */
-status sweep_work_do(const sweep_work *, const command_request *r, sweep *s, spread_end *out,
+status sweep_work_do(const sweep_work *, const shard_options *r, sweep *s, spread_end *out,
                      fault *f);
 /* Items of these costs [s] in batches of about half a second, or less where there is little work:
  * deal_cut. cost: of each batch. Returns their number. */

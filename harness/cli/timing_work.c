@@ -15,8 +15,8 @@ static status run(const sweep_work *of, sweep *part, fault *f)
     return timing_run(part, of->floor, of->dense, NULL, f);
 }
 
-status timing_work_run(const command_request *r, const sweep_request *request, double floor,
-                       sweep *s, int *asked, spread_end *out, fault *f)
+status timing_work_run(const shard_options *r, const sweep_request *request, double floor,
+                       int dense, sweep *s, int *asked, spread_end *out, fault *f)
 {
     *out = (spread_end){.ended = 0};
     TRY(spread_asked(r, asked, f));
@@ -25,6 +25,6 @@ status timing_work_run(const command_request *r, const sweep_request *request, d
                            .run = run,
                            .points = 1,
                            .floor = floor,
-                           .dense = r->dense};
+                           .dense = dense};
     return *asked ? sweep_work_do(&of, r, s, out, f) : STATUS_OK;
 }

@@ -6,7 +6,7 @@
 
 /* The sweep is planned. *asked: 0: the caller runs and times it. All rounds of a point are in one
  * batch, on one processor. floor: least [s] of a round for each cell. */
-status timing_work_run(const command_request *, const sweep_request *, double floor, sweep *,
-                       int *asked, spread_end *, fault *);
+status timing_work_run(const shard_options *, const sweep_request *, double floor, int dense,
+                       sweep *, int *asked, spread_end *, fault *);
 
 #endif

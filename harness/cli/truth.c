@@ -11,6 +11,11 @@
 #include "harness/study/truth.h"
 #include "harness/terminal/paragraph.h"
 
+typedef struct truth_request {
+    case_options of;
+    truths_options truths;
+} truth_request;
+
 enum { NAME = 28, INDENT = 6 };
 
 /* Two lines: the value, and where it comes from. */
@@ -135,49 +140,50 @@ static status print_scene(const case_type *type, const double parameter[], fault
     return outcome;
 }
 
-static int truth_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    truth_request *r = request;
+    (void)l;
     truths t;
     fault f = {""};
     char text[PARAMETERS_TEXT];
-    const case_type *type = case_input_find(r);
+    const case_type *type = case_input_find(&r->of);
     if (type == NULL)
-        return r->refusal;
-    status outcome = case_input_truths(r, &t, &f);
+        return r->of.refusal;
+    status outcome = case_input_truths(&r->of, &r->truths, &t, &f);
     if (outcome != STATUS_OK)
         return message_fail(outcome, f.text);
-    parameters_text(type, r->parameter, text, sizeof text);
+    parameters_text(type, r->of.parameter, text, sizeof text);
     printf("%s%s%s\n", type->name, text[0] != '\0' ? ": " : "", text);
-    const int stored = print_stored(&t, type, r->parameter);
+    const int stored = print_stored(&t, type, r->of.parameter);
     fflush(stdout);
-    if (r->scene != NULL)
-        outcome = print_scene(type, r->parameter, &f);
-    if (r->scene != NULL && stored > 0 && outcome == STATUS_REFUSED) {
+    if (r->of.scene != NULL)
+        outcome = print_scene(type, r->of.parameter, &f);
+    if (r->of.scene != NULL && stored > 0 && outcome == STATUS_REFUSED) {
         fprintf(stderr, "beamwork: %s\n", f.text);
         outcome = STATUS_OK;
     }
-    if (r->scene == NULL && stored == 0)
-        outcome = print_derived(type, r->parameter, &f);
+    if (r->of.scene == NULL && stored == 0)
+        outcome = print_derived(type, r->of.parameter, &f);
     truths_free(&t);
     const int code = message_exit(outcome, &f);
     return code == EXIT_REFUSED ? EXIT_DIFFERS : code;
 }
 
-int cli_truth(int count, char **arguments)
-{
-    return command_run(
-        "truth", "CASE",
-        "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, "
-        "source. Where the tables have none of "
-        "the case's own model, the "
-        "deriving program is run to solve for them. A scene of your own (--scene FILE) "
-        "is solved as a "
-        "network of geometrically exact beams and rigid bodies, beside what the file "
-        "has: lines to be "
-        "pasted into its truths. Exit status: 0 shown, 1 none is stored "
-        "and no program derives this case "
-        "or these parameters, or a scene of your own, "
-        "2 refused, 4 file, disk or memory."
-        "\vbeamwork truth elastica --set load=3",
-        "sTY.", count, arguments, truth_request);
-}
+#define IN(at) .member = offsetof(truth_request, at)
+static const verb_group shared[] = {SHARED(case, of), SHARED(own_truths, truths), {NULL, 0}};
+const verb verb_truth = {
+    "truth",
+    "CASE",
+    "what is known of a case at a parameter point; derived on demand",
+    "Shows the truths of a parameter point: value, uncertainty, unit, kind, model, source. Where "
+    "the tables have none of the case's own model, the deriving program is run to solve for them. "
+    "A scene of your own (--scene FILE) is solved as a network of geometrically exact beams and "
+    "rigid bodies, beside what the file has: lines to be pasted into its truths. Exit status: 0 "
+    "shown, 1 none is stored and no program derives this case or these parameters, or a scene of "
+    "your own, 2 refused, 4 file, disk or memory.",
+    "beamwork truth elastica --set load=3",
+    shared,
+    NULL,
+    sizeof(truth_request),
+    .answer = answer};

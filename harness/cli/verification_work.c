@@ -13,7 +13,7 @@ static status run(const sweep_work *of, sweep *part, fault *f)
     return verification_cells(&alone, of->t, part, f);
 }
 
-status verification_work_run(const command_request *r, const sweep_request *request, truths *t,
+status verification_work_run(const shard_options *r, const sweep_request *request, truths *t,
                              sweep *s, spread_end *out, fault *f)
 {
     const sweep_work of = {.verb = "verify", .request = request, .t = t, .run = run};

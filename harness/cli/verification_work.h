@@ -6,7 +6,7 @@
 
 /* Runs a planned sweep, or takes what was run; the cells that measure noise belong to the batch of
  * their series. */
-status verification_work_run(const command_request *, const sweep_request *, truths *, sweep *,
+status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);
 
 #endif

@@ -2,12 +2,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/errors.h"
 #include "harness/cli/named.h"
-#include "harness/cli/own_tables.h"
-#include "harness/cli/scenes.h"
-#include "harness/cli/supports_told.h"
 #include "harness/cli/verification_work.h"
 #include "harness/exchange/import_store.h"
 #include "harness/experiments/regressions.h"
@@ -22,16 +19,32 @@
 #include "harness/terminal/table_unexpected.h"
 #include "harness/terminal/table_verdicts.h"
 
+typedef struct verify_request {
+    chosen_formulations chosen;
+    scenes_options scenes;
+    report_options reports;
+    shard_options shards;
+    const char *select, *output;
+    text_list beside;   /* stored imports: contestants of a run */
+    int gate;           /* 1: their verdicts count */
+    int exit_zero;      /* 1: verdicts do not change the exit status */
+    double tolerance;   /* in the place of those of the cases */
+    const char *former; /* results that this run may not be worse than */
+    int doublings;      /* of the finest mesh */
+    int shapes;         /* states of a path whose shapes are stored; 0: none */
+    int verbose;        /* every limit; shards.quiet: only what is unexpected */
+} verify_request;
+
 enum { PICTURED_STATES = 5 };
 
 /* Is every limit shown? Where it was asked for, or somebody looks at something in particular. */
-static int shows_limits(const command_request *r, const overview *o)
+static int shows_limits(const verify_request *r, const overview *o)
 {
     return r->verbose || r->select != NULL || o->rows == 1;
 }
 
 /* On standard output, a screen: the matrix, the counts, what is unexpected, and how it ended. */
-static void show(const command_request *r, const sweep *s, const judgement *j, const truths *t,
+static void show(const verify_request *r, const sweep *s, const judgement *j, const truths *t,
                  const overview *o, double seconds)
 {
     const screen look = screen_of(stdout);
@@ -40,12 +53,12 @@ static void show(const command_request *r, const sweep *s, const judgement *j, c
         fputs("exploring: the exit status is 0 whatever the verdicts are (--exit-zero)\n\n",
               stdout);
     table_breaches(stdout, look, j);
-    if (!r->quiet && shows_limits(r, o)) {
+    if (!r->shards.quiet && shows_limits(r, o)) {
         table_verdicts(stdout, s, j);
         table_run_details(stdout, s, j);
         fputc('\n', stdout);
     }
-    if (!r->quiet) {
+    if (!r->shards.quiet) {
         table_overview(stdout, look, o);
         fputc('\n', stdout);
         table_run(stdout, s, j, seconds);
@@ -55,27 +68,18 @@ static void show(const command_request *r, const sweep *s, const judgement *j, c
     table_run_end(stdout, look, sentence);
 }
 
-/* The first file that is written, or NULL. */
-static const char *first_file(const command_request *r)
-{
-    const char *const all[] = {r->output, r->json, r->junit, r->markdown, r->propose};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (all[i] != NULL)
-            return all[i];
-    return NULL;
-}
-
 /* What the exit code does not say by itself. */
-static int tell(const command_request *r, const sweep *s, const judgement *j, const spread_end *e)
+static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
-    const char *file = first_file(r);
+    int first = 0;
+    const given_option *file = given_next(r->shards.line, OPTION_OUTPUT, &first);
     char partial[PATH_MAX];
     if (e->ended)
         return e->code;
     if (s->unfinished > 0) {
         fprintf(stderr, "beamwork: %s: %d cells were not done; what was judged is ",
-                r->partial ? "incomplete" : "interrupted", s->unfinished);
-        if (file != NULL && output_partial(file, partial, NULL) == STATUS_OK)
+                r->shards.partial ? "incomplete" : "interrupted", s->unfinished);
+        if (file != NULL && output_partial(file->value, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
         else
             fprintf(stderr, "above\n");
@@ -84,8 +88,8 @@ static int tell(const command_request *r, const sweep *s, const judgement *j, co
     const int code = judgement_exit(j);
     if (code == EXIT_NOTHING)
         fprintf(stderr, "beamwork: nothing was judged: no verdict against a truth; see %s\n",
-                r->scene_count > 0 ? "'truths' in 'beamwork scene --keys'"
-                                   : "'beamwork list' and -k");
+                r->scenes.scene.count > 0 ? "'truths' in 'beamwork scene --keys'"
+                                          : "'beamwork list' and -k");
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
@@ -118,22 +122,10 @@ typedef struct trial {
     spread_end end; /* of shards, or of batches that are merged */
 } trial;
 
-static status check_files(const command_request *r, const scenes *own, fault *f)
+static status add_all_beside(const verify_request *r, sweep *s, fault *f)
 {
-    TRY(files_check(r, 1, case_input_truths_path(r), f));
-    for (int i = 0; i < own->count; i++)
-        TRY(files_check_input(r, own->path[i], f));
-    for (int i = 0; i < r->beside_count; i++)
-        TRY(files_check_input(r, r->beside[i], f));
-    if (r->former != NULL)
-        TRY(files_check_input(r, r->former, f));
-    return own_tables_check(r, f);
-}
-
-static status add_all_beside(const command_request *r, sweep *s, fault *f)
-{
-    for (int i = 0; i < r->beside_count; i++)
-        TRY(add_beside(r->beside[i], r->gate, s, f));
+    for (int i = 0; i < r->beside.count; i++)
+        TRY(add_beside(r->beside.text[i], r->gate, s, f));
     return STATUS_OK;
 }
 
@@ -152,18 +144,18 @@ static void tell_supports(const scenes *own, const sweep *s)
 }
 
 /* Here, or by batches of shards, which are judged when all of them are there. */
-static status run_and_judge(const command_request *r, const scenes *own,
+static status run_and_judge(const verify_request *r, const scenes *own,
                             const sweep_request *request, trial *v, fault *f)
 {
-    const int whole =
-        r->select == NULL && r->formulations == 0 && (r->built_in || r->scene_count == 0);
+    const int whole = r->select == NULL && r->chosen.formulations == 0 &&
+                      (r->scenes.built_in || r->scenes.scene.count == 0);
     const verification_reader reader = {&v->files, verification_files_case};
     int asked;
-    TRY(spread_asked(r, &asked, f));
+    TRY(spread_asked(&r->shards, &asked, f));
     TRY(plan_sweep(request, &v->truths, &v->sweep, f));
     tell_supports(own, &v->sweep);
     if (asked)
-        TRY(verification_work_run(r, request, &v->truths, &v->sweep, &v->end, f));
+        TRY(verification_work_run(&r->shards, request, &v->truths, &v->sweep, &v->end, f));
     if (v->end.ended)
         return STATUS_OK;
     TRY(add_all_beside(r, &v->sweep, f));
@@ -177,50 +169,44 @@ static status run_and_judge(const command_request *r, const scenes *own,
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
 }
 
-static status run(const command_request *r, const scenes *own, trial *v, fault *f)
+static status run(const verify_request *r, const scenes *own, trial *v, fault *f)
 {
     const int states = r->shapes < PICTURED_STATES ? r->shapes : PICTURED_STATES;
     const double begun = clock_wall_seconds();
-    double tolerance = 0;
-    int tolerances = 0;
-    if (r->tolerance != NULL &&
-        errors_parse(r->tolerance, 1, &tolerance, &tolerances, f) != STATUS_OK)
-        return fault_set(f, STATUS_REFUSED,
-                         "--tolerance '%.60s': give one between 0 and 100 %%, such as 1%%",
-                         r->tolerance);
     const sweep_request request = {.cases = own->type,
                                    .select = r->select,
-                                   .jobs = r->jobs,
+                                   .jobs = r->shards.jobs,
                                    .share = 1,
-                                   .time_limit = r->time_limit,
+                                   .time_limit = r->chosen.time_limit,
                                    .interruptible = 1,
                                    .doublings = r->doublings,
-                                   .formulations = r->formulations,
-                                   .formulation = r->formulation,
-                                   .named = named_alone(r),
-                                   .tolerance = tolerance,
+                                   .formulations = r->chosen.formulations,
+                                   .formulation = r->chosen.formulation,
+                                   .named = named_alone(&r->chosen),
+                                   .tolerance = r->tolerance,
                                    .shapes = states,
-                                   .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL};
-    TRY(check_files(r, own, f));
+                                   .progress =
+                                       isatty(STDERR_FILENO) && !r->shards.quiet ? stderr : NULL};
+    TRY(files_check(r->shards.line, 1, own_tables_packed(&r->scenes.truths), f));
     if (r->former != NULL)
         TRY(results_read(r->former, &v->former, f));
-    TRY(scenes_truths(own, r, &v->truths, f));
+    TRY(scenes_truths(own, &r->scenes, &v->truths, f));
     TRY(run_and_judge(r, own, &request, v, f));
     if (v->end.ended)
         return STATUS_OK;
     show(r, &v->sweep, &v->judgement, &v->truths, &v->overview, clock_wall_seconds() - begun);
-    const environment e = spread_environment(&v->end, r->jobs);
+    const environment e = spread_environment(&v->end, r->shards.jobs);
     TRY(verification_files_close(&v->files, &v->overview, &e, f)); /* also where nobody reads */
     return output_flush(f);
 }
 
-static int verify_scenes(const command_request *r, const scenes *own)
+static int verify_scenes(const verify_request *r, const scenes *own)
 {
     trial v = {.files = {.output = r->output,
-                         .json = r->json,
-                         .junit = r->junit,
-                         .markdown = r->markdown,
-                         .propose = r->propose}};
+                         .json = r->reports.json,
+                         .junit = r->reports.junit,
+                         .markdown = r->reports.markdown,
+                         .propose = r->reports.propose}};
     fault f = {""};
     const status outcome = run(r, own, &v, &f);
     const int code = outcome != STATUS_OK ? message_fail(outcome, f.text)
@@ -235,39 +221,82 @@ static int verify_scenes(const command_request *r, const scenes *own)
     return code;
 }
 
-static int verify_request(command_request *r)
+static int answer(const command_line *l, void *request)
 {
+    verify_request *r = request;
     scenes own;
-    if (r->case_name != NULL)
+    if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "verify takes no case; select with -k");
-    if (r->verbose && r->quiet)
+    if (r->verbose && r->shards.quiet)
         return message_fail(STATUS_REFUSED, "--verbose and --quiet: give one of them");
-    int code = scenes_read(r, &own);
+    int code = scenes_read(l, &r->scenes, &own);
     if (code == EXIT_AS_EXPECTED)
         code = verify_scenes(r, &own);
     scenes_free(&own);
     return code;
 }
 
-int cli_verify(int count, char **arguments)
-{
-    return command_run(
-        "verify", "",
-        "Judges every formulation on every case and parameter point that has a truth. A "
-        "formulation "
-        "that -f names or --element loads gates: against the findings of the ledger that are its "
-        "own, which may be none, and by the contract of the interface (element-test), which is "
-        "looked at first. One of the tree that nobody named and the project has not accepted yet "
-        "does not. --tolerance and --not-worse-than are terms of your own. Exit status: 0 every "
-        "verdict as expected, 1 one differs or a contract is broken (undecided is no pass: it "
-        "counts as one that differs unless a finding expects it, and more meshes, --doublings, or "
-        "a larger --tolerance may decide it), 2 refused, 3 nothing was "
-        "judged, 4 file, disk or memory, 5 interrupted (Ctrl-C, SIGTERM): what was judged until "
-        "then is in files named .partial; with --exit-zero 0 in the place of 1 and 3. With --shard "
-        "K/N --into FOLDER: computes a part, 0 when all of it is there, 5 when some is missing "
-        "(start it again); 'beamwork merge' judges"
-        "\vbeamwork verify -k \"c_column and collocation\"\n"
-        "beamwork verify --shard 1/4 --into parts\n"
-        "beamwork verify -o build/results.h5",
-        "fokjJUMLPTYBGINvqpW.ZiCbw067", count, arguments, verify_request);
-}
+#define IN(at) .member = offsetof(verify_request, at)
+static const verb_option own[] = {
+    {"output", 'o', "FILE", "results as HDF5", IN(output), .traits = OPTION_OUTPUT},
+    {"scene", 0, "FILE",
+     "a scene of your own in YAML in the place of a case, or a folder of them; again for another",
+     IN(scenes.scene), .traits = OPTION_REPEATS | OPTION_INPUT},
+    {"built-in", 0, NULL, "the built-in cases beside those of --scene", IN(scenes.built_in)},
+    {"findings", 0, "FILE.csv", "findings of your own beside the ledger; again for another",
+     IN(scenes.findings), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
+    {"beside", 0, "FILE",
+     "what other programs found, stored by 'beamwork import': contestants that gate nothing; again "
+     "for another file",
+     IN(beside), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
+    {"gate", 0, NULL, "verdicts of --beside count as ours do", IN(gate)},
+    {"shapes", 0, "[STATES]",
+     "store centre lines, sections and resultants of at most so many states of a path (default: "
+     "5), and 60 frames of a motion, evenly over its time",
+     IN(shapes), .least = 1, .most = SHAPES_ALL},
+    {"doublings", 0, "N",
+     "so many more meshes of each series, each of twice the elements: do the verdicts stand?",
+     IN(doublings), .least = 1, .most = 10},
+    {"tolerance", 0, "R",
+     "limits within R (1% or 0.01) of the reference value pass: in place of the tolerances of the "
+     "cases, and whatever their order",
+     IN(tolerance), .traits = OPTION_VERDICT, .read = option_error},
+    {"not-worse-than", 0, "FILE",
+     "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
+     "fail where the error of any mesh is larger than there by more than 2 %, its value is gone, "
+     "or a limit has moved by more than 0.001 % that no exact value judges as closely",
+     IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
+    {"exit-zero", 0, NULL,
+     "explore: exit status 0 whatever the verdicts are; files say how it ended as ever",
+     IN(exit_zero), .traits = OPTION_ASIDE},
+    {"verbose", 'v', NULL, "every limit, not only the overview", IN(verbose),
+     .traits = OPTION_ASIDE},
+    {"quiet", 'q', NULL, "only what is unexpected, and the last sentence", IN(shards.quiet),
+     .traits = OPTION_ASIDE},
+    {0}};
+static const verb_group shared[] = {
+    SHARED(formulations, chosen),      SHARED(select, select),     SHARED(time_limit, chosen),
+    SHARED(own_truths, scenes.truths), SHARED(json, reports.json), SHARED(reports, reports),
+    SHARED(jobs, shards.jobs),         SHARED(shards, shards),     {NULL, 0}};
+const verb verb_verify = {
+    "verify",
+    "",
+    "every formulation on every case, judged against stored truths",
+    "Judges every formulation on every case and parameter point that has a truth. A formulation "
+    "that -f names or --element loads gates: against the findings of the ledger that are its own, "
+    "which may be none, and by the contract of the interface (element-test), which is looked at "
+    "first. One of the tree that nobody named and the project has not accepted yet does not. "
+    "--tolerance and --not-worse-than are terms of your own. Exit status: 0 every verdict as "
+    "expected, 1 one differs or a contract is broken (undecided is no pass: it counts as one that "
+    "differs unless a finding expects it, and more meshes, --doublings, or a larger --tolerance "
+    "may decide it), 2 refused, 3 nothing was judged, 4 file, disk or memory, 5 interrupted "
+    "(Ctrl-C, SIGTERM): what was judged until then is in files named .partial; with --exit-zero 0 "
+    "in the place of 1 and 3. With --shard K/N --into FOLDER: computes a part, 0 when all of it is "
+    "there, 5 when some is missing (start it again); 'beamwork merge' judges",
+    "beamwork verify -k \"c_column and collocation\"\n"
+    "beamwork verify --shard 1/4 --into parts\n"
+    "beamwork verify -o build/results.h5",
+    shared,
+    own,
+    sizeof(verify_request),
+    .answer = answer};

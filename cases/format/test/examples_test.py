@@ -30,7 +30,7 @@ class ExamplesTest(SceneCase):
         found = re.findall(r"^    (\S+) .* biased, as predicted \[1\]$", block, re.M)
         self.assertEqual(found, ["sheet_third", "sheet_third_printed"])
         verdicts = self.folder / "verdicts.json"
-        self.answered("verify", "--built-in", "--scene", EXAMPLES, "-J", verdicts, "-k",
+        self.answered("verify", "--built-in", "--scene", EXAMPLES, "--json", verdicts, "-k",
                       "(euler_column or warping_torsion/default) and collocation")
         both = json.loads(verdicts.read_text(encoding="utf-8"))
         self.assertEqual({v["case"] for v in both["verdicts"]}, {"euler_column", "warping_torsion"})

@@ -220,7 +220,7 @@ class Planted(Tested):
         """The first part that does not come back is waited for, those after it are not."""
         made = self.compiled("timoshenko.c", (ENTRY, "    for (volatile int i = 1; i;)\n"
                                               "        ;\n" + ENTRY))
-        out = self.answered("element-test", "--element", made, "-L", "1", "-j", "1", code=1).stdout
+        out = self.answered("element-test", "--element", made, "--time-limit", "1", "-j", "1", code=1).stdout
         self.assertEqual(out.count("time limit: no result after 1 s"), 1)
         self.assertIn("not checked: 'features' hit the time limit", out)
 

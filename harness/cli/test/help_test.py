@@ -69,7 +69,7 @@ class Misspelt(ProgramTest):
         self.refused(2, "--elemnts", "solve", "-f", "beamw", "-n1", "--", "--elemnts")
 
     def test_one_letter_with_its_value(self):
-        self.answered("solve", "warping_torsion", "-fbeamw", "-Kn2")
+        self.answered("solve", "warping_torsion", "-fbeamw", "-n2")
 
 
 class Explain(ProgramTest):

@@ -7,8 +7,8 @@ import signal
 import subprocess
 import unittest
 
-from harness.cli.test.work import VERBS, WORK
-from harness.tools.kit.program import TRUTHS, ProgramTest, environment, run
+from harness.cli.test.work import EVERY_VERB, VERBS, WORK
+from harness.tools.kit.program import ROOT, TRUTHS, ProgramTest, environment, run
 
 LISTS = ("formulation", "element", "elements", "set")  # may be given again
 # the C library's argp leaves a byte when it exits
@@ -63,6 +63,66 @@ class Words(ProgramTest):
                          f"load={text}")
             self.refused(2, "threshold", "compare", "old.h5", "new.h5", "--threshold",
                          f"error={text}")
+
+
+class Tables(ProgramTest):
+    """The arrays of options that verbs name."""
+
+    CLI = ROOT / "harness" / "cli"
+    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # else the file of the verb
+    ELSEWHERE = {("scene", "format")}  # of the mistakes that case_input reports
+
+    def shown(self, verb):
+        """(letter, name) of each option."""
+        return re.findall(r"^  (?:-(\w), |    )--([a-z-]+)", run(verb, "-h", env=HELP).stdout,
+                          re.MULTILINE)
+
+    def source(self, name):
+        return (self.CLI / f"{name}.c").read_text(encoding="utf-8")
+
+    def test_letters(self):
+        """Few, each with one meaning; names of a verb are its own."""
+        meaning = {}
+        for verb in EVERY_VERB:
+            names = [name for _, name in self.shown(verb)]
+            self.assertEqual(len(names), len(set(names)), verb)
+            for letter, name in filter(lambda one: one[0], self.shown(verb)):
+                self.assertEqual(meaning.setdefault(letter, name), name)
+        self.assertEqual("".join(sorted(meaning)), "fhjknoqsv")
+
+    def test_former_letters(self):
+        """Each is still read, and told with its name."""
+        names = {name: verb for verb in EVERY_VERB for _, name in self.shown(verb)}
+        former = re.findall(r"\{'(.)', \"([a-z-]+)\"\}", self.source("options"))
+        self.assertGreater(len(former), 40)
+        for letter, name in former:
+            told = run(names[name], f"-{letter}", "3", "-h", env=HELP).stderr
+            self.assertIn(f"-{letter} is --{name} now", told)
+        self.answered("solve", "warping_torsion", "-fbeamw", "-Kn2")
+
+    def test_each_is_used(self):
+        """By the verb that takes it; 'merge' passes all on."""
+        everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
+        for verb in EVERY_VERB:
+            name = verb.replace("-", "_")
+            answers = "".join(self.source(file).partition("#define IN(at)")[0]
+                              for file in self.ANSWERS.get(verb, (name,)))
+            table = self.source(name).partition("#define IN(at)")[2]
+            members = re.findall(r"\bIN\((?!at\b)([\w.]+)\)|SHARED\(\w+,\s*([\w.]+)\)", table)
+            self.assertTrue(members or verb == "merge", verb)
+            for member in {own or shared for own, shared in members if verb != "merge"}:
+                head, _, tail = member.partition(".")
+                if tail and f"&r->{head}" in answers:  # a whole group, which others read
+                    self.assertRegex(everything, rf"->{tail}\b", (verb, member))
+                elif (verb, member) not in self.ELSEWHERE:
+                    self.assertRegex(answers, rf"->{re.escape(member)}\b", (verb, member))
+        for group in ("solver", "reports"):
+            for verb in ("solve", "bench", "verify"):
+                if f"SHARED({group}," in self.source(verb):
+                    answers = "".join(map(self.source, self.ANSWERS.get(verb, (verb,))))
+                    for member in re.findall(rf"offsetof\({group[:6]}\w*_options, (\w+)\)",
+                                             self.source("options")):
+                        self.assertIn(f"->{group}.{member}", answers)
 
 
 class Machine(ProgramTest):

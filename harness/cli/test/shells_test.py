@@ -28,7 +28,7 @@ LINES = {
     "solve --scene a_folder/leaf.yaml --set str": ["solve", "--scene", "a_folder/leaf.yaml",
                                                   "--set", "stroke="],
     'verify -k "c_column and beamw_v': ["verify", "-k", "c_column and beamw_vlasov"],
-    "list -x exe": ["list", "-x", "exec:"],
+    "list --element exe": ["list", "--element", "exec:"],
     "explain bimom": ["explain", "bimoment"],
     "explain Newton": ["explain", "Newton's"],
 }

@@ -1,0 +1,298 @@
+#include "harness/cli/options.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "harness/experiments/meshes.h"
+#include "harness/numerics/team.h"
+
+/* Letters of version 0.1, which are read until the next one and told with their names. */
+static const struct {
+    char letter;
+    const char *name;
+} former[] = {{'x', "element"},    {'F', "format"},    {'K', "keep-all"},       {'S', "steps"},
+              {'L', "time-limit"}, {'J', "json"},      {'U', "junit"},          {'c', "threshold"},
+              {'P', "shapes"},     {'V', "follow"},    {'y', "vary"},           {'d', "design"},
+              {'z', "points"},     {'r', "seed"},      {'g', "derive"},         {'R', "matrices"},
+              {'4', "ends"},       {'5', "restart"},   {'M', "markdown"},       {'A', "against"},
+              {'e', "error"},      {'t', "threads"},   {'D', "dense"},          {'X', "plant"},
+              {'T', "truths"},     {'W', "findings"},  {'Y', "scene"},          {'I', "built-in"},
+              {'B', "beside"},     {'m', "map"},       {'N', "doublings"},      {'0', "exit-zero"},
+              {'6', "tolerance"},  {'l', "tolerance"}, {'7', "not-worse-than"}, {'G', "gate"},
+              {'O', "to"},         {'H', "schema"},    {'E', "keys"},           {'Z', "shard"},
+              {'i', "into"},       {'C', "plan"},      {'b', "from"},           {'w', "partial"},
+              {'Q', "hash"},       {'p', "propose"},   {'u', "integrator"},     {'a', "step"},
+              {'3', "no-errors"},  {'1', "expected"}};
+
+const verb_option verb_help[] = {{"help", 'h', NULL, "this list", .traits = OPTION_ASIDE},
+                                 {"usage", 0, NULL, "the options in short", .traits = OPTION_ASIDE},
+                                 {0}};
+
+/* The i-th of an array, or i less those that it has. */
+static const verb_option *among(const verb_option *list, int *i)
+{
+    for (; list != NULL && list->name != NULL; list++)
+        if ((*i)-- == 0)
+            return list;
+    return NULL;
+}
+
+const verb_option *verb_option_at(const verb *v, int i, size_t *at)
+{
+    size_t here;
+    size_t *const where = at != NULL ? at : &here;
+    for (const verb_group *g = v->shared; g->group != NULL; g++) {
+        const verb_option *o = among(g->group->options, &i);
+        *where = g->member;
+        if (o != NULL)
+            return o;
+    }
+    *where = 0;
+    const verb_option *o = among(v->own, &i);
+    return o != NULL ? o : among(verb_help, &i);
+}
+
+static const verb_option *find_long(const verb *v, const char *name, size_t length, int *begun)
+{
+    const verb_option *o, *found = NULL;
+    *begun = 0;
+    for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
+        if (strncmp(o->name, name, length) == 0) {
+            found = o;
+            ++*begun;
+            if (o->name[length] == '\0') {
+                *begun = 1;
+                break;
+            }
+        }
+    return *begun == 1 ? found : NULL;
+}
+
+int verb_is_letter(const verb_option *o, char letter)
+{
+    for (size_t i = 0; i < sizeof former / sizeof former[0]; i++)
+        if (former[i].letter == letter && strcmp(former[i].name, o->name) == 0)
+            return 1;
+    return o->letter == letter;
+}
+
+const verb_option *verb_letter(const verb *v, char letter, size_t *at)
+{
+    const verb_option *o;
+    for (int i = 0; (o = verb_option_at(v, i, at)) != NULL; i++)
+        if (verb_is_letter(o, letter))
+            return o;
+    return NULL;
+}
+
+int verb_optional(const verb_option *o)
+{
+    return o->argument != NULL && o->argument[0] == '[';
+}
+
+const verb_option *verb_word(const verb *v, const char *word, const char **value, int *begun)
+{
+    const verb_option *o = NULL;
+    const char *letter = word + 1;
+    const size_t length = strcspn(word, "=");
+    *value = word[length] == '=' ? word + length + 1 : NULL;
+    if (word[1] == '-')
+        return find_long(v, word + 2, length - 2, begun);
+    while (*letter != '\0' && (o = verb_letter(v, *letter, NULL)) != NULL && o->argument == NULL)
+        letter++;
+    *begun = o != NULL;
+    *value = o == NULL ? letter : letter[0] != '\0' && letter[1] != '\0' ? letter + 1 : NULL;
+    return o;
+}
+
+const verb *verb_find(const verb *const *verbs, const char *name)
+{
+    for (; *verbs != NULL; verbs++)
+        if ((*verbs)->answer != NULL && strcmp((*verbs)->name, name) == 0)
+            return *verbs;
+    return NULL;
+}
+
+int verb_most_arguments(const char *arguments)
+{
+    int most = 1;
+    for (const char *at = arguments; *at != '\0'; at++)
+        most += *at == ' ';
+    return strstr(arguments, "...") != NULL ? COMMAND_MOST_WORDS : most;
+}
+
+const char *given_value(const command_line *l, const char *name)
+{
+    for (int i = l->givens - 1; i >= 0; i--)
+        if (strcmp(l->given[i].option->name, name) == 0)
+            return l->given[i].value != NULL ? l->given[i].value : "";
+    return NULL;
+}
+
+const given_option *given_next(const command_line *l, unsigned traits, int *i)
+{
+    while (*i < l->givens)
+        if ((l->given[(*i)++].option->traits & traits) != 0)
+            return &l->given[*i - 1];
+    return NULL;
+}
+
+static status add_text(const verb_option *o, text_list *list, const char *value, fault *f)
+{
+    const int most = o->most > 0 ? (int)o->most : COMMAND_MOST_WORDS;
+    for (int i = 0; (o->traits & OPTION_INPUT) != 0 && i < list->count; i++)
+        if (strcmp(list->text[i], value) == 0)
+            return fault_set(f, STATUS_REFUSED, "--%s %.200s is given twice; give it once", o->name,
+                             value);
+    if (list->count == most)
+        return fault_set(f, STATUS_REFUSED, "too many --%s; give at most %d", o->name, most);
+    list->text[list->count++] = value;
+    return STATUS_OK;
+}
+
+static status read_whole(const verb_option *o, int *out, const char *text, fault *f)
+{
+    char *end;
+    errno = 0;
+    const long value = text != NULL ? strtol(text, &end, 10) : o->most;
+    *out = (int)value;
+    return text != NULL && (end == text || *end != '\0' || errno != 0 || value < o->least ||
+                            value > o->most)
+               ? fault_set(f, STATUS_REFUSED, "--%s '%.40s': give a whole number from %ld to %ld",
+                           o->name, text, o->least, o->most)
+               : STATUS_OK;
+}
+
+status option_take(const verb_option *o, void *member, const char *value, fault *f)
+{
+    if (o->read != NULL)
+        return o->read(o, member, value, f);
+    if ((o->traits & OPTION_REPEATS) != 0)
+        return add_text(o, member, value, f);
+    if (o->most > 0)
+        return read_whole(o, member, value, f);
+    if (o->argument != NULL)
+        *(const char **)member = value;
+    else
+        *(int *)member = 1;
+    return STATUS_OK;
+}
+
+/* One of the list; returns where it ends, NULL: it is none. */
+static const char *parse_one(const char *at, double *out)
+{
+    char *end;
+    *out = strtod(at, &end);
+    if (end == at)
+        return NULL;
+    if (*end == '%') {
+        *out /= 100;
+        end++;
+    }
+    return (*end == ',' || *end == '\0') && *out > 0 && *out < 1 ? end : NULL;
+}
+
+status errors_parse(const char *text, int most, double level[], int *count, fault *f)
+{
+    const char *at = text;
+    *count = 0;
+    do {
+        at = *count < most ? parse_one(at, &level[*count]) : NULL;
+        if (at == NULL)
+            return fault_set(f, STATUS_REFUSED,
+                             "--error '%.60s': give at most %d between 0 and 100 %%, such as 1%%",
+                             text, most);
+        ++*count;
+    } while (*at++ == ',');
+    return STATUS_OK;
+}
+
+status option_error(const verb_option *o, void *member, const char *value, fault *f)
+{
+    const char *end = parse_one(value, member);
+    return end != NULL && *end == '\0'
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "--%s '%.60s': give one between 0 and 100 %%, such as 1%%", o->name,
+                           value);
+}
+
+static status read_format(const verb_option *o, void *member, const char *value, fault *f)
+{
+    (void)o;
+    *(const char **)member = value;
+    return strcmp(value, "text") == 0 || strcmp(value, "json") == 0 || strcmp(value, "csv") == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED, "--format: give text, json or csv");
+}
+
+static status read_meshes(const verb_option *o, void *member, const char *value, fault *f)
+{
+    (void)o;
+    mesh_list *list = member;
+    return meshes_parse(value, SCENE_MESHES, list->elements, &list->count, f);
+}
+
+static void begin_format(void *group, command_line *l)
+{
+    (void)l;
+    *(const char **)group = "text";
+}
+
+static void begin_jobs(void *group, command_line *l)
+{
+    (void)l;
+    *(int *)group = (int)sysconf(_SC_NPROCESSORS_ONLN);
+}
+
+static const verb_option output[] = {
+    {"output", 'o', "FILE", "write there instead of to standard output", .traits = OPTION_OUTPUT},
+    {0}};
+static const verb_option format[] = {{"format", 0, "text|json|csv",
+                                      "form of the output (default text)", .traits = OPTION_ASIDE,
+                                      .read = read_format},
+                                     {0}};
+static const verb_option selection[] = {
+    {"select", 'k', "EXPRESSION",
+     "words joined by and, or, not, in brackets where they belong together; looked for in "
+     "case/parameters/formulation/quantity, where a part of a name is enough; =NAME: the whole "
+     "name",
+     .traits = 0},
+    {0}};
+static const verb_option jobs[] = {{"jobs", 'j', "N", "processes (default: one for each processor)",
+                                    .traits = OPTION_ASIDE, .least = 1, .most = 64},
+                                   {0}};
+static const verb_option json[] = {{"json", 0, "FILE", "verdicts as JSON", .traits = OPTION_OUTPUT},
+                                   {0}};
+static const verb_option meshes[] = {
+    {"elements", 'n', "N[,N...]",
+     "elements per member; of each piece where loads begin, end or act within it",
+     .traits = OPTION_REPEATS, .read = read_meshes},
+    {0}};
+static const verb_option reports[] = {
+    {"junit", 0, "FILE", "verdicts as JUnit XML", offsetof(report_options, junit), OPTION_OUTPUT,
+     .read = NULL},
+    {"markdown", 0, "FILE", "summary as Markdown, for a pull request",
+     offsetof(report_options, markdown), OPTION_OUTPUT, .read = NULL},
+    {"propose", 0, "FILE", "findings that new formulations would need, as rows for a ledger (CSV)",
+     offsetof(report_options, propose), OPTION_OUTPUT, .read = NULL},
+    {0}};
+static const verb_option solver[] = {
+    {"keep-all", 0, NULL, "leave nothing out: same answer, more work",
+     .member = offsetof(solver_options, keep_all)},
+    {"threads", 0, "N",
+     "threads that share the loop over elements (default 1); results are the same",
+     .member = offsetof(solver_options, threads), .least = 1, .most = TEAM_MOST},
+    {0}};
+
+const option_group options_output = {output, NULL, NULL, NULL};
+const option_group options_format = {format, begin_format, NULL, NULL};
+const option_group options_select = {selection, NULL, NULL, NULL};
+const option_group options_jobs = {jobs, begin_jobs, NULL, NULL};
+const option_group options_json = {json, NULL, NULL, NULL};
+const option_group options_meshes = {meshes, NULL, NULL, NULL};
+const option_group options_reports = {reports, NULL, NULL, NULL};
+const option_group options_solver = {solver, NULL, NULL, NULL};
