@@ -66,7 +66,7 @@ static int others_take(const verb *const *verbs, const char *word)
     return 0;
 }
 
-/* begun: so many options begin so. No option of this verb may be one of another. */
+/* The verb has no such option; another verb may. begun: so many options begin so. */
 static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
                           fault *f)
 {
@@ -193,8 +193,8 @@ static int add_row(struct argp_option row[], int n, const verb_option *o, int in
     row[n++] = (struct argp_option){o->name,     FIRST_KEY + index,
                                     o->argument, verb_optional(o) ? OPTION_ARG_OPTIONAL : 0,
                                     o->help,     0};
-    for (char letter = '!'; letter <= '~'; letter++)
-        if (verb_is_letter(o, letter))
+    for (int letter = '!'; letter <= '~'; letter++)
+        if (verb_is_letter(o, (char)letter))
             row[n++] = (struct argp_option){
                 .key = letter, .flags = OPTION_ALIAS | (letter != o->letter ? OPTION_HIDDEN : 0)};
     return n;

@@ -54,11 +54,10 @@ static status find_scenes(const char *folder, glob_t *found, fault *f)
     const int failed = glob(pattern, 0, NULL, found);
     free(pattern);
     if (failed == GLOB_NOMATCH)
-        return fault_set(f, STATUS_REFUSED,
-                         "--scene %.200s: no *.yaml in that folder; give a scene file", folder);
-    return failed == 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "--scene %.200s: the folder cannot be read", folder);
+        return fault_set(f, STATUS_REFUSED, "%.200s: no *.yaml in that folder; give a scene file",
+                         folder);
+    return failed == 0 ? STATUS_OK
+                       : fault_set(f, STATUS_FAULT, "%.200s: the folder cannot be read", folder);
 }
 
 static status visit_folder(const char *folder, file_visit *visit, const void *context, fault *f)

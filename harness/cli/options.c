@@ -143,7 +143,7 @@ const given_option *given_next(const command_line *l, unsigned traits, int *i)
 static status add_text(const verb_option *o, text_list *list, const char *value, fault *f)
 {
     const int most = o->most > 0 ? (int)o->most : COMMAND_MOST_WORDS;
-    for (int i = 0; (o->traits & OPTION_INPUT) != 0 && i < list->count; i++)
+    for (int i = 0; (o->traits & (OPTION_INPUT | OPTION_ASIDE)) != 0 && i < list->count; i++)
         if (strcmp(list->text[i], value) == 0)
             return fault_set(f, STATUS_REFUSED, "--%s %.200s is given twice; give it once", o->name,
                              value);

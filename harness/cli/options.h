@@ -48,7 +48,7 @@ typedef struct command_line {
     const verb *verb, *const *verbs; /* this one; all, and NULL: for what another one takes */
     const char *argument[COMMAND_MOST_WORDS];
     int arguments;
-    given_option given[COMMAND_MOST_GIVEN];
+    given_option given[COMMAND_MOST_GIVEN + 1]; /* and --scene of an example */
     int givens;
 } command_line;
 

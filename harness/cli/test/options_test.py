@@ -24,7 +24,8 @@ class Words(ProgramTest):
             for name in re.findall(r"--([a-z-]+)\[?=[A-Za-z]", shown):
                 if name in LISTS:
                     continue
-                value = {"format": "text", "against": "beamw"}.get(name, "3")
+                value = {"format": "text", "against": "beamw", "error": "1%",
+                         "tolerance": "1%"}.get(name, "3")
                 self.refused(2, "given twice", verb, f"--{name}={value}", f"--{name}={value}")
                 seen += 1
         self.assertGreater(seen, 20)
