@@ -1,6 +1,12 @@
 # beamwork: verification and benchmark of three-dimensional beam finite elements.
 # Everything is built in $(BUILD); CC, CFLAGS and BUILD can be given on the command line.
 
+# DEBUG=1: for a debugger, beside the other build.
+ifdef DEBUG
+BUILD ?= build/debug
+CFLAGS ?= -O0 -g3
+PLAIN ?= -O0
+endif
 BUILD ?= build
 CFLAGS ?= -O3 -g
 PYTHON := /usr/bin/python3
@@ -60,7 +66,7 @@ include $(BUILD)/flags.mk
 endif
 
 .PHONY: help all verify test tests film newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants faults layers asan tidy format format-check check clean report truths FORCE
-.DEFAULT_GOAL := help
+.DEFAULT_GOAL := $(if $(DEBUG),all,help)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .SECONDARY:
@@ -76,10 +82,23 @@ verify: all ## judge every formulation on every case against the stored truths; 
 
 # What is fuzzed is compiled too: its own targets only run with clang.
 FUZZED := $(patsubst %.c,$(BUILD)/%.o,$(wildcard harness/tools/fuzz/*.c))
-tests: all library $(TESTS) $(FUZZED) $(PLANTED) ## build what make test runs
+tests: all library $(TESTS) $(FUZZED) $(PLANTED)
 
-test: tests needs-test layers ## run all tests; ends in "N passed, M failed" (and ", K skipped")
-	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" harness/tools/run_tests.sh $(BUILD)/logs $(sort $(PYTHON_TESTS)) $(TESTS)
+# T="WORD ...": tests whose file or folder has one of the words in its name; only those are built.
+named = $(sort $(foreach test,$(1),$(if $(strip $(foreach word,$(T),$(findstring $(word),$(test)))),$(test))))
+ifdef T
+CHOSEN := $(call named,$(TEST_SOURCES) $(filter %.py,$(PYTHON_TESTS)) $(wildcard $(addsuffix /*_test.py,$(filter-out %.py,$(PYTHON_TESTS)))))
+RUN := $(patsubst %.c,$(BUILD)/%,$(CHOSEN))
+$(if $(CHOSEN),,$(error No test has '$(T)' in the name of its file or folder))
+else
+RUN = $(sort $(PYTHON_TESTS)) $(TESTS)
+endif
+test: $(if $(T),all $(filter $(TESTS),$(RUN)) $(if $(filter harness/library/%.py,$(RUN)),library) $(if $(filter %/blind_spots_test.py,$(RUN)),$(PLANTED)),tests layers) needs-test ## run all tests, or those with words of T="WORD ..." in the name of their file or folder; V=1 shows what they print
+	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" SHOW="$(V)" harness/tools/run_tests.sh $(BUILD)/logs $(RUN)
+
+# For editors and clang's tools.
+compile_commands.json: FORCE
+	@$(MAKE) --no-print-directory -Bnk V=1 all tests | $(PYTHON) harness/tools/compile_commands.py >$@
 
 all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truths
 
@@ -222,7 +241,7 @@ check: ## everything CI runs: gcc and clang with warnings as errors, layout, tid
 	@.ci/run
 
 clean: ## remove what was built
-	@rm -rf $(BUILD)
+	@rm -rf $(BUILD) compile_commands.json
 
 $(BUILD)/flags.mk: harness/tools/dependencies.sh
 	@CC="$(CC)" harness/tools/dependencies.sh build "$@"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs every test program given and every file or folder of tests in Python, as many at once as there are processors,
 # and ends in one line: N passed, M failed[, K skipped].  A skipped test is named with what it needs: "SKIP name: needs chromium".
-# usage: run_tests.sh LOGDIR PROGRAM|FILE.py|FOLDER...
+# usage: [SHOW=1] run_tests.sh LOGDIR PROGRAM|FILE.py|FOLDER...     SHOW=1: with what they print
 set -u
 # One that hangs ends here [s]: far beyond what the longest takes on a slow machine with sanitizers.
 limit=1200
@@ -41,7 +41,7 @@ one() { # program, file or folder
         GSL_TEST_VERBOSE=1 timeout -k 30 $limit "$1" >"$log" 2>&1
         status=$?
     fi
-    told=$(tally "$name" "$log" $status) # in one piece
+    told=$([ -z "${SHOW:-}" ] || cat "$log.raw" 2>/dev/null || cat "$log"; tally "$name" "$log" $status) # in one piece
     echo "$told"
 }
 

@@ -1,7 +1,9 @@
 """What each command asks of a machine, and how the runner counts: with a machine that has
 nothing, and with tests that are made up."""
+import json
 import os
 import pathlib
+import re
 import subprocess
 import textwrap
 import unittest
@@ -128,13 +130,14 @@ class Runner(Folder):
         text = f"import unittest\n\n\nclass T(unittest.TestCase):\n{body}\n"
         (package / "made_up_test.py").write_text(text, encoding="ascii")
 
-    def run_tests(self, *programs, python=("room", )):
+    def run_tests(self, *programs, python=("room", ), show=""):
         return subprocess.run(
             [TOOLS / "run_tests.sh", self.folder / "logs", *programs, *python],
             capture_output=True,
             text=True,
             check=False,
-            cwd=self.folder)
+            cwd=self.folder,
+            env=os.environ | {"SHOW": show})
 
     def test_counts(self):
         self.script("a_test", "echo PASS: one; echo PASS: two")
@@ -169,6 +172,14 @@ class Runner(Folder):
         done = self.run_tests(python=("room/made_up_test.py", ))
         self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "1 passed, 0 failed"))
         self.assertEqual(self.run_tests(python=("room/other_test.py", )).returncode, 1)
+
+    def test_shows_what_they_print(self):
+        self.script("a_test", "echo PASS: one; echo here")
+        self.tests("def test_good(self):", "    print('\\nthere')")
+        for show in ("", "1"):
+            lines = self.run_tests(self.folder / "a_test", show=show).stdout.splitlines()
+            self.assertEqual([word for word in ("here", "there") if word in lines],
+                             ["here", "there"] if show else [])
 
     def test_class_that_is_skipped(self):
         self.tests("@classmethod", "def setUpClass(cls):",
@@ -359,6 +370,49 @@ class Make(Folder):
                          ["slow", "quick"])
         self.assertEqual([line.split()[0] for line in self.make("quick", "slow")[:2]],
                          ["quick", "slow"])
+
+    def chosen(self, words):
+        """Tests that make test T=words runs."""
+        told = self.make("-n", "test", f"T={words}", f"BUILD={self.folder}")
+        runs = [line.split("/logs ")[1].split() for line in told if "run_tests.sh" in line]
+        self.assertEqual(len(runs), 1)
+        return [test.removeprefix(f"{self.folder}/") for test in runs[0]], told
+
+    def test_tests_by_words_of_their_names(self):
+        tests, told = self.chosen("rounding_ truths")
+        self.assertEqual([name for name in tests if not re.search("rounding_|truths", name)], [])
+        self.assertIn("harness/study/test/rounding_test", tests)
+        self.assertTrue(any("/rounding_test" in line and " -o " in line for line in told))
+        self.assertFalse(any("study/test/limit_test" in line for line in told))
+        self.assertIn("reference/test/pack_test.py", self.chosen("reference/")[0])
+        self.assertTrue(all("numerics" in name for name in self.chosen("numerics")[0]))
+
+    def test_no_test_has_the_word(self):
+        with self.assertRaises(subprocess.CalledProcessError) as said:
+            self.make("-n", "test", "T=nosuchword")
+        self.assertIn("'nosuchword'", said.exception.stderr)
+
+    def test_debug(self):
+        name = "build/debug/elements/beamw/lanes.o"
+        told = "\n".join(self.make("-Bn", "DEBUG=1", "V=1", name))
+        self.assertRegex(told, f" -O0 -g3 -O0 .*-o {name}")
+
+    def test_compile_commands(self):
+        """One for each source, and one for each test; what it says compiles."""
+        told = self.make("-Bnk", "V=1", "QUIET=", f"BUILD={self.folder}", "all", "tests")
+        done = subprocess.run(["/usr/bin/python3", TOOLS / "compile_commands.py"],
+                              input="\n".join(told), text=True, capture_output=True, check=True,
+                              cwd=ROOT)
+        entries = {entry["output"]: entry for entry in json.loads(done.stdout)}
+        for name in ("elements/beamw/lanes", "harness/cli/main", "harness/study/test/rounding_test"):
+            self.assertEqual(entries[f"{self.folder}/{name}.o"]["file"], f"{name}.c")
+        sources = {str(path.relative_to(ROOT)) for path in (ROOT / "harness").rglob("*.c")}
+        self.assertEqual([path for path in sources - {entry["file"] for entry in entries.values()}
+                          if "/test/" not in path], [])
+        one = entries[f"{self.folder}/harness/formulations/environment.o"]
+        self.assertEqual(one["directory"], str(ROOT))
+        pathlib.Path(one["output"]).parent.mkdir(parents=True)
+        subprocess.run(one["command"], shell=True, check=True, cwd=one["directory"])
 
 if __name__ == "__main__":
     unittest.main()

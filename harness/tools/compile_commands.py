@@ -1,0 +1,18 @@
+"""compile_commands.json of what make says that it would run: make -Bnk V=1 all tests | this."""
+import json
+import os
+import re
+import sys
+
+COMPILED = re.compile(r"\s-c (?P<file>\S+\.c) -o (?P<output>\S+)(\s|$)")
+
+
+def commands(lines, folder):
+    """An entry for each line that compiles a source; the program's name may be the first word."""
+    return [{"directory": folder, "command": line.strip(), **found.groupdict()}
+            for line in lines if (found := COMPILED.search(line))]
+
+
+if __name__ == "__main__":
+    json.dump(commands(sys.stdin, os.getcwd()), sys.stdout, indent=1)
+    print()
