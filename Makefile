@@ -53,26 +53,28 @@ KIT := $(KIT_SOURCES:%.c=$(BUILD)/%.o)
 # All processors, unless -j says otherwise; what is named together is made in that order, and clean comes before all else.
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc)
-ifneq ($(and $(filter clean,$(MAKECMDGOALS)),$(word 2,$(MAKECMDGOALS))),)
+ifneq ($(and $(if $(MAKE_RESTARTS),,1),$(filter clean,$(MAKECMDGOALS)),$(word 2,$(MAKECMDGOALS))),)
 $(shell rm -rf "$(BUILD)")
 endif
 in_order = $(if $(word 2,$(1)),$(eval $(word 2,$(1)): | $(word 1,$(1)))$(call in_order,$(wordlist 2,$(words $(1)),$(1))))
 $(call in_order,$(MAKECMDGOALS))
 endif
 
-QUIET := $(filter help clean format format-check mutants faults,$(or $(MAKECMDGOALS),help))
+# Where nothing is compiled here, the compiler's part is not looked for.
+QUIET := $(if $(filter-out help clean format format-check $(if $(filter-out mutants faults,$(L)),,lab),$(or $(MAKECMDGOALS),$(if $(DEBUG),all,help))),,1)
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test tests film newton stress bench prices bench-check bench-mechanisms bench-elements causes mutants faults layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify test tests stress bench layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := $(if $(DEBUG),all,help)
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .SECONDARY:
 
 help: ## this list
-	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "make %-9s %s\n", $$1, $$2}' Makefile harness/library/packaging/install.mk
+	@echo "make lab       measurements and experiments: a list; CONTRIBUTING.md names the parts of make check"
 
 # Errors of every mesh are held against the committed ones where LAPACK and libm are theirs; NOT_WORSE= leaves that out.
 NOT_WORSE ?= $(if $(filter 12.%,$(shell cat /etc/debian_version 2>/dev/null)),--not-worse-than $(BASELINE))
@@ -110,61 +112,23 @@ $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE beside it
 ifndef RESULTS
 	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
-	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory newton
-	@test $(BUILD)/elements.json -nt $(PROGRAM) || $(MAKE) --no-print-directory certificates >/dev/null
+	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-newton
+	@test $(BUILD)/elements.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-certificates >/dev/null
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
-film: all needs-report ## a motion of RESULTS=FILE.h5 (of several: CASE=NAME) as one HTML file that any browser plays: build/film_FILE.html
-	@test -n "$(RESULTS)" || { echo "make film: give RESULTS=FILE.h5, of 'beamwork solve CASE --shapes -o FILE.h5'" >&2; exit 2; }
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(RESULTS)" $(TRUTHS) --film $(BUILD)/film_$(basename $(notdir $(RESULTS))).html $(if $(CASE),-k "$(CASE)")
-
-newton: all ## the two forms of Newton's method side by side, for the report; build/newton.json
-	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
-
-.PHONY: certificates
-# Its status 1 says that a contract is broken, which the report tells.
-certificates: all ## hold every formulation against the interface, and measure what a paper should print; build/elements.json
-	@$(PROGRAM) element-test all --json $(BUILD)/elements.json || [ $$? = 1 ]
-
-stress: all ## drive every formulation to extremes; a table, and build/stress.json
+# Drives every formulation to extremes.
+stress: all
 	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)
 
 .PHONY: motion
-motion: all ## integrators of motions in time: orders, what they conserve, large steps; build/motion.json
+# Integrators of motions in time: orders, what they conserve, large steps.
+motion: all
 	@$(PROGRAM) motion --expected harness/experiments/expected.csv --time-limit 0 --json $(BUILD)/motion.json $(MOTION)
-
-.PHONY: paces
-paces: all ## integrators on all cases of motion with all formulations, for profiles in the report; the reference held against another integrator; a minute; build/paces.json
-	@$(PYTHON) harness/tools/paces.py $(PROGRAM) -o $(BUILD)/paces.json $(PACES)
 
 bench: all ## time every formulation on every case into build/bench.h5
 	@$(PROGRAM) bench -o $(BUILD)/bench.h5
-
-prices: all needs-report ## what counted work costs, fitted to measured times: five minutes on a quiet machine; harness/study/prices.csv
-	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/study/prices.csv
-
-.PHONY: expense
-expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; harness/study/expense.csv
-	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv
-
-bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense reference
-	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
-	@$(PROGRAM) bench hexapod -f sheet_third -f sheet_second -f collocation -n 1,2 --dense -o $(BUILD)/mechanisms_hexapod.h5
-
-bench-check: all ## plant work of known size: comparisons must find it, and nothing else
-	@$(PYTHON) harness/tools/bench_check.py $(PROGRAM) -o $(BUILD)/bench_check.json
-
-bench-elements: all $(BUILD)/harness/model/test/element_time ## microseconds per element of every formulation
-	@$(BUILD)/harness/model/test/element_time
-
-$(BUILD)/harness/model/test/element_time: $(BUILD)/harness/model/test/element_time.o $(KIT) $(LIBRARY)
-	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
-
-.PHONY: instructions
-instructions: all ## what limits now: instructions of the parts of a solution beside the least thinkable; build/instructions.json; needs valgrind
-	@$(PYTHON) harness/tools/instructions.py $(PROGRAM) -o $(BUILD)/instructions.json
 
 # A former run shows change, never truth.
 .PHONY: compare baseline
@@ -184,54 +148,24 @@ truths: needs-truths all ## derive every exact and predicted row again, and soli
 	@$(PYTHON) reference/derive/rederive.py
 	@$(PYTHON) reference/derive/predicted.py
 
-.PHONY: motions
-motions: needs-truths all ## every stored value of motions in time beside limits of meshes, at all times, build/motions.csv: two minutes of one processor; MOTIONS=--fine: finer ones, longer
-	@$(PYTHON) harness/tools/motions.py $(PROGRAM) $(MOTIONS) -o $(BUILD)/motions.csv
-
-causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes, for the report: ten minutes at most; build/causes.json
-	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
-	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
-	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
-
-.PHONY: blind-spots
-blind-spots: verify $(PLANTED) ## the smallest fault in each stiffness, mass and load that the gate notices, by quantity and by formulation: ten minutes of one processor; harness/blind_spots.csv, harness/planted_faults.csv
-	@BEAMWORK_TRUTHS=$(TRUTHS) $(PYTHON) harness/tools/blind_spots.py $(PLANTED) $(BUILD)/verify.json $(BUILD)/results.h5 reference/findings.csv -o harness/blind_spots.csv -p harness/planted_faults.csv
-
-.PHONY: engines
-# Installs nothing: an engine that is not there is skipped by name.
-engines: all ## run shards by Slurm, mpirun, GNU parallel and Snakemake, killed, out of disk, damaged; needs what is installed of them; build/engines.json
-	@$(PYTHON) -B -m harness.tools.cluster.engines $(PROGRAM) -o $(BUILD)/engines.json $(ENGINES)
-
-mutants: ## plant faults one by one; each must be noticed
-	@harness/tools/mutants.sh $(BUILD)/mutants
-
-faults: ## plant one-edit faults that are made, a fixed sample of all sources; FAULTS=HEAD~1.. on lines that commits touched, FAULTS='--count 500' more; build/faults.json
-	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/faults.py $(FAULTS) >$(BUILD)/faults.list
-	@LIST=$(BUILD)/faults.list harness/tools/mutants.sh $(BUILD)/faults
-
-.PHONY: fuzz
-fuzz: all ## any bytes as every input the program reads (clang's libFuzzer)
-	@harness/tools/fuzz.sh $(BUILD)
-
-.PHONY: valgrind
-valgrind: all ## a small selection of verify, and a thousand cycles of the library, under valgrind
-	@harness/tools/valgrind.sh $(BUILD)
-
-layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) ## check that includes point down only and no files call each other in circles
+# Includes point down only, and no files call each other in circles.
+layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o)
 	@harness/tools/layers.sh $^
 
 # In C all of them, in Python those that give the program what its readers cannot trust; all: ASAN_PYTHON='$(PYTHON_TESTS)'.
 # Without what only walks through all cases once more, or the ways of consistent_test on finer meshes.
 ASAN_WITHOUT ?= harness/analysis/test/invariants_test harness/time/test/consistent_mesh_test
 ASAN_PYTHON ?= $(filter harness/cli/test/completion_test.py harness/cli/test/shells_test.py harness/records/test/files_test.py harness/records/test/frames_test.py harness/records/test/matrices_test.py harness/records/test/schema_test.py harness/exchange/test/import_test.py harness/formulations/test/% cases/format/test/%,$(PYTHON_TESTS))
-asan: ## tests under the address and undefined-behaviour sanitizers: those in C, and those of the readers
+# Under the address and undefined-behaviour sanitizers: tests in C, and those of the readers.
+asan:
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PLAIN=-O0 PYTHON_TESTS="$(ASAN_PYTHON)" TEST_SOURCES="$(filter-out $(ASAN_WITHOUT:%=%.c),$(TEST_SOURCES))" test
 
 # One version, that both Debian 12 and 13 have (harness/tools/dependencies.sh): others lay out and find otherwise.
-tidy: needs-layout ## clang-tidy, findings are errors
+tidy: needs-layout
 	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy-19 --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
 
-format: needs-layout ## rewrite the C sources in the house's layout
+# Rewrites the C sources in the house's layout.
+format: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 -i
 
 format-check: needs-layout
@@ -332,6 +266,7 @@ $(TRUTHS): $(wildcard reference/tables/*.csv reference/predicted/*.csv reference
 	@mkdir -p $(@D)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) reference/pack.py -o $@
 
+include harness/tools/lab.mk
 include harness/library/library.mk
 include harness/library/packaging/packaging.mk
 include harness/library/packaging/install.mk

@@ -1,4 +1,4 @@
-"""Experiments on the causes of the ledger, which `make causes` leaves beside the results."""
+"""Experiments on the causes of the ledger, which `make lab L=causes` leaves beside the results."""
 import functools
 
 from reports import data

@@ -109,7 +109,7 @@ def interval(slow, fast):
 
 
 def baseline(site):
-    """The joint and the hexapod with the dense baseline, where 'make bench-mechanisms' wrote them beside the results."""
+    """The joint and the hexapod with the dense baseline, where 'make lab L=bench-mechanisms' wrote them beside the results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [

@@ -8,22 +8,22 @@ OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
 # (command of make, files that it leaves beside the results, what they add)
 ADDS = (
     ("bench", ("bench.h5", ), "times with their noise"),
-    ("bench-check", ("bench_check.json", ), "planted work that the times must show"),
-    ("bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
+    ("lab L=bench-check", ("bench_check.json", ), "planted work that the times must show"),
+    ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
      "times of the joint and the hexapod beside the published ones"),
-    ("causes", ("causes.json", ), "experiments on the causes of the ledger"),
-    ("certificates", ("elements.json", ), "what each formulation keeps of its interface, and can do"),
-    ("newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
+    ("lab L=causes", ("causes.json", ), "experiments on the causes of the ledger"),
+    ("lab L=certificates", ("elements.json", ), "what each formulation keeps of its interface, and can do"),
+    ("lab L=newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
     ("stress", ("stress.json", ), "every formulation at its extremes"),
     ("motion", ("motion.json", ), "integrators of motions: orders, what they conserve, large steps"),
-    ("paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
-    ("mutants", ("mutants.json", ), "planted faults"),
-    ("fuzz", ("fuzz.json", ), "any bytes as input"),
+    ("lab L=paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
+    ("lab L=mutants", ("mutants.json", ), "planted faults"),
+    ("lab L=fuzz", ("fuzz.json", ), "any bytes as input"),
 )
 
 
 def planted(site):
-    """Rows of make bench-check beside the results, or []."""
+    """Rows of make lab L=bench-check beside the results, or []."""
     path = pathlib.Path(site.results).parent / "bench_check.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
 

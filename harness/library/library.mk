@@ -6,7 +6,8 @@ LIBRARY_DOORS := $(patsubst %.c,$(BUILD)/%.o,$(sort $(wildcard harness/library/*
 EXPORTS := harness/library/exports.map
 
 .PHONY: library
-library: $(SHARED) $(STATIC) $(TRUTHS) ## the C library: build/libbeamwork.so.0, build/static/libbeamwork.a
+# The C library: build/libbeamwork.so.0, build/static/libbeamwork.a.
+library: $(SHARED) $(STATIC) $(TRUTHS)
 
 $(SHARED): $(LIBRARY_DOORS) $(LIBRARY) $(EXPORTS)
 	$(call SAY,link $@)$(CC) $(CFLAGS) -shared -Wl,-soname,$(@F) -Wl,--version-script=$(EXPORTS) -o $@ $(LIBRARY_DOORS) $(LIBRARY) $(LDFLAGS) $(DEP_LIBS)
@@ -18,11 +19,12 @@ $(STATIC): $(LIBRARY_DOORS) $(LIBRARY)
 	@rm -f $@ && $(AR) rcs $@ $(@D)/beamwork.o
 
 .PHONY: abi
-abi: $(SHARED) ## is the C interface still the committed one? ACCEPT=1: it is the new one
+# Is the C interface still the committed one? ACCEPT=1: it is the new one.
+abi: $(SHARED)
 	@harness/library/abi.sh $(SHARED) $(if $(ACCEPT),accept)
 
 # Made and freed a thousand times, for valgrind.
 CYCLES := $(BUILD)/harness/library/test/cycles
-valgrind: $(CYCLES)
+lab-valgrind: $(CYCLES)
 $(CYCLES): $(CYCLES).o $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

@@ -1,6 +1,6 @@
 /* What cells cost, before they are solved: prices of what their analyses do, fitted to counted work
- * (`make expense`, harness/study/expense.csv). The order of work, batches and shards rest on it, no
- * answer does. */
+ * (`make lab L=expense`, harness/study/expense.csv). The order of work, batches and shards rest on
+ * it, no answer does. */
 #ifndef BEAMWORK_EXPENSE_H
 #define BEAMWORK_EXPENSE_H
 

@@ -12,7 +12,7 @@ int missed_rules(const sweep *s, truths *t, int whole);
 
 /* Counts the truths that a whole run has not judged by: unmet, waiting and unread. What is unread
  * counts as met (truth.met) and is not judged: a run takes a motion at few of the instants and
- * structures that its quantities are known at, `make motions` at all. */
+ * structures that its quantities are known at, `make lab L=motions` at all. */
 void missed_truths(const sweep *s, truths *t, judgement *out);
 
 #endif

@@ -2,9 +2,10 @@
  * every machine, and so is what they cost: formulations are ranked by it, not by the noise of
  * times.
  *
- * Prices are fitted once to measured times (`make prices`) and kept in harness/study/prices.csv,
- * of which the build makes the table. Where a formulation has no prices of its own, those hold that
- * all formulations have in common ("*"), by the number of its strains. */
+ * Prices are fitted once to measured times (`make lab L=prices`) and kept in
+ * harness/study/prices.csv, of which the build makes the table. Where a formulation has no prices
+ * of its own, those hold that all formulations have in common ("*"), by the number of its strains.
+ */
 #ifndef BEAMWORK_PRICE_H
 #define BEAMWORK_PRICE_H
 

@@ -171,7 +171,7 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
         fprintf(to,
                 "%d truths of motions, at times and of structures that are not run here, are "
                 "checked by "
-                "make motions\n",
+                "make lab L=motions\n",
                 j->unread);
     if (contradicted > 0)
         fprintf(

@@ -1,5 +1,5 @@
 """What a cell is expected to cost before it is solved, fitted to the counted work of cells that
-were solved (`make expense`; the file of the last `make verify`).
+were solved (`make lab L=expense`; the file of the last `make verify`).
 
 Cost [s] = sum over what an analysis does of times * (once * o + element * e * elements), elements
 of all members together. `once` and `element` belong to the kind of work, the factors o and e to the
@@ -148,7 +148,7 @@ def write(path, cells):
         ("measured time by expected", predict(cells, prices, factors),
          np.array([c["seconds"] for c in cells])))]
     lines = [
-        "# Expected seconds of a cell on the reference machine, written by `make expense`.",
+        "# Expected seconds of a cell on the reference machine, written by `make lab L=expense`.",
         "# work: seconds for each time that it is due, once and for each element; formulation:"
         " factors of both.",
         f"# {len(cells)} cells of {len({c['case'] for c in cells})} cases; factor in the median,"

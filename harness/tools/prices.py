@@ -1,4 +1,4 @@
-"""What counted work costs: prices of counts, fitted to measured times (`make prices`).
+"""What counted work costs: prices of counts, fitted to measured times (`make lab L=prices`).
 
 The defaults of every case run several times, one process, the formulations in turn; the least time
 of a cell counts. Prices are fitted by least squares of relative errors, none below zero; large
@@ -170,7 +170,7 @@ def write(path, cells, names, runs):
     prices = fit(cells, names)
     any_prices = fit(cells, [], {k: p for k, p in prices.items() if k[0] == ""})
     said = [
-        "# Seconds of one count on the reference machine, written by `make prices`. Count: a column"
+        "# Seconds of one count on the reference machine, written by `make lab L=prices`. Count: a column"
         " of the table `cells`, or a product of two.",
         "# formulation empty: of all; *: of those without prices of their own; `;` between options.",
         f"# {len(cells)} cells of {len({c['case'] for c in cells})} cases, least of {runs} runs;"

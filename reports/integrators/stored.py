@@ -1,5 +1,5 @@
 """What `beamwork motion --json` wrote, as plain records: motions by integrators with steps and
-tolerances; and `make paces`, the same of every case of motion."""
+tolerances; and `make lab L=paces`, the same of every case of motion."""
 import json
 import math
 import os
@@ -175,7 +175,7 @@ class Check:
 @dataclass
 class Record:
     """verdicts: rows of what is judged against what is expected. compared: problems on which
-    integrators are compared, every case of motion where `make paces` ran them; left_out:
+    integrators are compared, every case of motion where `make lab L=paces` ran them; left_out:
     {(case, formulation): why it is not run}."""
 
     problems: list

@@ -16,7 +16,7 @@ class Page(ProgramTest):
         self.assertIn("9.77", page)
         self.assertNotIn("time here", page)
         about = (self.folder / "site" / "environment.html").read_text(encoding="utf-8")
-        self.assertIn("make bench-mechanisms", about)
+        self.assertIn("make lab L=bench-mechanisms", about)
 
     def test_with_times(self):
         """The time of the dense baseline and the parts of an iteration are there."""

@@ -86,7 +86,7 @@ def record(cases=("pendulum", "free_flight_space"),
 
 
 def paces():
-    """The same of three cases, as `make paces` writes it: a check that was possible, and one not."""
+    """The same of three cases, as `make lab L=paces` writes it: a check that was possible, and one not."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
     refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}

@@ -138,7 +138,7 @@ class Report(ProgramTest):
                 self.assertNotRegex(text, "then <code>make report|hold no ", page.name)
         about = (self.site / "environment.html").read_text(encoding="utf-8")
         self.assertIn("<code>make stress</code>", about)
-        self.assertNotIn("<code>make causes</code>", about)  # it has left its file
+        self.assertNotIn("<code>make lab L=causes</code>", about)  # it has left its file
 
     def test_bar(self):
         """Short, and it says where the reader is: also on pages of cases and of formulations."""

@@ -19,6 +19,7 @@ install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/
 	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		VERSION="$(VERSION)" LIBS="$(DEP_LIBS)" harness/library/packaging/install.sh "$(BUILD)"
 
-uninstall: ## remove what install wrote, with the same DESTDIR and PREFIX
+# Remove what install wrote, with the same DESTDIR and PREFIX.
+uninstall:
 	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		harness/library/packaging/uninstall.sh

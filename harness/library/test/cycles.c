@@ -1,5 +1,5 @@
 /* Scenes, solutions and documents made and freed again and again: cycles COUNT. Prints the bytes in
- * use after a tenth of them, and at the end; run by valgrind too (make valgrind). */
+ * use after a tenth of them, and at the end; run by valgrind too (make lab L=valgrind). */
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>

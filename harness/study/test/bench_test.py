@@ -1,5 +1,5 @@
 """The verb bench: rows, refusals, comparison of two contestants. Times themselves are not
-asserted: see make bench-check."""
+asserted: see make lab L=bench-check."""
 import csv
 import io
 import re

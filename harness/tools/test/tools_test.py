@@ -371,6 +371,31 @@ class Make(Folder):
         self.assertEqual([line.split()[0] for line in self.make("quick", "slow")[:2]],
                          ["quick", "slow"])
 
+    def test_clean_before_all_else(self):
+        """And yet with what the compiler needs."""
+        told = self.make("-n", "V=1", "QUIET=", f"BUILD={self.folder}/b", "clean", "all")
+        compiled = [line for line in told if line.endswith("-c harness/cli/main.c -o "
+                                                           f"{self.folder}/b/harness/cli/main.o")]
+        self.assertIn("hdf5", "".join(compiled))
+
+    def test_few_targets_for_people(self):
+        told = [line.split() for line in self.make("help") if line]
+        self.assertEqual({words[1] for words in told}, {
+            "all", "verify", "test", "report", "bench", "compare", "baseline", "check", "truths",
+            "install", "clean", "help", "lab"})
+
+    def test_laboratory(self):
+        """Listed, run in the order that is asked for; what is not there is refused."""
+        listed = [line.split(maxsplit=3)[2:] for line in self.make("lab") if line]
+        names = [name.removeprefix("L=") for name, _ in listed]
+        self.assertIn("motions", names)
+        self.assertTrue(all(re.search("second|minute|hour", what) for _, what in listed))
+        told = "\n".join(self.make("-n", "lab", "L=paces newton"))
+        self.assertLess(told.index("tools/paces.py"), told.index("tools/newton.py"))
+        with self.assertRaises(subprocess.CalledProcessError) as said:
+            self.make("lab", "L=newton nothing")
+        self.assertIn("there is no nothing", said.exception.stderr)
+
     def chosen(self, words):
         """Tests that make test T=words runs."""
         told = self.make("-n", "test", f"T={words}", f"BUILD={self.folder}")

@@ -1,0 +1,73 @@
+# The laboratory: make lab lists it, make lab L="NAME ..." runs it. What the report draws is left beside the results, all else in $(LAB).
+LAB := $(BUILD)/lab
+LABS := $(shell sed -n 's/^lab-\([a-z-]*\):.*## .*/\1/p' harness/tools/lab.mk)
+$(if $(filter-out $(LABS),$(L)),$(error make lab: there is no $(filter-out $(LABS),$(L)); 'make lab' lists what there is))
+ifeq ($(MAKELEVEL),0)
+$(call in_order,$(L:%=lab-%))
+endif
+
+.PHONY: lab $(LABS:%=lab-%)
+lab: $(L:%=lab-%)
+	@$(if $(L),:,awk -F':.*## ' '/^lab-[a-z-]+:.*## /{printf "make lab L=%-17s %s\n", substr($$1, 5), $$2}' harness/tools/lab.mk)
+
+lab-bench-check: all ## plants work of known size: comparisons must find it, and nothing else; 2 minutes; build/bench_check.json
+	@$(PYTHON) harness/tools/bench_check.py $(PROGRAM) -o $(BUILD)/bench_check.json
+
+ELEMENT_TIME := $(BUILD)/harness/model/test/element_time
+lab-bench-elements: all $(ELEMENT_TIME) ## microseconds per element of every formulation; seconds; a table
+	@$(ELEMENT_TIME)
+
+$(ELEMENT_TIME): $(ELEMENT_TIME).o $(KIT) $(LIBRARY)
+	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
+
+lab-bench-mechanisms: all ## joint and hexapod: growth with the elements, parts of an iteration, the dense reference; a minute; build/mechanisms_*.h5
+	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
+	@$(PROGRAM) bench hexapod -f sheet_third -f sheet_second -f collocation -n 1,2 --dense -o $(BUILD)/mechanisms_hexapod.h5
+
+lab-blind-spots: verify $(PLANTED) ## the smallest fault in each stiffness, mass and load that the gate notices, by quantity and by formulation; 10 minutes; harness/blind_spots.csv, harness/planted_faults.csv
+	@BEAMWORK_TRUTHS=$(TRUTHS) $(PYTHON) harness/tools/blind_spots.py $(PLANTED) $(BUILD)/verify.json $(BUILD)/results.h5 reference/findings.csv -o harness/blind_spots.csv -p harness/planted_faults.csv
+
+lab-causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes; 10 minutes; build/causes.json
+	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
+	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
+	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
+
+# Its status 1 says that a contract is broken, which the report tells.
+lab-certificates: all ## holds every formulation against the interface, and measures what a paper should print; a second; build/elements.json
+	@$(PROGRAM) element-test all --json $(BUILD)/elements.json || [ $$? = 1 ]
+
+lab-expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; 2 minutes; harness/study/expense.csv
+	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv
+
+lab-faults: ## plants one-edit faults that are made, a fixed sample of all sources; FAULTS=HEAD~1.. on lines that commits touched, FAULTS='--count 500' more; an hour; build/faults.json
+	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/faults.py $(FAULTS) >$(BUILD)/faults.list
+	@LIST=$(BUILD)/faults.list harness/tools/mutants.sh $(BUILD)/faults
+
+lab-film: all needs-report ## a motion of RESULTS=FILE.h5 (of several: CASE=NAME) as one HTML file that any browser plays; seconds; build/lab/film_FILE.html
+	@test -n "$(RESULTS)" || { echo "make lab L=film: give RESULTS=FILE.h5, of 'beamwork solve CASE --shapes -o FILE.h5'" >&2; exit 2; }
+	@mkdir -p $(LAB)
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(RESULTS)" $(TRUTHS) --film $(LAB)/film_$(basename $(notdir $(RESULTS))).html $(if $(CASE),-k "$(CASE)")
+
+lab-fuzz: all ## any bytes as every input the program reads (clang's libFuzzer); 20 minutes; build/fuzz.json
+	@harness/tools/fuzz.sh $(BUILD)
+
+lab-instructions: all ## what limits now: instructions of the parts of a solution beside the least thinkable; needs valgrind; minutes; build/lab/instructions.json
+	@mkdir -p $(LAB) && $(PYTHON) harness/tools/instructions.py $(PROGRAM) -o $(LAB)/instructions.json
+
+lab-motions: needs-truths all ## every stored value of motions in time beside limits of meshes, at all times; MOTIONS=--fine: finer ones, longer; 2 minutes; build/lab/motions.csv
+	@mkdir -p $(LAB) && $(PYTHON) harness/tools/motions.py $(PROGRAM) $(MOTIONS) -o $(LAB)/motions.csv
+
+lab-mutants: ## plants faults one by one; each must be noticed; hours; build/mutants.json
+	@harness/tools/mutants.sh $(BUILD)/mutants
+
+lab-newton: all ## the two forms of Newton's method side by side; 20 seconds; build/newton.json
+	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
+
+lab-paces: all ## integrators on all cases of motion with all formulations, the reference held against another integrator; a minute; build/paces.json
+	@$(PYTHON) harness/tools/paces.py $(PROGRAM) -o $(BUILD)/paces.json $(PACES)
+
+lab-prices: all needs-report ## what counted work costs, fitted to measured times on a quiet machine; 5 minutes; harness/study/prices.csv
+	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/study/prices.csv
+
+lab-valgrind: all ## a small selection of verify, and a thousand cycles of the library, under valgrind; 10 minutes
+	@harness/tools/valgrind.sh $(BUILD)
