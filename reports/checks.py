@@ -97,7 +97,7 @@ def write(site):
         coverage=coverages(site.cases),
         kinds=site.kinds,
         noticed=noticed(site.cases),
-        mutants=stored(site, "mutants.json"),
+        mutants=stored(site, "faults.json"),
         fuzz=stored(site, "fuzz.json"),
     )
 

@@ -17,7 +17,7 @@ ADDS = (
     ("stress", ("stress.json", ), "every formulation at its extremes"),
     ("motion", ("motion.json", ), "integrators of motions: orders, what they conserve, large steps"),
     ("lab L=paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
-    ("lab L=mutants", ("mutants.json", ), "planted faults"),
+    ("lab L=faults", ("faults.json", ), "planted faults"),
     ("lab L=fuzz", ("fuzz.json", ), "any bytes as input"),
 )
 

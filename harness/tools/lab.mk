@@ -39,8 +39,8 @@ lab-certificates: all ## holds every formulation against the interface, and meas
 lab-expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; 2 minutes; harness/study/expense.csv
 	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv
 
-lab-faults: ## plants one-edit faults that are made, a fixed sample of all sources; FAULTS=HEAD~1.. on lines that commits touched, FAULTS='--count 500' more; an hour; build/faults.json
-	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/faults.py $(FAULTS) >$(BUILD)/faults.list
+lab-faults: ## plants the faults of physics of harness/tools/faults.csv one by one; each must be noticed; 20 minutes; build/faults.json
+	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/mutate.py --physics >$(BUILD)/faults.list
 	@LIST=$(BUILD)/faults.list harness/tools/mutants.sh $(BUILD)/faults
 
 lab-film: all needs-report ## a motion of RESULTS=FILE.h5 (of several: CASE=NAME) as one HTML file that any browser plays; seconds; build/lab/film_FILE.html
@@ -57,8 +57,9 @@ lab-instructions: all ## what limits now: instructions of the parts of a solutio
 lab-motions: needs-truths all ## every stored value of motions in time beside limits of meshes, at all times; MOTIONS=--fine: finer ones, longer; 2 minutes; build/lab/motions.csv
 	@mkdir -p $(LAB) && $(PYTHON) harness/tools/motions.py $(PROGRAM) $(MOTIONS) -o $(LAB)/motions.csv
 
-lab-mutants: ## plants faults one by one; each must be noticed; hours; build/mutants.json
-	@harness/tools/mutants.sh $(BUILD)/mutants
+lab-mutants: ## plants faults of one edit that are made, a fixed sample of all sources; MUTANTS=HEAD~1.. on lines that commits touched, MUTANTS='--count 500' more; an hour; build/lab/mutants.json
+	@mkdir -p $(LAB) && $(PYTHON) harness/tools/mutate.py $(MUTANTS) >$(LAB)/mutants.list
+	@LIST=$(LAB)/mutants.list harness/tools/mutants.sh $(LAB)/mutants
 
 lab-newton: all ## the two forms of Newton's method side by side; 20 seconds; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json

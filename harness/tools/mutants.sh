@@ -1,14 +1,14 @@
 #!/bin/sh
-# Plants one fault at a time (mutants.list) into a copy of the project. Each must be noticed, with the right exit status, by the narrowest check that should:
-# a selection of 'verify', one test, 'compare' with a run before the fault, or a deriving program.
+# Plants the faults of a list that mutate.py writes, one at a time, into a copy of the project. Those of physics must be noticed, with the right exit
+# status, by the narrowest check that should: a selection of 'verify', one test, or a deriving program.
 # Writes WORK.json and ends in one line: N killed, M survived. Survivors are listed.
-# usage: [DRY=1] [FROM=WORD] [LIST=FILE [TIME=SECONDS]] mutants.sh [WORK [WORD]]
+# usage: LIST=FILE [DRY=1] [FROM=WORD] [TIME=SECONDS] mutants.sh [WORK [WORD]]
 #   WORD: only the faults whose name has it; FROM: leave out those before; DRY=1: only whether each change still matches its file, nothing is built
-#   LIST: other faults, as faults.py makes them: each is noticed by the first of several checks that fails; one that does not compile, or gives the same
-#   machine code, does not count
+#   Faults that were made are noticed by the first of several checks that fails, within TIME (600 s); one that does not compile, or gives the same machine
+#   code, does not count
 set -u
 here=$(pwd)
-work=${1:-build/mutants} only=${2:-} dry=${DRY:-} list=${LIST:-harness/tools/mutants.list}
+work=${1:-build/mutants} only=${2:-} dry=${DRY:-} list=$LIST
 case $work in /*) ;; *) work=$here/$work ;; esac
 killed=0 survived=0 idle=0 rows= from=${FROM:-}
 if [ -n "$(git ls-files -- "$work" 2>/dev/null | head -n 1)" ]; then
@@ -20,11 +20,9 @@ mkdir -p "$work/base"
 git ls-files | tar -cf - -T - | tar -xf - -C "$work/base"
 built() { make -s -C "$work/base" -j2 CFLAGS="${CFLAGS:--O1}" "$@"; }
 
-# The copy without a fault, and a run of it to compare with.
+# The copy without a fault.
 prepare() {
     built all >"$work/log" 2>&1 || { tail "$work/log"; exit 1; }
-    (cd "$work/base" && build/beamwork verify -k "elastica/default" -o "$work/before.h5") >"$work/log" 2>&1
-    [ -f "$work/before.h5" ] || { tail "$work/log"; exit 1; }
 }
 
 result() { # name expected status check
@@ -47,10 +45,8 @@ check() {
     cd "$work/base" || return 99
     case $kind in
     verify) timeout 300 build/beamwork verify -j 2 "$@" ;;
-    compare) build/beamwork verify -k "elastica/default" -o "$work/after.h5"; build/beamwork compare "$work/before.h5" "$work/after.h5" ;;
     test) built "build/$1" && BEAMWORK_TRUTHS=build/truths.h5 timeout 300 "build/$1" ;;
     python)
-        case $1 in harness.library.python.* | harness.library.*) built library || return 98 ;; harness.tools.*blind_spots*) built build/planted || return 98 ;; esac
         BEAMWORK=build/beamwork BEAMWORK_TRUTHS=build/truths.h5 timeout 300 /usr/bin/python3 -m unittest "$@"
         ;;
     run) timeout 300 "$@" ;;
@@ -80,7 +76,7 @@ wanted() {
     case $1 in *"$only"*) ;; *) return 1 ;; esac
 }
 
-# A fault that faults.py has made: any failure will do. Its object is compared with the one without it, which is there again behind it.
+# A fault that mutate.py has made: any failure will do. Its object is compared with the one without it, which is there again behind it.
 generated() {
     object=build/${file%.c}.o
     cp -p "$work/base/$object" "$work/object"
@@ -127,15 +123,6 @@ plant() {
     fi
     cp -p "$work/saved" "$work/base/$file"
     touch "$work/base/$file"
-}
-# damage NAME EXPECTED-STATUS CHECK...: a fault that is in the check's own input
-damage() {
-    name=$1 expected=$2
-    shift 2
-    [ -z "$dry" ] && wanted "$name" || return
-    built all >"$work/log" 2>&1
-    (check "$@") >"$work/log" 2>&1
-    result "$name" "$expected" $? "$*"
 }
 [ "$dry" ] || prepare
 . "$list"

@@ -35,7 +35,7 @@ class Checks(ProgramTest):
         found = self.context()
         self.assertEqual((found["mutants"], found["fuzz"]), (None, None))
         mutants, fuzz = {"killed": 1, "survived": 1, "mutants": []}, {"executions": 12}
-        (self.folder / "mutants.json").write_text(json.dumps(mutants), encoding="utf-8")
+        (self.folder / "faults.json").write_text(json.dumps(mutants), encoding="utf-8")
         (self.folder / "fuzz.json").write_text(json.dumps(fuzz), encoding="utf-8")
         found = self.context()
         self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))

@@ -57,7 +57,7 @@ STUDY = {
     "experiments": EXPERIMENTS,
 }
 BESIDE = {
-    "mutants.json": {
+    "faults.json": {
         "killed": 1,
         "survived": 1,
         "mutants": [{

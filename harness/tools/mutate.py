@@ -1,13 +1,15 @@
-"""Faults of one edit each in C sources, as a list for mutants.sh.
+"""Faults to be planted, as a list for mutants.sh: made in C sources, or those of physics.
 
-usage: faults.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still stand
+usage: mutate.py [A..B] [--count N]; A..B: on lines that these commits wrote and that still stand
+       mutate.py --physics [FILE]; those of faults.csv
 
-An edit swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign, changes a constant or
-an index, or negates a condition; at most one on a line. Which ones are taken hangs on the texts of
-the file, the line and the edit alone: the same sources give the same faults, and what changes
-nearby changes nothing. Comments, strings, the preprocessor, types, sizes of arrays and of memory,
-and assertions stay as they are. Edits that nobody can see are in faults_equivalent.csv, each with
-its reason, and left out.
+What is made is one edit: it swaps an operator (+ -, * /, < <=, > >=, == !=, && ||), drops a sign,
+changes a constant or an index, negates a condition, leaves out a TRY or another call whose value
+nobody takes, or reports another status; at most one on a line. Which ones are taken hangs on the
+texts of the file, the line and the edit alone: the same sources give the same faults, and what
+changes nearby changes nothing. Comments, strings, the preprocessor, types, sizes of arrays and of
+memory, and assertions stay as they are. Edits that nobody can see are in mutants_equivalent.csv,
+each with its reason, and left out.
 """
 
 import argparse
@@ -20,7 +22,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-EQUIVALENT = "harness/tools/faults_equivalent.csv"
+EQUIVALENT = "harness/tools/mutants_equivalent.csv"
+PHYSICS = "harness/tools/faults.csv"
 PAIRS = ("+", "-"), ("*", "/"), ("+=", "-="), ("*=", "/="), ("<", "<="), (">", ">="), \
     ("==", "!="), ("&&", "||")
 SWAPS = dict(PAIRS) | {b: a for a, b in PAIRS}
@@ -31,9 +34,14 @@ TOKEN = re.compile(
     |(?P<word>[A-Za-z_]\w*)
     |(?P<sign>->|\+\+|--|<<=|>>=|<<|>>|[-+*/%&|^<>=!]=|&&|\|\||.)""", re.S | re.X)
 PREPROCESSOR = re.compile(r"^[ \t]*#(?:\\\n|[^\n])*", re.M)
+STATUSES = {"STATUS_REFUSED": "STATUS_FAULT", "STATUS_FAULT": "STATUS_REFUSED",
+            "STATUS_NOT_CONVERGED": "STATUS_SINGULAR", "STATUS_SINGULAR": "STATUS_NOT_CONVERGED"}
 NO_TYPES = {"return", "else", "case", "goto", "sizeof", "do"}
+NO_CALLS = NO_TYPES | {"if", "for", "while", "switch"}
 # What is called with a size of memory, or must hold.
 UNSEEN = re.compile(r"(\w*alloc|sizeof|assert|_Static_assert|memset|memcpy|memmove)$")
+# What is released or hinted at: only sanitizers see that it is left out.
+RELEASED = re.compile(r"(\w*(free|alloc|close|end)|assert|_Static_assert)$")
 
 
 def tokens(source):
@@ -149,9 +157,23 @@ class Reader:
             close += 1
         return None
 
-    def add(self, at, new):
+    def call(self, at):
+        """A statement that only calls, if it ends on its line; None: it is none."""
+        _, name, line, column = self.tokens[at]
+        if at != self.statement or self.word(at + 1) != "(" or name in NO_CALLS or \
+                RELEASED.match(name):
+            return None
+        depth, close = 1, at + 2
+        while close < len(self.tokens) and depth > 0:
+            depth += (self.word(close) == "(") - (self.word(close) == ")")
+            close += 1
+        if self.word(close) != ";" or self.tokens[close][2] != line:
+            return None
+        return self.lines[line - 1][column:self.tokens[close][3]]
+
+    def add(self, at, new, old=None):
         _, text, line, column = self.tokens[at]
-        self.edits.append((self.name, line, column, text, new))
+        self.edits.append((self.name, line, column, old or text, new))
 
     def token(self, at):
         kind, text, line, column = self.tokens[at]
@@ -164,6 +186,10 @@ class Reader:
                 self.add(at, new)
         elif kind == "word" and alone and text.islower():
             self.add(at, "0")
+        elif text in STATUSES and "memory" not in self.lines[line - 1]:
+            self.add(at, STATUSES[text])
+        elif kind == "word" and (call := self.call(at)):
+            self.add(at, "", call)
         elif kind == "word" and text == "if" and (close := self.condition(at)) is not None:
             self.add(at, self.lines[line - 1][column + 3:close].join(("if (!", "))")))
         elif text in SWAPS and self.operand(at - 1) and (text != "*" or spaced):
@@ -181,7 +207,9 @@ def faults(source):
         seen[line, old] = seen.get((line, old), 0) + 1
         length = len(old) if old != "if" else len(new) - 3
         words = "if not" if old == "if" else new or "none"
-        found.append((line, name, text.strip(), f"{old} to {words} ({seen[line, old]})",
+        called = re.match(r"(\w+)\(", old)
+        told = called[1] if called else old
+        found.append((line, name, text.strip(), f"{told} to {words} ({seen[line, old]})",
                       text[:column] + new + text[column + length:]))
     return found
 
@@ -301,12 +329,25 @@ def checks(file, texts):
     return [*in_c, *callers, *judged, *(test[:-3].replace("/", ".") for test in python)]
 
 
+def physics(path):
+    """Of a table: name, file, what sed looks for and puts in its place, and the check."""
+    with open(path, encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            change = f"s|{row['pattern']}|{row['replacement']}|"
+            print("plant", shlex.quote(row["name"]), row["file"], shlex.quote(change), 1,
+                  row["check"])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("span", nargs="?", metavar="A..B")
-    parser.add_argument("--count", type=int, default=120)
+    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--physics", nargs="?", const=ROOT / PHYSICS, metavar="FILE")
     asked = parser.parse_args()
+    if asked.physics:
+        physics(asked.physics)
+        return
     left, known = chosen(asked.count, asked.span)
     texts = tests()
     print(f"# {len(left)} faults; {known} more are equivalent: {EQUIVALENT}")
