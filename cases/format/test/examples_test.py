@@ -15,7 +15,7 @@ class ExamplesTest(SceneCase):
     def test_folder(self):
         """All examples at once, every formulation as expected; a case beside them; names once."""
         verdicts = self.folder / "verdicts.json"
-        done = self.answered("verify", "--scene", EXAMPLES, "-v", "-J", verdicts)
+        done = self.answered("verify", "--scene", EXAMPLES, "-v", "--json", verdicts)
         judged = {v["case"] for v in json.loads(verdicts.read_text(encoding="utf-8"))["verdicts"]}
         known = {path.stem for path in EXAMPLES.glob("*.yaml")
                  if "\ntruths:" in path.read_text(encoding="utf-8")}
