@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/field/field_mass.h"
 #include "elements/geometrically_exact/alone.h"
 #include "elements/geometrically_exact/lanes.h"
 #include "elements/geometrically_exact/stiffness.h"
 #include "elements/geometrically_exact/strain.h"
-#include "elements/field/field_mass.h"
 #include "elements/shared/lanes.h"
 
 enum { OPTION_NODES };

@@ -215,6 +215,11 @@ const case_type *scene_file_case(const scene_file *file)
     return &file->type;
 }
 
+const document_node *scene_file_document(const scene_file *file)
+{
+    return file->root;
+}
+
 const char *scene_file_path(const case_type *type)
 {
     return type->build_from == build_from ? ((const scene_file *)type->context)->path : NULL;

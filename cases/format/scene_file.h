@@ -37,6 +37,7 @@ void scene_file_free(scene_file *);
 const case_type *scene_file_case(const scene_file *);
 /* The path of the file that a case is made from; NULL: of none. */
 const char *scene_file_path(const case_type *type);
+const struct document_node *scene_file_document(const scene_file *);
 /* Does the file say anything under this key? */
 int scene_file_states(const scene_file *, const char *key);
 /* The scene as earlier versions read it: ends that say nothing of their warping leave it free.

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/format/scene_file_impl.h"
+#include "cases/format/document.h"
+#include "cases/format/scene_file.h"
 
 /* The tree in the order of packed.h; texts one behind the other. */
 typedef struct packing {
@@ -92,13 +93,13 @@ static void write_case(const scene_file *file, int nodes)
 {
     const char *shared = scene_file_states(file, "mass") ? "case_mass_omit" : "case_omit";
     puts("static const scene_packed packed = {");
-    write_text(file->path);
+    write_text(scene_file_path(scene_file_case(file)));
     printf(", texts, parameters, node, %d};\n", nodes);
-    printf("const case_type case_%s = {.name = \"%s\", .summary = ", file->type.name,
-           file->type.name);
-    write_text(file->type.summary);
+    printf("const case_type case_%s = {.name = \"%s\", .summary = ", scene_file_case(file)->name,
+           scene_file_case(file)->name);
+    write_text(scene_file_case(file)->summary);
     printf(", .source = ");
-    write_text(file->type.source);
+    write_text(scene_file_case(file)->source);
     printf(", .parameters = {parameters, %s}, .build_from = scene_packed_build, "
            ".context = &packed};\n",
            shared);
@@ -106,20 +107,20 @@ static void write_case(const scene_file *file, int nodes)
 
 static void write_packed(const scene_file *file, packing *p)
 {
-    p->node[0] = file->root;
+    p->node[0] = scene_file_document(file);
     place(p);
-    printf("/* Generated from %s. */\n", file->path);
+    printf("/* Generated from %s. */\n", scene_file_path(scene_file_case(file)));
     puts("#include \"cases/format/packed.h\"\n#include <stddef.h>\n");
-    printf("extern const case_type case_%s;\n", file->type.name);
+    printf("extern const case_type case_%s;\n", scene_file_case(file)->name);
     write_texts(p);
     write_nodes(p);
-    write_parameters(file->parameter);
+    write_parameters(scene_file_case(file)->parameters[0]);
     write_case(file, p->nodes);
 }
 
 static int write_file(const scene_file *file)
 {
-    const size_t most = (size_t)count_of(file->root);
+    const size_t most = (size_t)count_of(scene_file_document(file));
     packing p = {calloc(most, sizeof *p.node), calloc(most, sizeof *p.first), 1, 0};
     const int good = p.node != NULL && p.first != NULL;
     if (good)
