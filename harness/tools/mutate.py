@@ -278,7 +278,7 @@ BESIDE = {
         "cases/format/(keys|scene|loads|units|parts|contents|stability|warping)"
         "|harness/cli/(plane|physics)",
     "cases/extremes/|harness/experiments/": "harness/experiments/(extremes|stress)",
-    "cases/closed_forms/": "cases/format/closed",
+    "cases/textbook/": "cases/format/closed",
     "harness/cli/": "harness/study/bench|harness/experiments/|harness/exchange/",
 }
 # Tests in C that are near: of the folder, or of others all the same.

@@ -1,6 +1,6 @@
 """Scenes as a new user writes them, without a word on physics, against closed forms.
 
-Each file of cases/closed_forms says in its first lines what it is and what is right, and carries
+Each file of cases/textbook says in its first lines what it is and what is right, and carries
 the right values as its truths. What solve chooses, and formulations with all physics, must have
 them; a value that is not right may never come with status ok.
 """
@@ -9,7 +9,7 @@ import unittest
 
 from harness.tools.kit.program import ROOT, ProgramTest
 
-SCENES = sorted((ROOT / "cases" / "closed_forms").glob("*.yaml"))
+SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
 # Of a value, relative, on the mesh that solve chooses by itself.
 CLOSE = 2e-3
 
