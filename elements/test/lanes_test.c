@@ -1,7 +1,7 @@
 /* Strains and stresses of many elements at once have the bits of one at a time, with and without
  * AVX2. */
 #include "elements/beamw/lanes.h"
-#include "elements/geometrically_exact/lanes.h"
+#include "elements/collocation/lanes.h"
 #include "elements/sheet/lanes.h"
 #include "elements/test/lanes_batch.h"
 
