@@ -24,7 +24,7 @@ BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPI
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c cases/*.yaml))
 LIBRARY_SOURCES := $(FORMULATIONS) $(filter %.c,$(CASES)) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
-LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/cli/main.c,$(LIBRARY_SOURCES))
+LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/tools/% harness/cli/main.c,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a folder's own tests are never part of the library.
@@ -189,7 +189,7 @@ needs-report needs-test needs-truths needs-layout:
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
 
-$(PACK_CASE): $(BUILD)/harness/tools/pack/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
+$(PACK_CASE): $(BUILD)/harness/tools/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
 $(PACKED:.o=.c): $(BUILD)/packed/%.c: cases/%.yaml $(PACK_CASE)
@@ -251,8 +251,8 @@ $(BUILD)/program_libraries: FORCE
 $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(BUILD)/program_libraries
 	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $(filter %.o %.a,$^) $(LDFLAGS) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
 
-# The same with a fault in it (harness/tools/plant/plant.c).
-$(PLANTED): $(BUILD)/harness/tools/plant/plant.o $(PROGRAM)
+# The same with a fault in it (harness/tools/plant.c).
+$(PLANTED): $(BUILD)/harness/tools/plant.o $(PROGRAM)
 	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $< $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(LDFLAGS) $(foreach name,adapters_complete case_build lumped_of judgement_doubts,-Wl,--wrap=$(name)) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
 
 $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)

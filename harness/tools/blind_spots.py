@@ -4,7 +4,7 @@
 usage: blind_spots.py PLANTED VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_CSV -p PLANTED_FAULTS_CSV
 
 PLANTED is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads
-(plant/plant.c).  For each constant its values on the two coarsest meshes beside those without the
+(plant.c).  For each constant its values on the two coarsest meshes beside those without the
 fault give the derivative of every limit.  VERIFY_JSON, of a run without a fault, has what a verdict
 allows the limit: the band that it may move in until another verdict is seen than the expected one
 (harness/study/verdict.c, judgement.c).  The band over the derivative is the fault.  Two doors:
