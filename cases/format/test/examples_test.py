@@ -33,7 +33,7 @@ class ExamplesTest(SceneCase):
         self.assertEqual({v["case"] for v in both["verdicts"]}, {"euler_column", "warping_torsion"})
         euler = EXAMPLES / "euler_column.yaml"
         self.refused(2, "is judged already", "verify", "--scene", EXAMPLES, "--scene", euler)
-        self.refused(2, "no *.yaml", "verify", "--scene", EXAMPLES.parent)
+        self.refused(2, "no *.yaml", "verify", "--scene", EXAMPLES.parent / "shared")
         taken = euler.read_text(encoding="utf-8").replace("name: euler_column", "name: c_column")
         taken = self.scene(taken)
         self.refused(2, "is judged already", "verify", "--built-in", "--scene", taken)
