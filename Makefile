@@ -29,7 +29,7 @@ PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
 # What tests share; a folder's own tests are never part of the library.
 KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness/tools/kit/*.c)))
-PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard cases/*/test/*_test.py harness/*/test/*_test.py harness/*/*/test/*_test.py))
+PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard cases/*/test/*_test.py docs/test/*_test.py harness/*/test/*_test.py harness/*/*/test/*_test.py))
 
 REGISTRY := $(BUILD)/registry.c
 PRICES := $(BUILD)/price_table.c
@@ -66,7 +66,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify test tests stress bench layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify docs test tests stress bench layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := $(if $(DEBUG),all,help)
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -117,6 +117,11 @@ ifndef RESULTS
 	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+
+docs: all needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
+	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) docs/generate.py $(abspath $(PROGRAM)) $(BUILD)/docs_source $(wildcard $(BUILD)/results.h5)
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m sphinx -q -W --keep-going -c docs -d $(BUILD)/docs_trees $(BUILD)/docs_source $(BUILD)/docs
 
 # Drives every formulation to extremes.
 stress: all
@@ -181,9 +186,9 @@ $(BUILD)/flags.mk: harness/tools/dependencies.sh
 	@CC="$(CC)" harness/tools/dependencies.sh build "$@"
 
 # What a command needs beside the program; what single tests need is never installed.
-.PHONY: needs-report needs-test needs-truths needs-layout
-needs-report needs-test needs-truths: | $(TRUTHS) # one apt at a time
-needs-report needs-test needs-truths needs-layout:
+.PHONY: needs-docs needs-report needs-test needs-truths needs-layout
+needs-docs needs-report needs-test needs-truths: | $(TRUTHS) # one apt at a time
+needs-docs needs-report needs-test needs-truths needs-layout:
 	@harness/tools/dependencies.sh $(@:needs-%=%)
 
 $(REGISTRY): FORCE

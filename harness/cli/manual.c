@@ -273,7 +273,7 @@ static void write_keys(FILE *to, void list(key_list_take *, void *))
     close_to(&k, 0);
 }
 
-/* Ten lines, as the README has them. */
+/* A leaf spring in ten lines. */
 static const char example[] =
     "beamwork: 1\n"
     "sections:\n"

@@ -1,4 +1,4 @@
-/* Requests to the process of a formulation and its answers, as README.md writes them. */
+/* Requests to the process of a formulation and its answers, as protocol.md writes them. */
 #ifndef BEAMWORK_CHANNEL_H
 #define BEAMWORK_CHANNEL_H
 

@@ -1,4 +1,4 @@
-/* What a process says of itself: the line of JSON of the protocol (README.md). */
+/* What a process says of itself: the line of JSON of the protocol (protocol.md). */
 #ifndef BEAMWORK_HANDSHAKE_H
 #define BEAMWORK_HANDSHAKE_H
 

@@ -8,7 +8,7 @@ enum { PROCESS_MOST = 16 };
 
 /* The type that the command says it is. It and its process stay until this process ends. Each
  * process that uses it starts one of its own. REFUSED: no such command, or not the first line of
- * the protocol (README.md). */
+ * the protocol (protocol.md). */
 status process_load(const char *command, const element_type **out, fault *f);
 /* Is it computed by another process? */
 int process_serves(const element_type *);

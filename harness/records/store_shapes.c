@@ -1,4 +1,4 @@
-/* Centre lines of a cell in the result file: README.md of this room. */
+/* Centre lines of a cell in the result file: docs/reference/result_files.md. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 # Checks what one command needs, installs what is missing (as root, on Debian), or prints the one line that does.
 # What only single tests use (chromium, gfortran, octave-cli, python3-vtk9) is asked for by .ci/run alone: else those tests are skipped by name.
 # usage: dependencies.sh build FLAGS.mk     the compiler's part: libraries; writes their flags
-#        dependencies.sh verify|report|test|truths
+#        dependencies.sh verify|report|docs|test|truths
 #        dependencies.sh layout              clang's tools, of the one version that Debian 12 and 13 both have
 #        dependencies.sh ci                  layout, and what any test is skipped without
 set -eu
@@ -14,14 +14,15 @@ case $command in
 build) ;;
 verify) modules="h5py numpy" ;;
 report) modules="h5py numpy scipy matplotlib jinja2 markdown yaml" ;;
+docs) modules="h5py numpy matplotlib markupsafe sphinx myst_parser:python3-myst-parser furo:furo" ;;
 truths) modules="numpy scipy mpmath yaml" ;;
 test) modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml" ;;
 layout) tools=$clang ;;
 ci)
-    tools="$clang c++:g++ cmake gfortran octave-cli:octave ccx:calculix-ccx chromium doxygen mandoc zsh"
-    modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml pandas vtk:python3-vtk9 nbclient nbformat ipykernel pip setuptools wheel"
+    tools="$clang c++:g++ cmake gfortran octave-cli:octave ccx:calculix-ccx sphinx-build:python3-sphinx chromium doxygen mandoc zsh"
+    modules="h5py numpy scipy matplotlib jinja2 markdown mpmath yaml pandas myst_parser:python3-myst-parser furo:furo vtk:python3-vtk9 nbclient nbformat ipykernel pip setuptools wheel"
     ;;
-*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, truths, test, layout or ci" >&2; exit 2 ;;
+*) echo "dependencies.sh: unknown command '$command'; give build, verify, report, docs, truths, test, layout or ci" >&2; exit 2 ;;
 esac
 
 packages=

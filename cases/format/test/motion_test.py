@@ -4,7 +4,8 @@ import re
 import unittest
 
 from cases.format.test.scene_case import SceneCase, values
-from harness.tools.kit.program import ROOT, run
+from docs.commands import reader_file
+from harness.tools.kit.program import run
 from harness.tools.kit.scenes import LEAF
 
 # A block on a spring and a light wire, pushed by little.
@@ -42,24 +43,6 @@ class MotionTest(SceneCase):
     def moved(self, time, analyses=SWING, *more):
         path = self.block(time, analyses)
         return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
-
-    def test_readme(self):
-        """What the README prints is what it does."""
-        section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
-        text, shown, *_ = re.findall(r"```(?:yaml)?\n(.*?)```", section.partition("\n## ")[0], re.S)
-        command, *printed = shown.splitlines()
-        self.scene(text, "swing.yaml")
-        words = command.split()[1:]
-        words[words.index("swing.yaml")] = self.folder / "swing.yaml"
-        done = self.answered(*words).stdout.splitlines()
-        for line in printed:
-            like = [other for other in done if other.split()[:1] == line.split()[:1]]
-            self.assertEqual(len(like), 1, line)
-            old, new = line.split(), like[0].split()
-            if line != printed[0]:
-                self.assertAlmostEqual(float(new[1]) / float(old[1]), 1, delta=1e-3)
-                old[1] = new[1]
-            self.assertEqual(old[:6], new[:6])  # what is known between steps is an estimate
 
     def test_constant_push(self):
         """Without a function the load is whole from the begin: u = F/k (1 - cos w t)."""
@@ -118,8 +101,7 @@ class MotionTest(SceneCase):
     def test_mass(self):
         """Mass along members is usual, also when it is asked for; at the nodes it is farther from fine
         meshes. Of three nodes, and with integrators that do not have it, it is refused by name."""
-        section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
-        text = re.findall(r"```yaml\n(.*?)```", section, re.S)[0]
+        text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
         path = self.scene(text.replace("0..1/100", "0..1/100, mass: consistent"), "consistent.yaml")
@@ -142,8 +124,7 @@ class MotionTest(SceneCase):
         """An integrator that has lumped mass only goes on from no motion with another one."""
         go = "{a: {motion: {stations: [0.01], MASSstep: 1e-4}}, "
         go += "b: {motion: {stations: [0.02], about: a, integrator: conserving, step: 1e-4}}}"
-        section = (ROOT / "README.md").read_text("utf-8").partition("## Motion in time")[2]
-        text = re.findall(r"```yaml\n(.*?)```", section, re.S)[0]
+        text = reader_file("howto/dynamics.md", "swing.yaml")
         head = text.partition("analyses:")[0]
         asked = "quantities:\n  u: {displacement: {analysis: b, node: tip, component: uy}}\n"
         for mass, code in (("mass: consistent, ", 2), ("", 0), ("mass: lumped, ", 0)):

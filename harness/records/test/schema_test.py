@@ -1,16 +1,13 @@
 """Every format carries the fields that `beamwork schema` tells, under the same names."""
-import contextlib
 import csv
 import io
 import json
-import os
-import re
 import unittest
 
 import h5py
 
 from harness.tools.kit import program
-from harness.tools.kit.program import ROOT, ProgramTest
+from harness.tools.kit.program import ProgramTest
 
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")
@@ -236,20 +233,6 @@ class Schema(ProgramTest):
             for f in fields:
                 self.assertIn(f["name"], told)
                 self.assertIn(f["summary"], told)
-
-    def test_lines_of_the_readme(self):
-        """The lines of h5py that README shows print the rows they say."""
-        readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        code = re.search(r"```python\n(.*?)```", readme, re.S).group(1)
-        self.assertEqual(len(code.strip().splitlines()), 3)
-        out, before = io.StringIO(), os.getcwd()
-        os.chdir(self.stored)
-        try:
-            with contextlib.redirect_stdout(out):
-                exec(compile(code, "README.md", "exec"), {})    # pylint: disable=exec-used
-        finally:
-            os.chdir(before)
-        self.assertIn("w_over_L", out.getvalue())
 
 
 if __name__ == "__main__":

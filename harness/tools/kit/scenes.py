@@ -1,6 +1,6 @@
 """Scenes that several tests write."""
 
-# Ten lines are enough (README.md): a leaf spring clamped at one end, loaded at the other.
+# Ten lines are enough: a leaf spring clamped at one end, loaded at the other.
 LEAF = """\
 beamwork: 1
 sections:

@@ -383,8 +383,8 @@ class Make(Folder):
     def test_few_targets_for_people(self):
         told = [line.split() for line in self.make("help") if line]
         self.assertEqual({words[1] for words in told}, {
-            "all", "verify", "test", "report", "bench", "compare", "baseline", "check", "truths",
-            "install", "clean", "help", "lab"})
+            "all", "verify", "test", "report", "docs", "bench", "compare", "baseline", "check",
+            "truths", "install", "clean", "help", "lab"})
 
     def test_laboratory(self):
         """Listed, run in the order that is asked for; what is not there is refused."""

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import unittest
 
+from docs.commands import reader_file
 from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
 
 HERE = pathlib.Path(__file__).parent
@@ -102,12 +103,12 @@ class Installed(ProgramTest):
         self.assertNotIn("libbeamwork", self.installed("-d", "consumer", program="readelf"))
         self.check(BEAMWORK_TRUTHS=str(self.data / "truths.h5"))
 
-    def test_readme(self):
-        """The program that the README shows, compiled by the line it shows."""
-        text = (ROOT / "README.md").read_text(encoding="utf-8")
-        program, = re.findall(r"```c\n(.*?)```", text, re.S)
+    def test_page(self):
+        """The program that the documentation shows, compiled by the line it shows."""
+        text = (ROOT / "docs" / "howto" / "c_and_python.md").read_text(encoding="utf-8")
         self.assertIn("cc column.c $(pkg-config --cflags --libs beamwork) -o column", text)
-        (self.folder / "column.c").write_text(program, encoding="utf-8")
+        (self.folder / "column.c").write_text(reader_file("howto/c_and_python.md", "column.c"),
+                                              encoding="utf-8")
         self.installed("-Wall", "-Wextra", "-Werror", "column.c",
                        *self.flags("--cflags", "--libs"), "-o", "column", program="cc")
         said = self.installed(program="./column", LD_LIBRARY_PATH=str(self.root / "lib"))

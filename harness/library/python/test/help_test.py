@@ -1,23 +1,11 @@
-"""What the README prints for Python does what it says; the version is that of the program."""
+"""What the module says of itself: the version of the program, and help of every public name."""
 import re
 import unittest
 
 from harness.library.python.test.module import FOLDER, ROOT, ModuleTest, bw, python
 
 
-class Printed(ModuleTest):
-
-    def test_lines_of_the_readme(self):
-        """The lines of `From Python` run as printed, from a folder of one's own."""
-        readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        section = readme.partition("## From Python")[2].partition("\n## ")[0]
-        code = re.search(r"```python\n(.*?)```", section, re.S).group(1)
-        done = python(code, cwd=self.folder)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        tip, sentence, passed = done.stdout.splitlines()
-        self.assertTrue(tip.startswith(re.search(r"# (0\.0030\d+)\.\.\.", code).group(1)), tip)
-        self.assertTrue(sentence.startswith("for 1 % in every quantity: "), sentence)
-        self.assertEqual(passed, "True")
+class Said(ModuleTest):
 
     def test_version(self):
         """One version: of the citation, of the library, and of what pip installs."""

@@ -1,0 +1,181 @@
+"""Collects the pages of docs/ and writes those that come from the program's own tables.
+
+usage: generate.py PROGRAM FOLDER [RESULTS.h5]     FOLDER is then the source of sphinx-build
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+DOCS = pathlib.Path(__file__).resolve().parent
+ROOT = DOCS.parent
+sys.path.insert(0, str(ROOT))
+
+# What pages include from elsewhere in the repository.
+INCLUDED = ("CHANGELOG.md", "cases/format/scenes.md", "harness/exchange/import.md",
+            "harness/experiments/sweep.md", "harness/formulations/protocol.md",
+            "harness/tools/cluster/README.md", "reference/ERRATA.md")
+LINK = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]*\)")
+VERB = re.compile(r"^  ([a-z-]+) {2,}\S", re.M)
+
+
+class Site:
+    """The program asked, and the folder written into."""
+
+    def __init__(self, program, folder, results):
+        self.program, self.folder, self.results = program, folder, results
+
+    def ask(self, *words):
+        """What the program prints."""
+        return subprocess.run([self.program, *words], check=True, text=True,
+                              stdout=subprocess.PIPE).stdout
+
+    def write(self, name, text):
+        """A page, made from the program and so without a source to edit."""
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text.rstrip() + "\n", encoding="utf-8")
+
+
+def literal(text):
+    """Text as the program prints it."""
+    return f"```text\n{text.strip(chr(10))}\n```"
+
+
+def table(head, rows):
+    """Rows of words as Markdown."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(str(c).replace("|", r"\|") for c in line) + " |"
+                     for line in lines)
+
+
+def toctree(names):
+    """The pages below this one."""
+    return "```{toctree}\n:maxdepth: 1\n\n" + "\n".join(names) + "\n```"
+
+
+def write_commands(site):
+    """Reference of the command line: help of every verb."""
+    overview = site.ask("help")
+    verbs = VERB.findall(overview.partition("\nlook")[2].partition("to begin with")[0])
+    parts = [f"# Command line\n\n{literal(overview)}"]
+    parts += [f"## {verb}\n\n{literal(site.ask('help', verb))}" for verb in verbs]
+    site.write("reference/commands.md", "\n\n".join(parts))
+
+
+def write_sections(site, name, title, text, heading):
+    """A text of the program, a section for each line that `heading` matches, with its words."""
+    starts = [m.start() for m in heading.finditer(text)]
+    parts = [f"# {title}\n\n{literal(text[:starts[0]])}"]
+    for start, end in zip(starts, starts[1:] + [len(text)]):
+        parts.append(f"## {heading.match(text, start).group(1)}\n\n{literal(text[start:end])}")
+    site.write(name, "\n\n".join(parts))
+
+
+def write_terms(site):
+    """Verdicts and terms: what `explain` says of each."""
+    groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
+    parts = ["# Verdicts and terms\n\nThe same as `beamwork explain TERM`."]
+    for group, terms in groups:
+        parts.append(f"## {group.capitalize()}")
+        for term in " ".join(terms.split()).split("; "):
+            told = site.ask("explain", term).partition("\n")[2]
+            told = re.sub(r"\n  (?=(?:also called|see also):)", "\n\n  ", told.strip())
+            parts.append(f"**{term}**\n: {told}")
+    site.write("reference/terms.md", "\n\n".join(parts))
+
+
+def write_formulations(site, formulations):
+    """A page for each formulation: what it declares, and its theory."""
+    for one in formulations:
+        name = one["formulation"]
+        theory = "" if not (ROOT / "elements" / f"{name}.md").exists() else \
+            f"```{{include}} /sources/elements/{name}.md\n:start-line: 1\n```\n"
+        site.write(f"theory/formulations/{name}.md", f"# {name}\n\n{one['summary']}\n\n{theory}\n"
+                   f"## Declarations\n\n{literal(site.ask('list', name))}")
+    site.write("theory/formulations/index.md", "# Formulations\n\nJ and N are the [two papers](../../project/papers.md).\n\n" + table(
+        ["name", "what it is", "source"], [[f"[{f['formulation']}]({f['formulation']}.md)", f["summary"], f["source"]] for f in formulations])
+        + "\n\n" + toctree(f["formulation"] for f in formulations))
+
+
+def numbers(value):
+    """As people write it."""
+    return value if isinstance(value, str) else f"{value:.10g}"
+
+
+def problem(site, case):
+    """What a case asks, from its own tables."""
+    told = json.loads(site.ask("list", case, "--format", "json"))
+    parts = [f"# {case}\n\n{told['summary']}\n\nSource: {told['source']}", "## Parameters", table(
+        ["name", "default", "unit", "what it is"],
+        [[p["name"], numbers(p["default"]), p["unit"], p["summary"]] for p in told["parameters"]])]
+    parts += ["## Quantities", table(
+        ["name", "unit", "what it is"],
+        [[q["name"], q["unit"], q["meaning"] + (", a curve" if q["is_curve"] else "")] for q in told["quantities"]])]
+    return parts
+
+
+def verdicts(site, case):
+    """Verdicts at the default parameters, and a figure, where results are there."""
+    from docs import results  # pylint: disable=import-outside-toplevel
+    point = results.read(site.results, case).points[0]
+    rows = [[s.key, v.quantity, f"{v.limit:.9g}", results.percent(v), v.verdict]
+            for s in point.series for v in s.verdicts if v.verdict not in ("skip", "no truth")]
+    figure = results.draw(point, site.folder / "verification" / f"{case}.svg")
+    drawn = [f"```{{image}} {case}.svg\n:alt: error against run time\n```"] if figure else []
+    return ["## Results at the default parameters", *drawn, table(
+        ["formulation", "quantity", "limit", "error of the limit", "verdict"], rows)] if rows else []
+
+
+def write_verification(site, cases):
+    """The verification manual, a page for each case."""
+    tested = set()
+    if site.results:
+        from docs import results  # pylint: disable=import-outside-toplevel
+        tested = set(results.cases(site.results))
+    for one in cases:
+        case = one["case"]
+        known = subprocess.run([site.program, "truth", case], text=True, check=False,
+                               capture_output=True).stdout
+        parts = problem(site, case) + ["## Reference values at the default parameters",
+                                       literal(known) if known else "None is stored."]
+        if case in tested:
+            parts += verdicts(site, case)
+        else:
+            parts.append(f"Verdicts: `beamwork verify --select ={case}`.")
+        site.write(f"verification/{case}.md", "\n\n".join(parts))
+    site.write("verification/cases.md", "# Cases\n\n" + table(
+        ["case", "what it is"], [[f"[{c['case']}]({c['case']}.md)", c["summary"]] for c in cases])
+        + "\n\n" + toctree(c["case"] for c in cases))
+
+
+def collect(folder):
+    """The pages that are written by hand, and what they include."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(DOCS, folder, ignore=shutil.ignore_patterns("test", "static", "*.py", "__pycache__"))
+    for name in (*INCLUDED, *(p.relative_to(ROOT) for p in (ROOT / "elements").glob("*.md"))):
+        target = folder / "sources" / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        # Their links are relative to where they stand: the names alone are left.
+        target.write_text(LINK.sub(r"\1", (ROOT / name).read_text("utf-8")), encoding="utf-8")
+
+
+def main(program, folder, *results):
+    """Writes the source of the site."""
+    site = Site(program, pathlib.Path(folder), results[0] if results else None)
+    collect(site.folder)
+    known = json.loads(site.ask("list", "--format", "json"))
+    write_commands(site)
+    write_sections(site, "reference/scene_keys.md", "Scene keys", site.ask("scene", "--keys"),
+                   re.compile(r"^([a-z]\w*)(?= )[^\n]*", re.M))
+    write_sections(site, "reference/result_schema.md", "Result schema", site.ask("schema"),
+                   re.compile(r"^(/[\w/]+):[^\n]*", re.M))
+    write_terms(site)
+    write_formulations(site, known["formulations"])
+    write_verification(site, known["cases"])
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
