@@ -4,7 +4,6 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/contest.h"
-#include "harness/cli/timing_work.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/csv.h"
@@ -57,10 +56,9 @@ static int is_named(const bench_request *r)
     return r->of.line->arguments > 0 || r->of.scene != NULL;
 }
 
-static status write_out(const bench_request *r, const sweep *s, const judgement *j,
-                        const spread_end *end, fault *f)
+static status write_out(const bench_request *r, const sweep *s, const judgement *j, fault *f)
 {
-    const environment e = spread_environment(end, s->threads > 1 ? s->threads : 1);
+    const environment e = environment_now(s->threads > 1 ? s->threads : 1);
     if (r->format[0] == 'c')
         csv_timing(stdout, s, j);
     else
@@ -70,33 +68,26 @@ static status write_out(const bench_request *r, const sweep *s, const judgement 
 }
 
 /* With what answer frees. */
-static status measure(bench_request *r, truths *t, sweep *s, judgement *j, spread_end *end,
-                      fault *f)
+static status measure(bench_request *r, truths *t, sweep *s, judgement *j, fault *f)
 {
     FILE *progress = isatty(STDERR_FILENO) ? stderr : NULL;
     const sweep_request request = {.select = r->select,
-                                   .jobs = r->shards.jobs,
+                                   .jobs = r->jobs,
                                    .whole_only = 1,
                                    .formulations = r->chosen.formulations,
                                    .formulation = r->chosen.formulation,
                                    .progress = progress};
-    int spread;
     TRY(files_check(r->of.line, 1, own_tables_packed(&r->truths), f));
     TRY(case_input_truths(&r->of, &r->truths, t, f));
     s->whole_only = 1; /* times rank, and another model does not */
     TRY(is_named(r) ? plan_named(r, s, f) : plan_sweep(&request, t, s, f));
     s->threads = r->solver.threads;
-    TRY(timing_work_run(&r->shards, &request, floor_seconds, r->dense, s, &spread, end, f));
-    if (end->ended)
-        return STATUS_OK;
-    if (!spread)
-        TRY(run_sweep(&request, s, f));
+    TRY(run_sweep(&request, s, f));
     TRY(judgement_make(s, t, 0, j, f));
-    if (s->threads <= 1 && !spread)
+    if (s->threads <= 1)
         rounds_pin();
-    if (!spread)
-        TRY(timing_run(s, floor_seconds, r->dense, progress, f));
-    return write_out(r, s, j, end, f);
+    TRY(timing_run(s, floor_seconds, r->dense, progress, f));
+    return write_out(r, s, j, f);
 }
 
 static int answer(const command_line *l, void *request)
@@ -106,12 +97,7 @@ static int answer(const command_line *l, void *request)
     truths t = {0};
     sweep s = {0};
     judgement j = {0};
-    spread_end end = {.ended = 0};
     fault f = {""};
-    if (r->against != NULL &&
-        (r->shards.into != NULL || r->shards.shard != NULL || r->shards.from.count > 0))
-        return message_fail(STATUS_REFUSED, "--against compares two on one processor: leave "
-                                            "--shard, --into and --from away");
     if (r->against != NULL)
         return contest_run(r);
     if (r->of.scene_path != NULL && case_input_find(&r->of) == NULL)
@@ -120,12 +106,11 @@ static int answer(const command_line *l, void *request)
         return message_fail(STATUS_REFUSED, "--error and --keep-all are of --against");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
         return message_fail(STATUS_REFUSED, "--set and -n are of a case: name it");
-    const status outcome = measure(r, &t, &s, &j, &end, &f);
+    const status outcome = measure(r, &t, &s, &j, &f);
     judgement_free(&j);
     sweep_free(&s);
     truths_free(&t);
-    spread_free(&end);
-    return outcome == STATUS_OK ? end.code : message_exit(outcome, &f);
+    return message_exit(outcome, &f);
 }
 
 /* In a process whose libraries have one thread: main passes what follows the program's name. */
@@ -150,11 +135,10 @@ static const verb_option own[] = {
      "make the other slower by that much, to see whether the comparison finds it", IN(plant),
      .least = 0, .most = 1000},
     {0}};
-static const verb_group shared[] = {SHARED(case, of),       SHARED(formulations, chosen),
-                                    SHARED(meshes, meshes), SHARED(select, select),
-                                    SHARED(solver, solver), SHARED(own_truths, truths),
-                                    SHARED(format, format), SHARED(jobs, shards.jobs),
-                                    SHARED(shards, shards), {NULL, 0}};
+static const verb_group shared[] = {
+    SHARED(case, of),       SHARED(formulations, chosen), SHARED(meshes, meshes),
+    SHARED(select, select), SHARED(solver, solver),       SHARED(own_truths, truths),
+    SHARED(format, format), SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_bench = {
     "bench",
     "[CASE...]",

@@ -238,7 +238,7 @@ static status check_models(const sweep *s, fault *f)
 /* With what against_error frees. */
 static status fight(duel *d, bench_request *r, const case_type *type, fault *f)
 {
-    const sweep_request request = {.jobs = r->shards.jobs,
+    const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     if (r->error != NULL)
         TRY(errors_parse(r->error, LEVELS, d->level, &d->levels, f));

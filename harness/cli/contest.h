@@ -7,7 +7,6 @@
 
 #include "harness/cli/case_input.h"
 #include "harness/cli/named.h"
-#include "harness/cli/spread.h"
 #include "harness/records/schema.h"
 #include "harness/study/against.h"
 
@@ -16,9 +15,9 @@ typedef struct bench_request {
     chosen_formulations chosen;
     mesh_list meshes;
     truths_options truths;
-    shard_options shards;
     solver_options solver;
     const char *select, *output, *format, *error, *against;
+    int jobs;
     int dense; /* 1: the dense reference is timed too */
     int plant; /* percentage of its time that is added to every run of the other */
 } bench_request;

@@ -4,7 +4,6 @@
 
 #include "harness/cli/case_input.h"
 #include "harness/cli/cli.h"
-#include "harness/cli/convergence_work.h"
 #include "harness/cli/named.h"
 #include "harness/records/csv.h"
 #include "harness/records/json.h"
@@ -14,6 +13,7 @@
 #include "harness/study/families.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
+#include "harness/study/run.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table_beside.h"
 #include "harness/terminal/table_convergence.h"
@@ -23,10 +23,9 @@ typedef struct converge_request {
     chosen_formulations chosen;
     mesh_list meshes;
     truths_options truths;
-    shard_options shards;
     const char *select, *output, *format;
     double error; /* 0: not given */
-    int verbose;
+    int jobs, verbose;
 } converge_request;
 
 /* How many of the formulations run. */
@@ -88,10 +87,9 @@ static void tell_supports(const converge_request *r, const sweep *s)
 }
 
 /* With what answer frees. */
-static status converge(converge_request *r, const case_type *type, sweep *s, truths *t,
-                       spread_end *end, fault *f)
+static status converge(converge_request *r, const case_type *type, sweep *s, truths *t, fault *f)
 {
-    const sweep_request request = {.jobs = r->shards.jobs,
+    const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
     const double level = r->error > 0 ? r->error : REACH_LINE_LEVEL;
     TRY(files_check(r->of.line, 0, own_tables_packed(&r->truths), f));
@@ -103,9 +101,7 @@ static status converge(converge_request *r, const case_type *type, sweep *s, tru
         case_input_tell_analysis(&r->of, &s->point[0].scene);
         tell_supports(r, s);
     }
-    TRY(convergence_work_run(&r->shards, &request, s, end, f));
-    if (end->ended)
-        return STATUS_OK;
+    TRY(run_sweep(&request, s, f));
     TRY(families_add_truths(s, 0, t, f));
     return write_out(r, level, s, t, f);
 }
@@ -132,17 +128,11 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->chosen.formulations == 0)
         named_add(&r->chosen, "all");
-    spread_end end = {.ended = 0};
-    const status outcome = converge(r, type, &s, &t, &end, &f);
+    const status outcome = converge(r, type, &s, &t, &f);
     const int nothing = sweep_cells(&s) == 0, solved = has_solution(&s);
     sweep_free(&s);
     truths_free(&t);
     const int code = message_exit(outcome, &f);
-    spread_free(&end);
-    if (code == EXIT_AS_EXPECTED && end.code != 0)
-        return end.code;
-    if (end.ended)
-        return code;
     if (code == EXIT_AS_EXPECTED && nothing)
         return EXIT_NOTHING;
     return code == EXIT_AS_EXPECTED && !solved ? EXIT_DIFFERS : code;
@@ -154,11 +144,10 @@ static const verb_option own[] = {
     {"verbose", 'v', NULL, "values, times and limits of each formulation by itself", IN(verbose),
      .traits = OPTION_ASIDE},
     {0}};
-static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),
-                                    SHARED(meshes, meshes),     SHARED(select, select),
-                                    SHARED(own_truths, truths), SHARED(output, output),
-                                    SHARED(format, format),     SHARED(jobs, shards.jobs),
-                                    SHARED(shards, shards),     {NULL, 0}};
+static const verb_group shared[] = {
+    SHARED(case, of),       SHARED(formulations, chosen), SHARED(meshes, meshes),
+    SHARED(select, select), SHARED(own_truths, truths),   SHARED(output, output),
+    SHARED(format, format), SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_converge = {
     "converge",
     "CASE",

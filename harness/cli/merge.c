@@ -127,10 +127,7 @@ typedef struct merge_request {
 #define IN(at) .member = offsetof(merge_request, at)
 static const verb_option own[] = {
     {"partial", 0, NULL, "go on without the batches that are missing", IN(on)},
-    {"verbose", 'v', NULL,
-     "verify: every limit, not only the overview; converge: values, times and limits of each "
-     "formulation by itself",
-     IN(on)},
+    {"verbose", 'v', NULL, "verify: every limit, not only the overview", IN(on)},
     {"quiet", 'q', NULL, "only what is unexpected, and the last sentence", IN(on)},
     {0}};
 static const verb_group shared[] = {SHARED(output, output),
@@ -141,8 +138,8 @@ static const verb_group shared[] = {SHARED(output, output),
 const verb verb_merge = {
     "merge",
     "FOLDER...",
-    "what shards of verify, stress, converge or bench computed, as one run",
-    "Puts together the batches that shards of verify, stress, converge, bench or sweep wrote with "
+    "what shards of verify or sweep computed, as one run",
+    "Puts together the batches that shards of verify or sweep wrote with "
     "--into, and writes what the verb would have written in one run. The verb, its options and its "
     "files are those of the shards. Exit status: that of the verb; 2 batches of another request, "
     "build or input, or two that differ; 5 batches are missing, which are listed: nothing is "

@@ -13,19 +13,19 @@
 static const struct {
     char letter;
     const char *name;
-} former[] = {{'x', "element"},    {'F', "format"},    {'K', "keep-all"},       {'S', "steps"},
-              {'L', "time-limit"}, {'J', "json"},      {'U', "junit"},          {'c', "threshold"},
-              {'P', "shapes"},     {'V', "follow"},    {'y', "vary"},           {'d', "design"},
-              {'z', "points"},     {'r', "seed"},      {'g', "derive"},         {'R', "matrices"},
-              {'4', "ends"},       {'5', "restart"},   {'M', "markdown"},       {'A', "against"},
-              {'e', "error"},      {'t', "threads"},   {'D', "dense"},          {'X', "plant"},
-              {'T', "truths"},     {'W', "findings"},  {'Y', "scene"},          {'I', "built-in"},
-              {'B', "beside"},     {'m', "map"},       {'N', "doublings"},      {'0', "exit-zero"},
-              {'6', "tolerance"},  {'l', "tolerance"}, {'7', "not-worse-than"}, {'G', "gate"},
-              {'O', "to"},         {'H', "schema"},    {'E', "keys"},           {'Z', "shard"},
-              {'i', "into"},       {'C', "plan"},      {'b', "from"},           {'w', "partial"},
-              {'Q', "hash"},       {'p', "propose"},   {'u', "integrator"},     {'a', "step"},
-              {'3', "no-errors"},  {'1', "expected"}};
+} former[] = {{'x', "element"},    {'F', "format"},     {'K', "keep-all"},       {'S', "steps"},
+              {'L', "time-limit"}, {'J', "json"},       {'U', "junit"},          {'c', "threshold"},
+              {'P', "shapes"},     {'V', "follow"},     {'y', "vary"},           {'d', "design"},
+              {'z', "points"},     {'r', "seed"},       {'g', "derive"},         {'R', "matrices"},
+              {'4', "ends"},       {'5', "restart"},    {'M', "markdown"},       {'A', "against"},
+              {'e', "error"},      {'t', "threads"},    {'D', "dense"},          {'X', "plant"},
+              {'T', "truths"},     {'W', "findings"},   {'Y', "scene"},          {'I', "built-in"},
+              {'B', "beside"},     {'m', "map"},        {'N', "doublings"},      {'0', "exit-zero"},
+              {'6', "tolerance"},  {'l', "tolerance"},  {'7', "not-worse-than"}, {'G', "gate"},
+              {'O', "to"},         {'H', "schema"},     {'E', "keys"},           {'Z', "shard"},
+              {'i', "into"},       {'b', "from"},       {'w', "partial"},        {'Q', "hash"},
+              {'p', "propose"},    {'u', "integrator"}, {'a', "step"},           {'3', "no-errors"},
+              {'1', "expected"}};
 
 const verb_option verb_help[] = {{"help", 'h', NULL, "this list", .traits = OPTION_ASIDE},
                                  {"usage", 0, NULL, "the options in short", .traits = OPTION_ASIDE},

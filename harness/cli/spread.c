@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "harness/cli/command.h"
-#include "harness/experiments/forecast.h"
 #include "harness/experiments/merge.h"
 #include "harness/experiments/shard.h"
 #include "harness/formulations/words.h"
@@ -21,12 +20,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
     char folder[2 * FAULT_TEXT];
     int index, count, first = 0;
     const int writes = given_next(r->line, OPTION_OUTPUT, &first) != NULL;
-    *asked = r->into != NULL || r->shard != NULL || r->from.count > 0 || r->plan > 0;
-    if (r->plan > 0 && (r->shard != NULL || r->from.count > 0 || writes))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "--plan says when all shards would end, on standard output: leave --shard, "
-            "--from and outputs away");
+    *asked = r->into != NULL || r->shard != NULL || r->from.count > 0;
     if (r->from.count > 0 && (r->into != NULL || r->shard != NULL))
         return fault_set(f, STATUS_REFUSED, "--from takes batches, --into computes them: give one");
     if (r->shard != NULL && r->into == NULL)
@@ -59,11 +53,11 @@ static int tell_shard(const shard_options *r, const shard_request *q, const shar
     return EXIT_AS_EXPECTED;
 }
 
-static status compute(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
+static status compute(const shard_options *r, const work *w, spread_end *out, fault *f)
 {
     shard_request q = {.count = 1,
                        .into = r->into,
-                       .jobs = times ? 1 : r->jobs,
+                       .jobs = r->jobs,
                        .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL,
                        .tell = stderr};
     shard_outcome done;
@@ -92,16 +86,7 @@ environment spread_environment(const spread_end *end, int threads)
     return e;
 }
 
-static status plan(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
-{
-    out->ended = 1;
-    out->code = EXIT_AS_EXPECTED;
-    TRY(forecast_tell(w, r->into, r->plan, times ? 1 : r->jobs, stdout, f));
-    return output_flush(f);
-}
-
-static status take(const shard_options *r, const work *w, int times, const stock *s,
-                   spread_end *out, fault *f)
+static status take(const shard_options *r, const work *w, const stock *s, spread_end *out, fault *f)
 {
     char missing[600];
     stock_missing(s, w, missing, sizeof missing);
@@ -113,14 +98,14 @@ static status take(const shard_options *r, const work *w, int times, const stock
         if (out->ended)
             return STATUS_OK;
     }
-    stock_tell_kinds(s, times, stderr);
+    stock_tell_kinds(s, stderr);
     name_processors(s, out);
     for (int i = 0; i < s->batches; i++)
         out->taken[i] = s->where[i] >= 0;
     return merge_take(w, s, f);
 }
 
-static status merge(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
+static status merge(const shard_options *r, const work *w, spread_end *out, fault *f)
 {
     stock s = {0};
     out->batches = w->batches;
@@ -129,16 +114,14 @@ static status merge(const shard_options *r, const work *w, int times, spread_end
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
     status outcome = stock_take(w, r->from.text, r->from.count, NULL, stderr, &s, f);
     if (outcome == STATUS_OK)
-        outcome = take(r, w, times, &s, out, f);
+        outcome = take(r, w, &s, out, f);
     stock_free(&s);
     return outcome;
 }
 
-status spread_work(const shard_options *r, const work *w, int times, spread_end *out, fault *f)
+status spread_work(const shard_options *r, const work *w, spread_end *out, fault *f)
 {
-    if (r->plan > 0)
-        return plan(r, w, times, out, f);
-    return r->from.count > 0 ? merge(r, w, times, out, f) : compute(r, w, times, out, f);
+    return r->from.count > 0 ? merge(r, w, out, f) : compute(r, w, out, f);
 }
 
 void spread_free(spread_end *out)
@@ -154,11 +137,6 @@ static const verb_option shards[] = {
      .member = offsetof(shard_options, shard), .traits = OPTION_ASIDE},
     {"into", 0, "FOLDER", "of the batches of --shard (without it: of all); it is made",
      .member = offsetof(shard_options, into), .traits = OPTION_ASIDE},
-    {"plan", 0, "N",
-     "when would 1, 2, 4, ..., N shards end? Nothing is computed; with --into by what the batches "
-     "of that folder took",
-     .member = offsetof(shard_options, plan), .traits = OPTION_ASIDE, .least = 1,
-     .most = SHARD_MOST},
     {"from", 0, "FOLDER",
      "take the batches that are there instead of computing, as 'beamwork merge' does; again for "
      "another",

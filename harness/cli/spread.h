@@ -20,18 +20,16 @@ typedef struct shard_options {
     const command_line *line;
     int jobs;
     const char *shard, *into; /* K/N of the work, into which folder */
-    int plan;                 /* how long so many shards take; 0: not asked */
     text_list from;           /* folders with batches, taken instead of computing */
     int partial;              /* 1: what is missing is left out */
     int quiet;
 } shard_options;
 extern const option_group options_shards; /* all but jobs and quiet */
 
-/* 1: --into, --shard, --from or --plan were given. REFUSED: what does not go together. */
+/* 1: --into, --shard or --from were given. REFUSED: what does not go together. */
 status spread_asked(const shard_options *, int *asked, fault *f);
-/* Computes the shard and says what became of it, takes the batches, or says how long they take.
- * times: 1 where machines matter, and one process computes at a time. */
-status spread_work(const shard_options *, const work *w, int times, spread_end *out, fault *f);
+/* Computes the shard and says what became of it, or takes the batches. */
+status spread_work(const shard_options *, const work *w, spread_end *out, fault *f);
 /* What a result was made with: here, or where the batches were computed. */
 environment spread_environment(const spread_end *, int threads);
 void spread_free(spread_end *);

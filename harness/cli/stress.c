@@ -3,17 +3,17 @@
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
-#include "harness/cli/extreme_work.h"
 #include "harness/cli/named.h"
 #include "harness/experiments/extreme_json.h"
+#include "harness/experiments/extreme_run.h"
 #include "harness/experiments/extreme_table.h"
 #include "harness/records/output.h"
 
 typedef struct stress_request {
     chosen_formulations chosen;
     truths_options truths;
-    shard_options shards;
     const char *select, *output, *format, *json;
+    int jobs;
 } stress_request;
 
 static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
@@ -39,18 +39,16 @@ static status write_out(const stress_request *r, const extreme_sweep *s, fault *
 }
 
 /* With what answer frees. */
-static status run(const stress_request *r, extreme_sweep *s, spread_end *end, fault *f)
+static status run(const command_line *l, const stress_request *r, extreme_sweep *s, fault *f)
 {
     const extreme_request request = {.select = r->select,
-                                     .jobs = r->shards.jobs,
+                                     .jobs = r->jobs,
                                      .formulations = r->chosen.formulations,
                                      .formulation = r->chosen.formulation,
                                      .named = named_alone(&r->chosen),
                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(files_check(r->shards.line, 0, own_tables_packed(&r->truths), f));
-    TRY(extreme_work_run(&r->shards, &request, own_tables_packed(&r->truths), s, end, f));
-    if (end->ended)
-        return STATUS_OK;
+    TRY(files_check(l, 0, own_tables_packed(&r->truths), f));
+    TRY(extreme_run(&request, own_tables_packed(&r->truths), s, f));
     TRY(write_out(r, s, f));
     if (extreme_sweep_exit(s) == EXIT_NOTHING)
         fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
@@ -61,32 +59,29 @@ static int answer(const command_line *l, void *request)
 {
     const stress_request *r = request;
     extreme_sweep s = {0};
-    spread_end end = {.ended = 0};
     fault f = {""};
     if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");
-    const status outcome = run(r, &s, &end, &f);
-    int code = end.ended ? end.code : extreme_sweep_exit(&s);
+    const status outcome = run(l, r, &s, &f);
+    int code = extreme_sweep_exit(&s);
     if (outcome != STATUS_OK)
         code = message_fail(outcome, f.text);
-    spread_free(&end);
     extreme_sweep_free(&s);
     return code;
 }
 
 #define IN(at) .member = offsetof(stress_request, at)
-static const verb_group shared[] = {
-    SHARED(formulations, chosen), SHARED(select, select), SHARED(truths, truths),
-    SHARED(output, output),       SHARED(format, format), SHARED(json, json),
-    SHARED(jobs, shards.jobs),    SHARED(shards, shards), {NULL, 0}};
+static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(select, select),
+                                    SHARED(truths, truths),       SHARED(output, output),
+                                    SHARED(format, format),       SHARED(json, json),
+                                    SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_stress = {
     "stress",
     "",
     "every formulation at extremes: a value, or a named failure",
     "Drives every formulation to the extremes where numbers become unstable, and judges every "
     "answer: a value, coarse, a named failure, or wrong. Exit status: 0 all as expected, 1 one "
-    "differs, 2 refused, 3 nothing was tried, 4 file, disk or memory, 5 batches are missing "
-    "(--shard K/N --into FOLDER, 'beamwork merge').",
+    "differs, 2 refused, 3 nothing was tried, 4 file, disk or memory.",
     "beamwork stress -k \"thin_sheet and collocation\"",
     shared,
     NULL,

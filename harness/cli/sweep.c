@@ -188,7 +188,7 @@ static status take_all(const sweep_options *r, sweeping *s, const stock *there, 
     status outcome = ranges_collect_begin(&s->work, &s->output, &c, f);
     if (outcome == STATUS_OK)
         outcome = there != NULL ? merge_take(&s->all, there, f)
-                                : spread_work(&r->shards, &s->all, 0, &s->end, f);
+                                : spread_work(&r->shards, &s->all, &s->end, f);
     const int ended = outcome == STATUS_OK && s->end.ended;
     outcome = ranges_collect_end(&c, ended ? STATUS_NO_VALUE : outcome, f);
     if (outcome == STATUS_OK && s->work.csv == NULL && !r->shards.quiet)
@@ -240,7 +240,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     if (!s->asked)
         return run_here(r, s, f);
     return r->shards.from.count > 0 ? take_all(r, s, NULL, f)
-                                    : spread_work(&r->shards, &s->all, 0, &s->end, f);
+                                    : spread_work(&r->shards, &s->all, &s->end, f);
 }
 
 /* What is not there is computed when the same command is given again. */

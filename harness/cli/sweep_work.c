@@ -13,7 +13,7 @@
  */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
-/* The sweep cut into batches. An item is a series that is run, or all of those of a point. */
+/* The sweep cut into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_work *of;
     sweep *s;
@@ -27,13 +27,8 @@ typedef struct cut {
 
 static void add_item(cut *c, int index, double cost)
 {
-    const int same = c->of->points && c->items > 0 &&
-                     c->s->series[c->begin[c->items - 1]].point == c->s->series[index].point;
-    if (!same) {
-        c->begin[c->items] = index;
-        c->each[c->items++] = 0;
-    }
-    c->each[c->items - 1] += cost;
+    c->begin[c->items] = index;
+    c->each[c->items++] = cost;
 }
 
 /* The series of a batch: first[0] to first[1] - 1. Those that are not run may stand among them. */
@@ -108,11 +103,7 @@ static void make_batches(cut *c)
         if (cells_runs(c->s, i))
             add_item(c, i, cells_expense(c->s, i));
     c->begin[c->items] = c->s->seriess;
-    if (c->of->points) {
-        c->w.batches = deal_cut(c->items, c->each, 0, c->first);
-        sum_costs(c->w.batches, c->first, c->each, c->cost);
-    } else
-        c->w.batches = sweep_work_cut(c->items, c->each, c->first, c->cost);
+    c->w.batches = sweep_work_cut(c->items, c->each, c->first, c->cost);
 }
 
 /* Series of batches that are not there are taken out. */
@@ -146,7 +137,7 @@ static status spread(cut *c, const shard_options *r, identity_texts *texts, spre
     identity_add_sweep(&plan, c->s);
     digest_add(&plan, c->cost, (size_t)c->w.batches * sizeof *c->cost);
     identity_set(texts, &plan, &c->w);
-    TRY(spread_work(r, &c->w, c->of->points, out, f));
+    TRY(spread_work(r, &c->w, out, f));
     return out->ended || out->taken == NULL ? STATUS_OK : leave_out(c, out, f);
 }
 

@@ -1,4 +1,4 @@
-/* A planned sweep as work: batches of consecutive series, or of whole points. */
+/* A planned sweep as work: batches of consecutive series. */
 #ifndef BEAMWORK_SWEEP_WORK_H
 #define BEAMWORK_SWEEP_WORK_H
 
@@ -13,9 +13,6 @@ struct sweep_work {
     truths *t; /* of the doubts that noise is measured for */
     /* Runs the cells of a part of the sweep: its points, some of its series. */
     status (*run)(const sweep_work *, sweep *part, fault *f);
-    int points;   /* 1: a batch is a whole point, and its times are measured: */
-    double floor; /* least [s] of a round for each cell */
-    int dense;    /* 1: the dense reference too */
 };
 
 /* The sweep is planned. Computes the shard, or takes the cells of --from; what is missing of

@@ -142,12 +142,8 @@ status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f
     select_words words;
     TRY(select_begin(request->select, &words, f));
     TRY(list_formulations(request, out, f));
-    for (int i = 0; extremes[i].name != NULL; i++) {
-        const int outside = request->last > 0 && (i < request->first || i >= request->last);
-        for (int k = 0; k < extremes[i].values && !outside; k++)
+    for (int i = 0; extremes[i].name != NULL; i++)
+        for (int k = 0; k < extremes[i].values; k++)
             TRY(plan_value(request, out, i, k, &words, f));
-        for (int k = 0; k < out->formulations && outside; k++)
-            is_selected(request, &extremes[i], &out->formulation[k], &words);
-    }
     return select_all_met(request->select, &words, f);
 }

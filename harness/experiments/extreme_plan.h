@@ -10,10 +10,6 @@ typedef struct extreme_request {
     const formulation *formulation; /* restrict to these; 0: all */
     int named;                      /* 1: these were asked for by name: they gate */
     FILE *progress;
-    int first, last; /* only these of the table, without the last; last 0: all */
-    /* In the place of run_sweep: first for the cells, then for their neighbours; NULL: none */
-    status (*cells)(void *context, const sweep_request *, sweep *, fault *);
-    void *context;
 } extreme_request;
 
 /* A point for every extreme and value, in order, with a series for every formulation; an outcome

@@ -40,8 +40,7 @@ static int is_open(const extreme_outcome *o)
 static status run_cells(const extreme_request *request, sweep *s, fault *f)
 {
     const sweep_request run = {.jobs = request->jobs, .progress = request->progress};
-    return request->cells != NULL ? request->cells(request->context, &run, s, f)
-                                  : run_sweep(&run, s, f);
+    return run_sweep(&run, s, f);
 }
 
 static status look_closer(const extreme_request *request, extreme_sweep *s, const truths *t,

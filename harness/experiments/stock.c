@@ -214,12 +214,13 @@ void stock_missing(const stock *s, const work *w, char *out, size_t size)
     out[size - 1] = '\0';
 }
 
-void stock_tell_kinds(const stock *s, int times, FILE *to)
+void stock_tell_kinds(const stock *s, FILE *to)
 {
     if (s->kinds < 2)
         return;
-    fprintf(to, "beamwork: the batches come from %d kinds of machines: %s\n", s->kinds,
-            times ? "their times do not compare" : "the last digits may differ");
+    fprintf(to,
+            "beamwork: the batches come from %d kinds of machines: the last digits may differ\n",
+            s->kinds);
     for (int i = 0; i < s->kinds; i++)
         fprintf(to, "beamwork:   %d on %s (%s; %s)\n", s->kind[i].batches, s->kind[i].node.host,
                 s->kind[i].node.processor, s->kind[i].node.blas);

@@ -34,8 +34,8 @@ void stock_free(stock *);
 status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
 /* "3 of 149 batches are missing: 3, 7-12 (shards 2/4, 3/4)"; nothing where none is. */
 void stock_missing(const stock *, const work *, char *out, size_t size);
-/* A line for each kind of machine where there are several; times: they were asked for. */
-void stock_tell_kinds(const stock *, int times, FILE *to);
+/* A line for each kind of machine where there are several. */
+void stock_tell_kinds(const stock *, FILE *to);
 /* The first batch of a folder that can be read, by its name: what merge asks again. REFUSED: there
  * is none. */
 status stock_first(const char *folder, batch_label *out, fault *f);

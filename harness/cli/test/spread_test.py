@@ -153,7 +153,6 @@ class Verify(SpreadTest):
         parts = self.folder / "parts"
         self.refused(2, ["another request", "(verify --select"], "verify", "-k", "elastica",
                      "--into", parts)
-        self.refused(2, ["another request"], "converge", "elastica", "--into", parts)
         other = self.folder / "beamwork"
         shutil.copy(PROGRAM, other)
         with open(other, "ab") as program:
@@ -232,57 +231,22 @@ class Killed(SpreadTest):
 
 
 class Others(SpreadTest):
-    """converge and bench; what does not go together."""
+    """A scene of one's own; what does not go together."""
 
-    def test_converge(self):
-        """A scene of one's own from two shards, merged in another folder, as in one run."""
+    def test_own_scene(self):
+        """Two shards, merged in another folder, as in one run; nothing is judged."""
         scene = self.folder / "leaf.yaml"
         scene.write_text(SCENE)
-        ask = ("converge", "--scene", scene, "--format", "json")
-        alone = self.answered(*ask).stdout
+        ask = ("verify", "--scene", scene)
+        self.answered(*ask, "-o", self.folder / "alone.h5", code=3)
         for which in ("1/2", "2/2"):
             self.shard(which, *ask)
-        text = self.answered("merge", self.folder / "parts", "--format", "json",
-                             cwd=pathlib.Path("/")).stdout
-        drop = ("seconds", "clock")
-        ours, theirs = ([line for line in part.splitlines() if not any(word in line for word in
-                                                                       drop)]
-                        for part in (text, alone))
-        self.assertGreater(len(ours), 100)
-        self.assertEqual(ours, theirs)
-        scene.write_text(SCENE.replace("0.1, unit", "0.2, unit"))
-        self.refused(2, ["other truths, scenes or formulations"], "merge", self.folder / "parts")
-
-    def test_bench(self):
-        """Times of two points from two shards; values as in one run."""
-        ask = ("bench", "elastica", "snap_through", "-f", "beamw", "-f", "collocation", "-n", "1,2")
-        self.answered(*ask, "-o", self.folder / "alone.h5")
-        for which in ("1/2", "2/2"):
-            self.assertIn(" 1 batch in", self.shard(which, *ask).stdout)
-        done = self.answered("merge", self.folder / "parts", "-o", self.folder / "merged.h5")
-        self.assertIn("elastica", done.stdout)
-        with h5py.File(self.folder / "merged.h5") as file:
-            self.assertIn(f"({os.uname().nodename})", file.attrs["processor"].decode())
+        self.answered("merge", self.folder / "parts", "-o", self.folder / "merged.h5", code=3,
+                      cwd=pathlib.Path("/"))
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.folder / "alone.h5"))
-
-    def test_stress(self):
-        """Values, coarse ones and failures from three shards, as in one run."""
-        ask = ("stress", "-k", "decay_free or soft_square or twist_wagner or thin_sheet",
-               "--format", "json")
-        alone = run(*ask)
-        for which in ("1/3", "2/3", "3/3"):
-            self.shard(which, *ask)
-        self.assertGreater(len(self.names()), 2)
-        self.refused(2, ["leave --partial away"], *ask, "--from", self.folder / "parts",
-                     "--partial")
-        merged = run("merge", self.folder / "parts", "--format", "json")
-        self.assertEqual(merged.returncode, alone.returncode, merged.stderr)
-        ours, theirs = ([line for line in text.splitlines()
-                         if "seconds" not in line and "clock" not in line]
-                        for text in (merged.stdout, alone.stdout))
-        self.assertIn("coarse", alone.stdout)
-        self.assertEqual(ours, theirs)
+        scene.write_text(SCENE.replace("0.1, unit", "0.2, unit"))
+        self.refused(2, ["other truths, scenes or formulations"], "merge", self.folder / "parts")
 
     def test_refused(self):
         """What does not go together is told before anything is computed."""
@@ -294,8 +258,8 @@ class Others(SpreadTest):
                 (["give one"], ["--into", parts, "--from", parts]),
                 (["--partial is of"], ["--partial"])):
             self.refused(2, words, "verify", "-k", "elastica", *arguments)
-        self.refused(2, ["on one processor"], "bench", "elastica", "-f", "beamw", "--against",
-                     "collocation", "--into", parts)
+        for verb in ("bench", "converge", "stress"):
+            self.refused(2, ["--into"], verb, "--into", parts)
         self.refused(2, ["which folders"], "merge")
         self.refused(4, ["nowhere", "cannot be read"], "merge", self.folder / "nowhere")
         self.refused(2, ["no batches in it"], "merge", self.folder)
