@@ -174,7 +174,8 @@ def write(site, case):
         "after": site.cases[at + 1] if at + 1 < len(site.cases) else None, "all_of": answers.ALL
     }
     shared["stored"] = any((ROOT / "cases" / name).is_file()
-                           for name in (f"{case.name}.c", f"examples/{case.name}.yaml"))
+                           for name in (f"{case.name}.c", f"{case.name}.yaml",
+                                        f"examples/{case.name}.yaml"))
     apart = own_pages(case)
     site.write("case.html", f"{case.name}.html", **shared, part=parts[0],
                further=[] if apart else parts[1:],

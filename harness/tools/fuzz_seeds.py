@@ -30,7 +30,7 @@ def save(folder, seeds):
 
 def parameters():
     """Every parameter point of the tables, behind the number of its case."""
-    for index, path in enumerate(sorted((ROOT / "cases").glob("*.c"))):
+    for index, path in enumerate(sorted((ROOT / "cases").glob("*.[cy]*"), key=lambda p: p.stem)):
         table = ROOT / "reference" / "tables" / f"{path.stem}.csv"
         with open(table if table.exists() else "/dev/null", newline="", encoding="utf-8") as rows:
             for text in sorted({row["parameters"] for row in csv.DictReader(rows)}):

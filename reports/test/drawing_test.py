@@ -17,7 +17,7 @@ LOADED = ROOT / "cases/format/test/good/loaded.yaml"
 
 def written():
     """{name: text} of all cases and examples as scene files."""
-    found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases").glob("*.c")}
+    found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases").glob("*.[cy]*")}
     found.update({p.stem: ("scene", "--scene", str(p))
                   for p in (ROOT / "cases" / "examples").glob("*.yaml")})
     return {name: run(*arguments).stdout for name, arguments in sorted(found.items())}

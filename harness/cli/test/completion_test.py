@@ -32,7 +32,8 @@ class Completion(ProgramTest):
             self.assertEqual(self.offered(verb, "-"), [f"--{name}{more}" for name, more in shown])
 
     def test_names(self):
-        cases, formulations = (sorted(path.stem for path in (ROOT / folder).glob("*.c"))
+        cases, formulations = (sorted(path.stem for end in ("c", "yaml")
+                                      for path in (ROOT / folder).glob("*." + end))
                                for folder in ("cases", "elements"))
         self.assertEqual(sorted(self.offered("solve", "")), cases)
         self.assertEqual(self.offered("solve", "c_column", ""), [])
