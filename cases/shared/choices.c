@@ -39,15 +39,6 @@ int case_omits_nothing(const case_type *c, const double value[])
     return 0;
 }
 
-static scene_mass mass_of(const case_type *c, const double value[])
-{
-    const parameter_type *p;
-    for (int i = 0; (p = parameter_at(c->parameters, i)) != NULL; i++)
-        if (case_is_mass(p))
-            return (scene_mass)value[i];
-    return SCENE_MASS_USUAL;
-}
-
 static void place_mass(scene *s, scene_mass mass)
 {
     s->lumped = mass == SCENE_LUMPED;
@@ -56,11 +47,20 @@ static void place_mass(scene *s, scene_mass mass)
             s->analysis[i].of.motion.mass = mass;
 }
 
+/* Where the case leaves it to its user; a scene file that does not says it itself. */
+static void choose_mass(const case_type *c, const double value[], scene *s)
+{
+    const parameter_type *p;
+    for (int i = 0; (p = parameter_at(c->parameters, i)) != NULL; i++)
+        if (case_is_mass(p))
+            place_mass(s, (scene_mass)value[i]);
+}
+
 status case_build(const case_type *c, const double value[], scene *s, fault *f)
 {
     TRY(c->build != NULL ? c->build(value, s, f) : c->build_from(c->context, value, s, f));
     if (case_omits_nothing(c, value))
         s->omits = 0;
-    place_mass(s, mass_of(c, value));
+    choose_mass(c, value, s);
     return STATUS_OK;
 }
