@@ -196,7 +196,7 @@ class Import(ProgramTest):
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
         self.refused(2, "is beside this run already; give it once", *select, "--beside",
                      self.folder / "theirs.h5", "--beside", self.folder / "copy.h5")
-        self.refused(2, "is given twice with one path", *select, "--beside",
+        self.refused(2, "is given twice; give it once", *select, "--beside",
                      self.folder / "theirs.h5", "--beside", self.folder / "theirs.h5")
         self.refused(2, "would replace", *select, "--beside", self.folder / "copy.h5", "--beside",
                      self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")
