@@ -4,6 +4,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/contest.h"
+#include "harness/experiments/timing.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/csv.h"
@@ -11,7 +12,6 @@
 #include "harness/records/store.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
-#include "harness/study/timing.h"
 #include "harness/terminal/table_timing.h"
 
 static const double floor_seconds = 0.002; /* of each round for each cell */

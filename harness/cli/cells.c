@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "harness/study/expense.h"
+#include "harness/study/rounds.h"
 #include "harness/study/serialise.h"
-#include "harness/study/timing.h"
 
 int cells_runs(const sweep *s, int index)
 {

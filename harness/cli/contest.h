@@ -7,8 +7,8 @@
 
 #include "harness/cli/case_input.h"
 #include "harness/cli/named.h"
+#include "harness/experiments/against.h"
 #include "harness/records/schema.h"
-#include "harness/study/against.h"
 
 typedef struct bench_request {
     case_options of;

@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "harness/cli/command.h"
+#include "harness/experiments/timing.h"
 #include "harness/model/missing.h"
 #include "harness/numerics/clock.h"
 #include "harness/study/reach.h"
-#include "harness/study/rounds.h"
 #include "harness/terminal/paragraph.h"
 
 enum { MOST_REPEATS = 10000, NAME = 40 };

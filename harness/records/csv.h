@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "harness/study/judgement.h"
-#include "harness/study/timing.h"
+#include "harness/study/rounds.h"
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);

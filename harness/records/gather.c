@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/records/assumptions.h"
-#include "harness/study/timing.h"
+#include "harness/study/rounds.h"
 
 static void add(subjects *list, const subject *one)
 {

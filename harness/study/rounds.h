@@ -16,18 +16,31 @@ typedef struct rounds_reading {
     int rounds, repeats;
 } rounds_reading;
 
-/* One more round: repeats until `floor` [s] of the processor's time are spent, at least once. A
- * cell that fails has a time too. */
-void rounds_run(const cell_request *request, double floor, rounds_reading *out);
 double rounds_least(const rounds_reading *); /* [s], INFINITY: never run */
 double rounds_most(const rounds_reading *);  /* [s] of the slowest round */
 /* -1: every round of a is faster than every one of b; 1: slower; 0: undecided. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
 
-/* Binds this process to the processor it runs on, so that repetitions are comparable. */
-void rounds_pin(void);
-/* Libraries that thread decide so when they are loaded: starts the program anew with one thread.
- * arguments: NULL-terminated. */
-void rounds_single_thread(char **arguments);
+/* The published algorithm beside ours: all coordinates, strains and stresses at once, dense
+ * Gaussian elimination (newton=dense). */
+typedef struct dense_reference {
+    int unknowns;         /* of the dense system; 0: not measured */
+    double iteration;     /* [s] least time of one iteration */
+    rounds_reading whole; /* of whole runs, where these are short enough; else rounds = 0 */
+} dense_reference;
+
+/* [s] of a run: measured, or the time of one iteration times their number (the iterations are the
+ * same); INFINITY: not measured. */
+double dense_reference_seconds(const dense_reference *b, long iterations);
+
+/* Repeated runs of a cell, as it is and with nothing left out (--keep-all). */
+typedef struct cell_timing {
+    rounds_reading as_is, keep_all; /* rounds = 0: not measured */
+    int free_keep_all;              /* unknowns when nothing is left out */
+    /* [s] of the solution in one run more, in which the clock is read between the parts of the
+     * iterations */
+    double phase[PHASES];
+    dense_reference dense; /* when asked for */
+} cell_timing;
 
 #endif

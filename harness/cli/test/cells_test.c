@@ -7,8 +7,8 @@
 #include "harness/cli/cells.h"
 #include "harness/formulations/case_find.h"
 #include "harness/study/plan.h"
+#include "harness/study/rounds.h"
 #include "harness/study/run.h"
-#include "harness/study/timing.h"
 
 /* Two meshes of a path with a curve, run; noise and times as if they were measured. */
 static void make(sweep *s)

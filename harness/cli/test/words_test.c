@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "elements/shared/choice.h"
+#include "harness/experiments/against.h"
 #include "harness/experiments/outcome.h"
 #include "harness/records/comparison.h"
-#include "harness/study/against.h"
 #include "harness/study/glossary.h"
 #include "harness/study/truth.h"
 #include "harness/study/verdict.h"

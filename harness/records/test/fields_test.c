@@ -7,7 +7,7 @@
 
 #include "harness/records/gather.h"
 #include "harness/study/price.h"
-#include "harness/study/timing.h"
+#include "harness/study/rounds.h"
 
 enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
 static const case_type made_up = {.name = "made_up"};

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "harness/study/reach.h"
+#include "harness/study/rounds.h"
 #include "harness/study/test/bench.h"
-#include "harness/study/timing.h"
 
 /* Counts of which each alone fails the gate. */
 static const size_t failing[] = {

@@ -5,12 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "harness/experiments/against.h"
+#include "harness/experiments/timing.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/registry.h"
-#include "harness/study/against.h"
 #include "harness/study/reach.h"
 #include "harness/study/rounds.h"
-#include "harness/study/timing.h"
 #include "harness/tools/kit/cells.h"
 
 enum { PAIRS = 101, TRIALS = 300 };

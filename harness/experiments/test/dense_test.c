@@ -3,10 +3,10 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
+#include "harness/experiments/timing.h"
 #include "harness/formulations/case_find.h"
 #include "harness/formulations/formulation.h"
 #include "harness/newton/uncondensed.h"
-#include "harness/study/dense_reference.h"
 #include "harness/tools/kit/cells.h"
 
 /* The order of the matrix that is eliminated. */

@@ -1,4 +1,4 @@
-#include "harness/study/against.h"
+#include "harness/experiments/against.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

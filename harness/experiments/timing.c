@@ -1,10 +1,75 @@
-#include "harness/study/timing.h"
+#include "harness/experiments/timing.h"
 
+#include <math.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "harness/numerics/clock.h"
 #include "harness/study/progress.h"
+
+void rounds_run(const cell_request *request, double floor, rounds_reading *out)
+{
+    double least = INFINITY, spent = 0;
+    for (int i = 0; out->rounds < ROUNDS_COUNT && (i == 0 || spent < floor); i++) {
+        cell_result cell;
+        fault f = {""};
+        cell_run(request, &cell, &f);
+        const double total = cell.solve.seconds_setup + cell.solve.seconds_solve;
+        if (total < fmin(least, rounds_least(out))) {
+            out->setup = cell.solve.seconds_setup;
+            out->solve = cell.solve.seconds_solve;
+        }
+        least = fmin(least, total);
+        spent += fmax(total, 1e-6);
+        out->repeats++;
+        cell_result_free(&cell);
+    }
+    if (out->rounds < ROUNDS_COUNT)
+        out->round[out->rounds++] = least;
+}
+
+/* [s] of a whole run; longer ones are counted from one iteration */
+static const double longest_dense = 1;
+enum { MOST_UNKNOWNS = 3000 }; /* 72 MB; a few seconds per iteration */
+
+/* Coordinates, strains and stresses. */
+static int unknowns_of(const cell_result *cell)
+{
+    return cell->size.free + 2 * cell->size.strains * cell->size.elements;
+}
+
+static void sample(const cell_request *dense, dense_reference *out)
+{
+    cell_request one = *dense;
+    cell_result cell;
+    fault f = {""};
+    double seconds = 0;
+    one.solve.sample = one.solve.phases = 1;
+    if (cell_run(&one, &cell, &f) == STATUS_OK)
+        for (int k = 0; k < PHASE_REST; k++)
+            seconds += cell.solve.phase[k];
+    if (seconds > 0) { /* a path that is continued has no dense form: nothing was sampled */
+        out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
+        out->unknowns = unknowns_of(&cell);
+    }
+    cell_result_free(&cell);
+}
+
+void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
+                           dense_reference *out)
+{
+    const long iterations = cell->counters.iterations;
+    cell_request dense = *own;
+    dense.solve.newton = NEWTON_DENSE;
+    if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
+        return; /* a linear problem, or one too large */
+    if (out->unknowns == 0 || out->iteration < longest_dense)
+        sample(&dense, out);
+    if (out->unknowns > 0 && out->iteration * (double)iterations <= longest_dense)
+        rounds_run(&dense, floor, &out->whole);
+}
 
 static const double longest_elsewhere = 0.05; /* [s] of one run */
 
@@ -113,4 +178,28 @@ status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f)
     }
     progress_end(&line);
     return STATUS_OK;
+}
+
+void rounds_pin(void)
+{
+    const int here = sched_getcpu();
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(here >= 0 ? here : 0, &only);
+    sched_setaffinity(0, sizeof only, &only); /* without it the readings are only noisier */
+}
+
+void rounds_single_thread(char **arguments)
+{
+    static const char *const threads[] = {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
+                                          "MKL_NUM_THREADS", "BLIS_NUM_THREADS"};
+    enum { LIBRARIES = sizeof threads / sizeof threads[0] };
+    int single = 1;
+    for (int i = 0; i < LIBRARIES; i++) {
+        single &= getenv(threads[i]) != NULL && strcmp(getenv(threads[i]), "1") == 0;
+        setenv(threads[i], "1", 1);
+    }
+    if (!single)
+        /* returns only where there is no /proc: then libraries decide */
+        execv("/proc/self/exe", arguments);
 }
