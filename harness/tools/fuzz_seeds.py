@@ -89,7 +89,7 @@ def imports():
             "C_ux_Fx, mm/N, 2, 24, 2.1e-3, , 3.9e-4, 1e-9\nC_uz_Fz, m/kN, 4,,,, 3,\n")
     curve = "# axes: x=x y=y z=z\nC_xx_curve, um/mN, 4,,, 0.01, 29,\nC_xx_curve, m/N, 4,,, 0, 14,\n"
     yield b"\0" + (head + rows + "# program: another\n" + curve).encode()
-    yield b"\1" + (IMPORTS / "maps" / "mbdyn.yaml").read_bytes()
+    yield b"\1" + (IMPORTS / "mbdyn.yaml").read_bytes()
     yield (
         b"\2 displacements (vx,vy,vz) for set NTIP and time  0.1E+01\n\n 4 -1.3D+00 1.5E+01 0.0\n"
         b"\n total force (fx,fy,fz) for set NTIP and time 0.1E+01\n\n -1.0D-10 3.6E+03 0.0\n")

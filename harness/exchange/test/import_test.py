@@ -35,7 +35,7 @@ quantities:
   fall: {displacement: {analysis: fly, node: b, component: uy, take: crossing}, when: {level: -0.1, direction: falling}}
 """
 DATA = pathlib.Path(__file__).parent / "data"
-MAPS = pathlib.Path(__file__).parents[1] / "maps"
+MAPS = pathlib.Path(__file__).parents[1]
 SELECT = "sheet_cantilever and C_xx and shear_factor"
 
 

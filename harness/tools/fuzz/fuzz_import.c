@@ -9,7 +9,7 @@
 
 enum { FORMS = 3 };
 
-#define MAPS "harness/exchange/maps/"
+#define MAPS "harness/exchange/"
 #define DATA "harness/exchange/test/data/"
 
 static status read_form(int form, const char *path, import_set *set, mistakes *m, fault *f)
