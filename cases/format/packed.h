@@ -1,4 +1,4 @@
-/* A scene file as the build writes it into the program (harness/tools/pack): read and checked
+/* A scene file as the build writes it into the program (harness/tools/pack_case.c): read and checked
  * there, without a pointer in it, and a case like any other here. */
 #ifndef BEAMWORK_SCENE_PACKED_H
 #define BEAMWORK_SCENE_PACKED_H
