@@ -227,6 +227,28 @@ static void to_si(const builder *b, int own)
         tell_refusal(b, f.text);
 }
 
+static void hold_warping(builder *b)
+{
+    scene_warping_by_supports(b->scene);
+}
+
+/* Each refers to those before it: nothing more is read where memory has ended. How many quantities
+ * the file has itself. */
+static int build_lists(builder *b)
+{
+    static void (*const own[])(builder *) = {builder_nodes,    builder_members,   builder_springs,
+                                             hold_warping,     builder_motions,   builder_loads,
+                                             builder_analyses, builder_quantities},
+                                       (*const whole[])(builder *) = {builder_defaults, read_plane,
+                                                                      read_physics, read_meshes};
+    for (size_t i = 0; i < sizeof own / sizeof own[0] && !b->scene->out_of_memory; i++)
+        own[i](b);
+    const int quantities = b->scene->quantities;
+    for (size_t i = 0; i < sizeof whole / sizeof whole[0] && !b->scene->out_of_memory; i++)
+        whole[i](b);
+    return quantities;
+}
+
 void build_scene(const document_node *root, const scope *names, build_ends ends, arena *a,
                  mistakes *m, scene *out)
 {
@@ -249,19 +271,7 @@ void build_scene(const document_node *root, const scope *names, build_ends ends,
     if (b.list[SCENE_MEMBERS].count == 0 && !b.list[SCENE_MEMBERS].incomplete)
         document_mistake(m, root, 0,
                          "the scene has no members; add members: {NAME: {from, to, section, y}}");
-    builder_nodes(&b);
-    builder_members(&b);
-    builder_springs(&b);
-    scene_warping_by_supports(out);
-    builder_motions(&b);
-    builder_loads(&b);
-    builder_analyses(&b);
-    builder_quantities(&b);
-    const int own = out->quantities;
-    builder_defaults(&b);
-    read_plane(&b);
-    read_physics(&b);
-    read_meshes(&b);
+    const int own = build_lists(&b);
     m->out_of_memory |= a->failed || out->out_of_memory;
     if (b.units.given && m->count == 0 && !m->out_of_memory)
         to_si(&b, own);

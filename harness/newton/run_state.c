@@ -26,13 +26,21 @@ void linear_memory_free(linear_memory *memory)
     memory->slot = NULL;
 }
 
-status run_state_begin(run_state *run, const model *m, int threads, fault *f)
+static status begin(run_state *run, const model *m, int threads, fault *f)
 {
     const int most = model_sizes(m).elements / ELEMENTS_OF_A_THREAD;
-    memset(run, 0, sizeof *run);
     TRY(assemble_patterns_alloc(&run->patterns, f));
     TRY(linear_memory_alloc(m, &run->memory, f));
     return team_alloc(threads < most ? threads : most, &run->team, f);
+}
+
+status run_state_begin(run_state *run, const model *m, int threads, fault *f)
+{
+    memset(run, 0, sizeof *run);
+    const status outcome = begin(run, m, threads, f);
+    if (outcome != STATUS_OK)
+        run_state_end(run);
+    return outcome;
 }
 
 void run_state_end(run_state *run)
