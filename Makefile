@@ -107,16 +107,18 @@ all: $(PROGRAM) $(TRUTHS) ## build the program, the library and the packed truth
 $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 	@$(PROGRAM) import $< -o $@ >/dev/null
 
+# Has the experiment left its part in the results since the program was built?
+is_newer = PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports.experiments $(BUILD)/results.h5 $(1) $(PROGRAM)
 # RESULTS=FILE: results of one's own, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
 # sweep; SWEEP="FILE ...": sweeps beside the results.
 report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE beside it
 ifndef RESULTS
-	@test -f $(BUILD)/results.h5 || $(MAKE) --no-print-directory verify
+	@test -f $(BUILD)/results.h5 -a -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-newton
-	@test $(BUILD)/elements.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-certificates >/dev/null
-	@test $(BUILD)/stress.json -nt $(PROGRAM) || $(PROGRAM) stress -o $(BUILD)/stress.txt --json $(BUILD)/stress.json
+	@$(call is_newer,element-test) || $(MAKE) --no-print-directory lab-certificates >/dev/null
+	@$(call is_newer,stress) || $(MAKE) --no-print-directory stress >$(BUILD)/stress.txt
 endif
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(if $(wildcard $(BUILD)/bench.h5),--bench $(BUILD)/bench.h5) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 docs: all needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees
@@ -125,15 +127,15 @@ docs: all needs-docs ## the documentation as a site that opens from disk, into b
 
 # Drives every formulation to extremes.
 stress: all
-	@$(PROGRAM) stress --json $(BUILD)/stress.json $(STRESS)
+	@$(PROGRAM) stress -o $(BUILD)/results.h5 $(STRESS)
 
 .PHONY: motion
 # Integrators of motions in time: orders, what they conserve, large steps.
 motion: all
-	@$(PROGRAM) motion --expected harness/experiments/expected.csv --time-limit 0 --json $(BUILD)/motion.json $(MOTION)
+	@$(PROGRAM) motion --expected harness/experiments/expected.csv --time-limit 0 -o $(BUILD)/results.h5 $(MOTION)
 
-bench: all ## time every formulation on every case into build/bench.h5
-	@$(PROGRAM) bench -o $(BUILD)/bench.h5
+bench: all ## time every formulation on every case; its part of build/results.h5
+	@$(PROGRAM) bench -o $(BUILD)/results.h5
 
 # A former run shows change, never truth.
 .PHONY: compare baseline

@@ -22,7 +22,7 @@ MARKERS = "os^vD<>Pp*"
 def cases(path):
     """Names of the cases that a file has."""
     with h5py.File(path) as file:
-        return list(file["cases"])
+        return list(file.get("cases", ()))
 
 
 def read(path, case):

@@ -1,11 +1,10 @@
 """Certificates: what a paper should print of its element. For each formulation the contract of the
 interface, claim by claim, uniform and linear states, locking and orders of convergence, as
-`beamwork element-test --json` wrote them (build/elements.json)."""
+`beamwork element-test` left them in the results."""
 import functools
-import json
 import math
-import os
 
+from reports import experiments
 from reports.chart import Chart
 
 NAVIGATION = [("certificates.html", "certificates")]
@@ -16,17 +15,36 @@ EXACT = 1e-9  # as the text of the program says it
 MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
+def part_of(record, formulation, family, points):
+    """A family of a formulation: its claims, and what is measured with its points."""
+    def own(table):
+        return [row for row in record[table]
+                if (row["formulation"], row["family"]) == (formulation, family["family"])]
+
+    measured = [{**one, **points_of(points, one)} for one in own("measured")]
+    return {**family, "claims": own("claims"), "measured": measured}
+
+
+def points_of(points, measure):
+    found = points.get((measure["formulation"], measure["family"], measure["name"]), [])
+    return {"at": [row["at"] for row in found], "error": [row["error"] for row in found]}
+
+
 def read(path):
-    """What `beamwork element-test --json` wrote, or None."""
-    if not os.path.exists(path):
+    """What `beamwork element-test` left, or None; each formulation with its parts."""
+    record = experiments.read(path, "element-test")
+    if record is None:
         return None
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
+    points = experiments.grouped(record["measured_points"], "formulation", "family", "name")
+    for one in record["formulations"]:
+        one["parts"] = [part_of(record, one["formulation"], family, points)
+                        for family in record["parts"]]
+    return record
 
 
 def stored(site):
-    """The record beside the results, or None."""
-    return read(os.path.join(os.path.dirname(os.path.abspath(site.results)), "elements.json"))
+    """The record in the results, or None."""
+    return read(site.results)
 
 
 def shown(site):
@@ -35,7 +53,7 @@ def shown(site):
     if record is None:
         return []
     known = {key.partition(":")[0] for key in site.styles.order}
-    return [c for c in record["certificates"] if c["formulation"] in known]
+    return [c for c in record["formulations"] if c["formulation"] in known]
 
 
 def present(site):
@@ -115,7 +133,7 @@ def order(one):
 def write(site):
     record = stored(site)
     found = [Certificate(c) for c in shown(site)]
-    site.write("certificates.html", "certificates.html", record=record, found=found,
+    site.write("certificates.html", "certificates.html", record=record, about=site.about, found=found,
                families=[p["family"] for p in found[0].families],
                what=[p for p in found[0].parts], standing=standing, marks=MARKS, percent_of=percent,
                order_of=order, images={c.key: draw(site, c) for c in found},

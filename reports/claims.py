@@ -113,7 +113,7 @@ def baseline(site):
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [
-        data.read_case(here / name, case) for case, name in files.items()
+        data.read_case(here / name, case, root=data.root_of_bench) for case, name in files.items()
         if (here / name).is_file()
     ]
 

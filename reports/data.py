@@ -16,7 +16,8 @@ def text(value):
 
 
 REACH = {0.1: "reach_10", 0.01: "reach_1", 0.001: "reach_0.1", 0.0001: "reach_0.01"}
-SCHEMA, VERSION = "beamwork-results", 2
+SCHEMA, VERSIONS = "beamwork-results", (2, 3)
+BENCH = "experiments/bench"  # group of the times; of version 2: a file of its own
 
 
 def column(values):
@@ -169,15 +170,24 @@ def read_words(group, points):
     return rows(group, "parameters")
 
 
-def read_case(path, name, bench=None):
+def root_of_bench(file):
+    return file[BENCH] if BENCH in file else file
+
+
+def of_root(file):
+    return file
+
+
+def read_case(path, name, bench=None, root=of_root):
     """A case; with the times of a benchmark where one is given."""
     with h5py.File(path) as file:
-        group = file["cases"][name]
+        own = root(file)
+        group = own["cases"][name]
         meshes, units = read_meshes(group)
         read_timings(group, meshes)
-        declared = declarations_in(file)
+        declared = declarations_in(own)
         case = Case(name, text(group.attrs["summary"]), text(group.attrs["source"]),
-                    read_points(group, meshes, units, float(file.attrs.get("cost_noise", 1))),
+                    read_points(group, meshes, units, float(own.attrs.get("cost_noise", 1))),
                     rows(group, "coverages"))
         case.parameters = read_words(group, case.points)
         for one in [s for p in case.points for s in p.series]:
@@ -190,25 +200,26 @@ def read_case(path, name, bench=None):
 def read_bench(path, name, meshes):
     """Times of a benchmark into the cells of the same name."""
     with h5py.File(path) as file:
-        if name in file["cases"]:
-            read_timings(file["cases"][name], meshes)
+        cases = root_of_bench(file)["cases"]
+        if name in cases:
+            read_timings(cases[name], meshes)
 
 
-def read_about(path):
+def read_about(path, root=of_root):
     """Environment {name: text} that a file of results was made in."""
     try:
         with h5py.File(path) as file:
             if text(file.attrs.get("schema", "")) != SCHEMA:
                 raise Unreadable(
                     f"{path}: not a file of results; 'make verify' and 'make bench' write them")
-            if file.attrs["schema_version"] != VERSION:
+            if file.attrs["schema_version"] not in VERSIONS:
                 raise Unreadable(
-                    f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSION}; write it again with 'make verify' or 'make bench'"
+                    f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSIONS[0]} to {VERSIONS[-1]}; write it again with 'make verify' or 'make bench'"
                 )
-            return {name: text(value) for name, value in file.attrs.items()}
+            return {name: text(value) for name, value in root(file).attrs.items()}
     except OSError as why:
         raise Unreadable(
-            f"{path}: cannot be read ({why}); 'make verify' writes build/results.h5, 'make bench' build/bench.h5"
+            f"{path}: cannot be read ({why}); 'make verify' and 'make bench' write build/results.h5"
         ) from why
 
 

@@ -3,22 +3,27 @@ import functools
 import json
 import pathlib
 
+from reports import experiments
+
 NAVIGATION = [("environment.html", "environment")]
 OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
 # (command of make, files that it leaves beside the results, what they add)
 ADDS = (
-    ("bench", ("bench.h5", ), "times with their noise"),
     ("lab L=bench-check", ("bench_check.json", ), "planted work that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
      "times of the joint and the hexapod beside the published ones"),
     ("lab L=causes", ("causes.json", ), "experiments on the causes of the ledger"),
-    ("lab L=certificates", ("elements.json", ), "what each formulation keeps of its interface, and can do"),
     ("lab L=newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
-    ("stress", ("stress.json", ), "every formulation at its extremes"),
-    ("motion", ("motion.json", ), "integrators of motions: orders, what they conserve, large steps"),
     ("lab L=paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
     ("lab L=faults", ("faults.json", ), "planted faults"),
     ("lab L=fuzz", ("fuzz.json", ), "any bytes as input"),
+)
+# (command of make, experiment whose group it leaves in the results, what it adds)
+GROUPS = (
+    ("bench", "bench", "times with their noise"),
+    ("lab L=certificates", "element-test", "what each formulation keeps of its interface, and can do"),
+    ("stress", "stress", "every formulation at its extremes"),
+    ("motion", "motion", "integrators of motions: orders, what they conserve, large steps"),
 )
 
 
@@ -29,10 +34,12 @@ def planted(site):
 
 
 def more(site):
-    """[(command, what it adds)] of commands that have left nothing beside the results."""
+    """[(command, what it adds)] of commands that have left nothing in the results or beside them."""
     here = pathlib.Path(site.results).parent
-    return [(command, what) for command, files, what in ADDS
-            if not any((here / name).is_file() for name in files)]
+    groups = [(command, what) for command, name, what in GROUPS
+              if not experiments.holds(site.results, name)]
+    return groups + [(command, what) for command, files, what in ADDS
+                     if not any((here / name).is_file() for name in files)]
 
 
 def noise(site):
@@ -55,6 +62,7 @@ def write(site):
                bench=site.bench,
                noise=noise(site),
                planted=planted(site),
+               made=experiments.made(site.results),
                more=more(site))
 
 

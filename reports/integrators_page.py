@@ -1,14 +1,15 @@
 """Integrators: which one, with which step, is soonest within an error of time, and can it be
-believed?  (motion.json beside the results, and paces.json where there is one)"""
+believed?  (of `beamwork motion`, and paces.json where there is one)"""
 import functools
 
+from reports import experiments
 from reports.integrators import answers, figures, map as stability, stored, words
 
 NAVIGATION = [("integrators.html", "integrators")]
 
 
 def present(site):
-    return stored.beside(site.results) is not None
+    return experiments.holds(site.results, "motion")
 
 
 def noise_of(site):
@@ -63,12 +64,13 @@ def diagrams_of(site, problems):
 
 
 def write(site):
-    record, noise = stored.beside(site.results), noise_of(site)
+    record, noise = stored.read(site.results), noise_of(site)
     told = answers.judged(record.compared)
     profiles = ((level, figures.profile(site, told, level)) for level in answers.LEVELS)
     counted, stiffenings = answers.iterations(record.every)
     site.write("integrators.html",
                "integrators.html",
+               record=record.about, about=site.about,
                first=words.first(record.compared, noise),
                words=words, doubt=answers.doubt,
                tolerances=answers.LEVELS,

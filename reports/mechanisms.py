@@ -41,8 +41,9 @@ def read_bench(path, case):
     """Timed cells of the defaults in a file of `beamwork bench`, or none."""
     if not os.path.exists(path):
         return []
+    found = data.read_case(path, case, root=data.root_of_bench)
     return [
-        Cell(case, s.key, m) for s in data.read_case(path, case).points[0].series for m in s.meshes
+        Cell(case, s.key, m) for s in found.points[0].series for m in s.meshes
         if m.clock.repeats > 1
     ]
 

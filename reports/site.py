@@ -6,7 +6,7 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import answers, beside, data, figures, glossary, markers, navigation, style, verdicts
+from reports import answers, beside, data, experiments, figures, glossary, markers, navigation, style, verdicts
 from reports.style import Styles, plt
 from reports.sweep import stored
 
@@ -65,11 +65,13 @@ class Site:
     def __init__(self, results, truths, folder, bench=None, others=(), sweeps=()):
         self.alone = stored.is_sweep(results)
         self.sweeps = [stored.read(p) for p in ([results] if self.alone else []) + list(sweeps)]
+        if bench is None and not self.alone and experiments.holds(results, "bench"):
+            bench = results
         self.about, self.cases = ({}, []) if self.alone else data.read_results(results, bench)
         for path in others:
             data.read_about(path)
             beside.add(self.cases, path)
-        self.bench = data.read_about(bench) if bench else None
+        self.bench = data.read_about(bench, data.root_of_bench) if bench else None
         self.kinds = data.read_truth_counts(truths)
         self.results, self.truths, self.folder = results, truths, folder
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])

@@ -1,10 +1,8 @@
-"""Stability: every formulation at every extreme, as a map, as curves of error against what is driven, and in numbers (build/stress.json)."""
+"""Stability: every formulation at every extreme, as a map, as curves of error against what is driven, and in numbers."""
 import functools
-import json
 import math
-import os
 
-from reports import stability_map
+from reports import experiments, stability_map
 from reports.chart import Chart
 
 NAVIGATION = [("stability.html", "stability")]
@@ -24,11 +22,17 @@ NAMED = ("not converged", "singular", "refused", "no value")
 
 
 def read(path):
-    """The record that `beamwork stress --json` wrote, or None."""
-    if not os.path.exists(path):
+    """What `beamwork stress` left, or None; each extreme with its values of x and its quantities."""
+    record = experiments.read(path, "stress")
+    if record is None:
         return None
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
+    values, quantities = (experiments.grouped(record[table], "extreme")
+                          for table in ("extreme_values", "extreme_quantities"))
+    for extreme in record["extremes"]:
+        key = (extreme["name"], )
+        extreme["values"] = [row["x"] for row in values[key]]
+        extreme["quantities"] = [row["quantity"] for row in quantities[key]]
+    return record
 
 
 def kind(outcome):
@@ -114,12 +118,12 @@ def findings(record):
 
 
 def stored(site):
-    """The record beside the results, or None."""
-    return read(os.path.join(os.path.dirname(os.path.abspath(site.results)), "stress.json"))
+    """The record in the results, or None."""
+    return read(site.results)
 
 
 def present(site):
-    return stored(site) is not None
+    return experiments.holds(site.results, "stress")
 
 
 def write(site):
@@ -135,7 +139,7 @@ def write(site):
     }
     site.write("stability.html",
                "stability.html",
-               record=record,
+               record=record, about=site.about,
                total=total,
                image=stability_map.draw(record, all_cells, LOOK, MEANING),
                cells=all_cells,

@@ -43,7 +43,7 @@ typedef struct bout {
 } bout;
 
 /* Not again where a former level has met on the same meshes. */
-static status measure(const duel *d, const bench_request *r, const bout *former, int formers,
+static status measure(const duel *d, const bench_options *r, const bout *former, int formers,
                       bout *m, fault *f)
 {
     for (int i = 0; i < formers; i++)
@@ -191,7 +191,7 @@ static int choose_levels(duel *d, bout m[LEVELS])
     return d->levels;
 }
 
-static status check(const duel *d, const bench_request *r, fault *f)
+static status check(const duel *d, const bench_options *r, fault *f)
 {
     for (int i = 0; i < d->s.seriess; i++)
         if (d->s.series[i].missing[0] != '\0')
@@ -208,7 +208,7 @@ static status check(const duel *d, const bench_request *r, fault *f)
                            "agreement, for both; give -n for meshes of your choice");
 }
 
-static status compare(duel *d, const bench_request *r, fault *f)
+static status compare(duel *d, const bench_options *r, fault *f)
 {
     static bout m[LEVELS];
     TRY(check(d, r, f));
@@ -236,7 +236,7 @@ static status check_models(const sweep *s, fault *f)
 }
 
 /* With what against_error frees. */
-static status fight(duel *d, bench_request *r, const case_type *type, fault *f)
+static status fight(duel *d, bench_options *r, const case_type *type, fault *f)
 {
     const sweep_request request = {.jobs = r->jobs,
                                    .progress = isatty(STDERR_FILENO) ? stderr : NULL};
@@ -259,7 +259,7 @@ static status fight(duel *d, bench_request *r, const case_type *type, fault *f)
  * quantity is within it (study/reach.h), then these two cells in alternation. Errors: --error, or
  * those of reach_level that both reach; quantities: -k, or all that both have a truth or an
  * agreement for. REFUSED: one does not run, nothing to measure errors by, none is reached. */
-static status against_error(bench_request *r, const case_type *type, fault *f)
+static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     duel d = {.levels = 0};
     const status outcome = fight(&d, r, type, f);
@@ -268,7 +268,7 @@ static status against_error(bench_request *r, const case_type *type, fault *f)
     return outcome;
 }
 
-static void show_pair(const bench_request *r, const point *p, const contestant *a,
+static void show_pair(const bench_options *r, const point *p, const contestant *a,
                       const contestant *b, const against *v)
 {
     if (r->format[0] != 'j') {
@@ -284,7 +284,7 @@ static void show_pair(const bench_request *r, const point *p, const contestant *
 }
 
 /* What both are asked for. Its scene is freed by who built it. */
-static point point_of(const bench_request *r, const case_type *type, const scene *s)
+static point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     point p = {.type = type, .scene = *s, .status = STATUS_OK};
     memcpy(p.parameter, r->of.parameter, sizeof p.parameter);
@@ -293,7 +293,7 @@ static point point_of(const bench_request *r, const case_type *type, const scene
 
 /* Another build at equal n: both are programs, so that both start alike. The scene is freed by
  * against_meshes. */
-static status against_program(const bench_request *r, const case_type *type, scene *s, fault *f)
+static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
     against answer;
@@ -307,7 +307,7 @@ static status against_program(const bench_request *r, const case_type *type, sce
 }
 
 /* Another formulation. */
-static status compete(const bench_request *r, const case_type *type, scene *s, fault *f)
+static status compete(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
     formulation other;
@@ -324,7 +324,7 @@ static status compete(const bench_request *r, const case_type *type, scene *s, f
 }
 
 /* At given meshes: A's and B's. */
-static status against_meshes(bench_request *r, const case_type *type, int is_program, fault *f)
+static status against_meshes(bench_options *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};
     char note[DEFAULTS_NOTE];
@@ -337,7 +337,7 @@ static status against_meshes(bench_request *r, const case_type *type, int is_pro
     return outcome;
 }
 
-static status against_other(bench_request *r, const case_type *type, fault *f)
+static status against_other(bench_options *r, const case_type *type, fault *f)
 {
     const int is_program = strchr(r->against, '/') != NULL;
     if (is_program && access(r->against, X_OK) != 0)
@@ -359,7 +359,7 @@ static status against_other(bench_request *r, const case_type *type, fault *f)
     return against_meshes(r, type, is_program, f);
 }
 
-int contest_run(bench_request *r)
+int contest_run(bench_options *r)
 {
     fault f = {""};
     if (r->of.line->arguments + (r->of.scene_path != NULL) != 1 || r->chosen.formulations > 1 ||

@@ -10,7 +10,7 @@
 #include "harness/experiments/against.h"
 #include "harness/records/schema.h"
 
-typedef struct bench_request {
+typedef struct bench_options {
     case_options of;
     chosen_formulations chosen;
     mesh_list meshes;
@@ -20,10 +20,10 @@ typedef struct bench_request {
     int jobs;
     int dense; /* 1: the dense reference is timed too */
     int plant; /* percentage of its time that is added to every run of the other */
-} bench_request;
+} bench_options;
 
 /* The exit code. */
-int contest_run(bench_request *r);
+int contest_run(bench_options *r);
 
 enum { CONTESTANT_ARGUMENTS = 12 + 2 * CASE_MAX_PARAMETERS };
 
@@ -41,12 +41,12 @@ typedef struct contestant {
 } contestant;
 
 /* What stands for a missing -f or -n. */
-defaults contestant_defaults(bench_request *r, const case_type *type);
+defaults contestant_defaults(bench_options *r, const case_type *type);
 /* A cell of the scene, which it keeps a pointer to. */
-void contestant_here(contestant *, const bench_request *r, const scene *s,
+void contestant_here(contestant *, const bench_options *r, const scene *s,
                      const formulation *chosen, int elements);
 /* The one cell of the request, by another program. It points to itself: it is not copied. */
-void contestant_elsewhere(contestant *, const bench_request *r, const char *program);
+void contestant_elsewhere(contestant *, const bench_options *r, const char *program);
 /* In alternation, on one processor, for a few seconds; counts what the cells count. */
 status contestant_compete(contestant *a, contestant *b, against *out, fault *f);
 /* Both times, which is faster, and how their work differs; the same as JSON, which the caller owns.

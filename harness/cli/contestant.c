@@ -120,7 +120,7 @@ static status set_repeats(contestant *a, contestant *b, fault *f)
     return STATUS_OK;
 }
 
-defaults contestant_defaults(bench_request *r, const case_type *type)
+defaults contestant_defaults(bench_options *r, const case_type *type)
 {
     return (defaults){.wanted = {.type = type,
                                  .parameter = r->of.parameter,
@@ -132,7 +132,7 @@ defaults contestant_defaults(bench_request *r, const case_type *type)
                       .truths = &r->truths};
 }
 
-void contestant_here(contestant *c, const bench_request *r, const scene *s,
+void contestant_here(contestant *c, const bench_options *r, const scene *s,
                      const formulation *chosen, int elements)
 {
     memset(c, 0, sizeof *c);
@@ -141,7 +141,7 @@ void contestant_here(contestant *c, const bench_request *r, const scene *s,
     snprintf(c->name, sizeof c->name, "%s, n = %d", chosen->key, elements);
 }
 
-void contestant_elsewhere(contestant *c, const bench_request *r, const char *program)
+void contestant_elsewhere(contestant *c, const bench_options *r, const char *program)
 {
     int n = 0;
     memset(c, 0, sizeof *c);

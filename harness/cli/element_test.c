@@ -3,38 +3,14 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/certificate_json.h"
-#include "harness/experiments/certificate_text.h"
+#include "harness/experiments/certificate_record.h"
 #include "harness/formulations/formulations.h"
-#include "harness/records/output.h"
 
 typedef struct element_test_request {
     chosen_formulations chosen;
     const char *output, *format, *json;
     int jobs, verbose, quiet;
 } element_test_request;
-
-typedef struct found {
-    certificate *all;
-    int count;
-} found;
-
-static status write_format(const element_test_request *r, const char *format, FILE *to,
-                           const found *c, fault *f)
-{
-    if (strcmp(format, "json") == 0)
-        return certificate_json(to, c->all, c->count, f);
-    certificate_text(to, screen_of(to), c->all, c->count, r->verbose, r->quiet);
-    return STATUS_OK;
-}
-
-static status write_file(const element_test_request *r, const char *path, const char *format,
-                         const found *c, fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    return output_finish(&file, write_format(r, format, file.stream, c, f), f);
-}
 
 /* A file, or a command, in the place of a name; NULL: none. */
 static const char *file_among(const command_line *l)
@@ -59,7 +35,7 @@ static void choose(const command_line *l, element_test_request *r)
 }
 
 /* With what answer frees. */
-static status run(const command_line *l, const element_test_request *r, found *c, fault *f)
+static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)
 {
     const certificate_request what = {.chosen = r->chosen.formulation,
                                       .count = r->chosen.formulations,
@@ -72,10 +48,9 @@ static status run(const command_line *l, const element_test_request *r, found *c
             f, STATUS_REFUSED,
             "element-test: name a formulation, 'all' for every one, or load yours with "
             "--element ./mine.so; 'beamwork list formulations' shows them");
-    TRY(files_check(l, 0, NULL, f));
-    TRY(certificate_find(&what, &c->all, f));
-    TRY(write_file(r, r->output, r->format, c, f));
-    return r->json != NULL ? write_file(r, r->json, "json", c, f) : STATUS_OK;
+    const experiment_output to = experiment_output_of(r->output, r->format, r->json);
+    TRY(files_check_results(l, to.results != NULL, NULL, f));
+    return experiment_do(&experiment_element_test, &what, &to, c, f);
 }
 
 static int answer(const command_line *l, void *request)
@@ -90,7 +65,7 @@ static int answer(const command_line *l, void *request)
         return message_fail(STATUS_REFUSED, f.text);
     }
     choose(l, r);
-    found c = {.count = r->chosen.formulations};
+    certificates c = {.verbose = r->verbose, .quiet = r->quiet};
     const status outcome = run(l, r, &c, &f);
     int code = EXIT_AS_EXPECTED;
     for (int i = 0; i < c.count && c.all != NULL; i++)
@@ -107,7 +82,7 @@ static const verb_option own[] = {
     {0}};
 static const verb_group shared[] = {SHARED(formulations, chosen),
                                     SHARED(time_limit, chosen),
-                                    SHARED(output, output),
+                                    SHARED(results, output),
                                     SHARED(format, format),
                                     SHARED(json, json),
                                     SHARED(jobs, jobs),
@@ -124,7 +99,7 @@ const verb verb_element_test = {
     "contract is kept, 1 it is broken, 2 refused, 4 file, disk or memory.",
     "beamwork element-test collocation\n"
     "beamwork element-test --element ./mine.so\n"
-    "beamwork element-test all --format json -o elements.json",
+    "beamwork element-test all -o build/results.h5",
     shared,
     own,
     sizeof(element_test_request),

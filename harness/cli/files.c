@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "harness/formulations/words.h"
+#include "harness/records/kept.h"
 #include "harness/records/output.h"
 #include "harness/records/output_folder.h"
 
@@ -149,4 +150,11 @@ status files_check(const command_line *l, int whole_file, const char *truths_pat
             TRY(check_pair(&out[k], &out[count], f));
     }
     return STATUS_OK;
+}
+
+status files_check_results(const command_line *l, int stored, const char *truths_path, fault *f)
+{
+    const char *results = given_value(l, "output");
+    TRY(files_check(l, stored, truths_path, f));
+    return stored && results != NULL ? kept_check(results, f) : STATUS_OK;
 }

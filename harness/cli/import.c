@@ -98,7 +98,7 @@ static status import(const command_line *l, const import_request *r, import_set 
     TRY(r->map != NULL ? read_mapped(l, r, set, f) : read_files(l, r, set, f));
     TRY(check_again(&set->sweep, f));
     const environment e = environment_now(1);
-    TRY(store_write(r->output, &set->sweep, NULL, &e, f));
+    TRY(store_write(r->output, NULL, &set->sweep, NULL, &e, f));
     if (!as_json(r))
         tell(&set->sweep);
     return STATUS_OK;

@@ -22,7 +22,7 @@ typedef struct manual_program {
 
 /* What a result file consists of. */
 typedef struct results_record {
-    const char *place; /* before the name of its table */
+    char place[64]; /* before the name of its table */
     const record_type *type;
 } results_record;
 

@@ -1,17 +1,11 @@
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/axis.h"
-#include "harness/experiments/pace_json.h"
-#include "harness/experiments/pace_judge.h"
-#include "harness/experiments/pace_plan.h"
-#include "harness/experiments/pace_table.h"
-#include "harness/records/output.h"
+#include "harness/experiments/integrators.h"
 
-typedef struct motion_request {
+typedef struct motion_options {
     case_options of;
     chosen_formulations chosen;
     mesh_list meshes;
@@ -20,110 +14,45 @@ typedef struct motion_request {
     text_list vary;                                      /* one parameter */
     const char *integrators, *step_lengths, *tolerances; /* lists */
     const char *expected; /* table of verdicts, in the place of a case */
-} motion_request;
+} motion_options;
 
-/* Motions, and what is said of them. */
-typedef struct motions {
-    pace pace;
-    pace_verdicts verdicts;
-    int methods;
-    pace_method method[PACE_LIST_MOST];
-} motions;
-
-/* All formulations that are asked for at one point. */
-static status plan_point(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
+/* What describes motions. REFUSED: also where there is no such case, without a word. */
+static status ask(motion_options *r, motion_request *out, fault *f)
 {
-    TRY(pace_plan_usual(q, f));
-    for (int i = 0; i < r->chosen.formulations; i++) {
-        q->formulation = r->chosen.formulation[i];
-        TRY(pace_plan_add(&m->pace, q, f));
-    }
-    return STATUS_OK;
-}
-
-/* All values of the parameter that varies; without one the point itself. */
-static status plan_points(const motion_request *r, const case_type *type, motions *m,
-                          const pace_plan_request *q, fault *f)
-{
-    pace_plan_request one = *q;
-    if (r->vary.count == 0)
-        return plan_point(r, m, &one, f);
-    axis a;
-    double value[CASE_MAX_PARAMETERS];
-    TRY(axis_read(type, r->vary.text[0], &a, f));
-    status outcome =
-        a.count > 0 && r->vary.count == 1
-            ? STATUS_OK
-            : fault_set(f, STATUS_REFUSED, "motion takes one --vary, as NAME=A..B/N or NAME=A,B,C");
-    memcpy(value, r->of.parameter, sizeof value);
-    for (int i = 0; outcome == STATUS_OK && i < a.count; i++) {
-        one = *q;
-        one.parameter = value;
-        value[a.index] = axis_value(&a, i);
-        outcome = plan_point(r, m, &one, f);
-    }
-    axis_free(&a);
-    return outcome;
-}
-
-static status plan(motion_request *r, motions *m, fault *f)
-{
-    const case_type *type = case_input_find(&r->of);
-    if (type == NULL)
+    out->type = case_input_find(&r->of);
+    if (out->type == NULL)
         return STATUS_REFUSED;
     if (r->chosen.formulations == 0)
         named_add(&r->chosen, "all");
-    pace_plan_request q = {.type = type,
-                           .parameter = r->of.parameter,
-                           .elements = r->meshes.count > 0 ? r->meshes.elements[0] : 0,
-                           .method = m->method,
-                           .errors = !r->no_errors,
-                           .whole = r->no_errors};
+    out->formulation = r->chosen.formulation;
+    out->formulations = r->chosen.formulations;
     if (r->meshes.count > 1)
         return fault_set(f, STATUS_REFUSED, "motion takes one mesh: give one number with -n");
-    TRY(pace_method_read_list(r->integrators != NULL ? r->integrators : pace_method_all,
-                              PACE_LIST_MOST, m->method, &m->methods, f));
-    q.methods = m->methods;
-    if (r->step_lengths != NULL)
-        TRY(pace_list_read("step", r->step_lengths, 2, &q.steps, f));
-    if (r->tolerances != NULL)
-        TRY(pace_list_read("tolerance", r->tolerances, 100, &q.tolerances, f));
-    return plan_points(r, type, m, &q, f);
+    return r->vary.count < 2 ? STATUS_OK
+                             : fault_set(f, STATUS_REFUSED,
+                                         "motion takes one --vary, as NAME=A..B/N or NAME=A,B,C");
 }
 
-static status write_form(FILE *to, const motion_request *r, const char *format, const motions *m,
-                         fault *f)
+static status run(motion_options *r, motions *m, fault *f)
 {
-    if (strcmp(format, "json") == 0)
-        return pace_json(to, &m->pace, &m->verdicts, f);
-    if (strcmp(format, "csv") == 0)
-        pace_table_csv(to, &m->pace);
-    else
-        pace_table(to, &m->pace, &m->verdicts, r->expected == NULL || r->verbose);
-    return STATUS_OK;
-}
-
-static status write_file(const motion_request *r, const char *path, const char *format,
-                         const motions *m, fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    return output_finish(&file, write_form(file.stream, r, format, m, f), f);
-}
-
-static status run(motion_request *r, motions *m, fault *f)
-{
-    const sweep_request request = {.jobs = r->jobs,
-                                   .time_limit = r->chosen.time_limit,
-                                   .progress = isatty(STDERR_FILENO) ? stderr : NULL,
-                                   .things = "motions"};
-    TRY(files_check(r->of.line, 0, NULL, f));
-    TRY(r->expected != NULL ? pace_verdict_plan(r->expected, &m->pace, &m->verdicts, f)
-                            : plan(r, m, f));
-    TRY(pace_judge(&m->pace, &request, f));
-    pace_verdict_reach(&m->pace, &m->verdicts);
-    TRY(write_file(r, r->output, r->format, m, f));
-    return r->json != NULL ? write_file(r, r->json, "json", m, f) : STATUS_OK;
+    motion_request asked = {.expected = r->expected,
+                            .parameter = r->of.parameter,
+                            .vary = r->vary.count > 0 ? r->vary.text[0] : NULL,
+                            .elements = r->meshes.count > 0 ? r->meshes.elements[0] : 0,
+                            .integrators = r->integrators,
+                            .steps = r->step_lengths,
+                            .tolerances = r->tolerances,
+                            .no_errors = r->no_errors,
+                            .each = r->expected == NULL || r->verbose,
+                            .cells = {.jobs = r->jobs,
+                                      .time_limit = r->chosen.time_limit,
+                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL,
+                                      .things = "motions"}};
+    const experiment_output to = experiment_output_of(r->output, r->format, r->json);
+    TRY(files_check_results(r->of.line, to.results != NULL, NULL, f));
+    if (r->expected == NULL)
+        TRY(ask(r, &asked, f));
+    return experiment_do(&experiment_motion, &asked, &to, m, f);
 }
 
 /* Did any motion reach its end? */
@@ -137,9 +66,9 @@ static int has_any(const pace *p)
 
 static int answer(const command_line *l, void *request)
 {
-    motion_request *r = request;
+    motion_options *r = request;
     (void)l;
-    motions m = {.methods = 0};
+    motions m = {.each = 0};
     fault f = {""};
     const status outcome = run(r, &m, &f);
     int code = f.text[0] == '\0' && outcome == STATUS_REFUSED ? r->of.refusal : 0;
@@ -149,12 +78,11 @@ static int answer(const command_line *l, void *request)
         code = EXIT_NOTHING;
     else if (code == EXIT_AS_EXPECTED && (m.verdicts.unexpected > 0 || !has_any(&m.pace)))
         code = EXIT_DIFFERS;
-    pace_verdict_free(&m.verdicts);
-    pace_free(&m.pace);
+    motions_free(&m);
     return code;
 }
 
-#define IN(at) .member = offsetof(motion_request, at)
+#define IN(at) .member = offsetof(motion_options, at)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
      "one parameter: N equal parts (N + 1 values), with ':log' behind equal ratios; a list of "
@@ -180,7 +108,7 @@ static const verb_option own[] = {
     {0}};
 static const verb_group shared[] = {
     SHARED(case, of),           SHARED(formulations, chosen), SHARED(meshes, meshes),
-    SHARED(time_limit, chosen), SHARED(output, output),       SHARED(format, format),
+    SHARED(time_limit, chosen), SHARED(results, output),      SHARED(format, format),
     SHARED(json, json),         SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_motion = {
     "motion",
@@ -197,5 +125,5 @@ const verb verb_motion = {
     "beamwork motion --expected harness/experiments/expected.csv",
     shared,
     own,
-    sizeof(motion_request),
+    sizeof(motion_options),
     .answer = answer};

@@ -251,6 +251,12 @@ static void begin_jobs(void *group, command_line *l)
 static const verb_option output[] = {
     {"output", 'o', "FILE", "write there instead of to standard output", .traits = OPTION_OUTPUT},
     {0}};
+static const verb_option results[] = {
+    {"output", 'o', "FILE",
+     "write there instead of to standard output; NAME.h5: into that file of results, beside what "
+     "other experiments left there",
+     .traits = OPTION_OUTPUT},
+    {0}};
 static const verb_option format[] = {{"format", 0, "text|json|csv",
                                       "form of the output (default text)", .traits = OPTION_ASIDE,
                                       .read = read_format},
@@ -289,6 +295,7 @@ static const verb_option solver[] = {
     {0}};
 
 const option_group options_output = {output, NULL, NULL, NULL};
+const option_group options_results = {results, NULL, NULL, NULL};
 const option_group options_format = {format, begin_format, NULL, NULL};
 const option_group options_select = {selection, NULL, NULL, NULL};
 const option_group options_jobs = {jobs, begin_jobs, NULL, NULL};

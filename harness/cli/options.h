@@ -116,11 +116,12 @@ option_reader option_error; /* double, of one error: "1%" or "0.01" */
 /* Errors, "1%,0.1%" or "0.01": relative, between 0 and 1, into level[most]; *count: how many. */
 status errors_parse(const char *text, int most, double level[], int *count, fault *f);
 
-extern const option_group options_output; /* const char *: -o FILE, text */
-extern const option_group options_format; /* const char *: text, json or csv */
-extern const option_group options_select; /* const char * */
-extern const option_group options_jobs;   /* int, at first the processors there are */
-extern const option_group options_json;   /* const char * */
+extern const option_group options_output;  /* const char *: -o FILE, text */
+extern const option_group options_results; /* const char *: -o FILE, text, or results in HDF5 */
+extern const option_group options_format;  /* const char *: text, json or csv */
+extern const option_group options_select;  /* const char * */
+extern const option_group options_jobs;    /* int, at first the processors there are */
+extern const option_group options_json;    /* const char * */
 
 typedef struct mesh_list {
     int count;

@@ -4,7 +4,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/cli/manual.h"
-#include "harness/experiments/extreme_record.h"
+#include "harness/experiments/experiment.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
 #include "harness/terminal/paragraph.h"
@@ -26,6 +26,11 @@ const char *const results_about[] = {
     "position, orientation (quaternion), force, moment, bimoment, nodes.",
     "points has a column for each parameter of the case besides. Keyed by point, formulation and "
     "elements.",
+    "Below /experiments/NAME stands what stress, motion, element-test, bench and converge have "
+    "left with -o, each with the attributes of the root for its own run: a later run of the same "
+    "experiment replaces its group, verify what is outside of /experiments. bench and converge: "
+    "declarations and cases/CASE, as the root has them. The tables of the others have the fields "
+    "marked * as columns, too.",
     NULL};
 
 /* Place i of a list that ends with NULL, counted down; NULL: it is behind. */
@@ -37,23 +42,31 @@ static const record_type *take(const record_type *const *list, int *i)
     return NULL;
 }
 
+/* Of the experiments, one after the other. */
+static results_record of_experiment(int *i)
+{
+    results_record r = {"", NULL};
+    for (int k = 0; experiments[k] != NULL && r.type == NULL; k++) {
+        r.type = take(experiments[k]->records, i);
+        snprintf(r.place, sizeof r.place, "/experiments/%s/", experiments[k]->name);
+    }
+    return r;
+}
+
 results_record results_record_at(int i)
 {
-    static const record_type *const first[] = {&record_declaration, NULL},
-                                    *const of_solve[] = {&record_truth, NULL},
-                                    *const of_stress[] = {&record_extreme, &record_extreme_count,
-                                                          &record_outcome, NULL};
+    static const record_type *const first[] = {&record_declaration, NULL}, *const of_solve[] = {
+                                                                               &record_truth, NULL};
     const struct {
         const char *place;
         const record_type *const *list;
-    } part[] = {{"/", first},
-                {"/cases/CASE/", record_types},
-                {"solve --format json, ", of_solve},
-                {"stress --json, ", of_stress}};
-    results_record r = {NULL, NULL};
-    for (int k = 0; k < (int)(sizeof part / sizeof part[0]) && r.type == NULL; k++)
-        r = (results_record){part[k].place, take(part[k].list, &i)};
-    return r;
+    } part[] = {{"/", first}, {"/cases/CASE/", record_types}, {"solve --format json, ", of_solve}};
+    results_record r = {"", NULL};
+    for (int k = 0; k < (int)(sizeof part / sizeof part[0]) && r.type == NULL; k++) {
+        r.type = take(part[k].list, &i);
+        snprintf(r.place, sizeof r.place, "%s", part[k].place);
+    }
+    return r.type != NULL ? r : of_experiment(&i);
 }
 
 results_field results_field_of(const schema_field *f)
@@ -88,11 +101,18 @@ static void show(results_record r)
         show_field(list[i]);
 }
 
+static void add_record(json_t *list, results_record r)
+{
+    json_t *one = json_record_type(r.type);
+    json_object_set_new(one, "place", json_string(r.place));
+    json_array_append_new(list, one);
+}
+
 static status write_json(fault *f)
 {
     json_t *records = json_array();
     for (int i = 0; results_record_at(i).type != NULL; i++)
-        json_array_append_new(records, json_record_type(results_record_at(i).type));
+        add_record(records, results_record_at(i));
     return json_finish(json_pack("{s:s,s:i,s:o}", "schema", SCHEMA_NAME, "schema_version",
                                  SCHEMA_VERSION, "records", records),
                        stdout, f);
@@ -121,8 +141,8 @@ static const verb_group shared[] = {SHARED(format, format), {NULL, 0}};
 const verb verb_schema = {"schema",
                           "",
                           "what the result file consists of: tables, columns, units",
-                          "Describes the result file of verify, bench and solve (-o FILE), and the "
-                          "records of JSON and CSV.",
+                          "Describes the file of results that experiments share (-o FILE), that of "
+                          "solve, and the records of JSON and CSV.",
                           "beamwork schema --format json",
                           shared,
                           NULL,

@@ -1,13 +1,10 @@
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
 #include "harness/cli/named.h"
-#include "harness/experiments/extreme_json.h"
 #include "harness/experiments/extreme_run.h"
 #include "harness/experiments/extreme_table.h"
-#include "harness/records/output.h"
 
 typedef struct stress_request {
     chosen_formulations chosen;
@@ -16,40 +13,19 @@ typedef struct stress_request {
     int jobs;
 } stress_request;
 
-static status write_format(const char *format, FILE *to, const extreme_sweep *s, fault *f)
-{
-    if (strcmp(format, "json") == 0)
-        return extreme_json(to, s, f);
-    (strcmp(format, "csv") == 0 ? extreme_table_csv : extreme_table)(to, s);
-    return STATUS_OK;
-}
-
-static status write_file(const char *path, const char *format, const extreme_sweep *s, fault *f)
-{
-    output file;
-    TRY(output_open(path, &file, f));
-    return output_finish(&file, write_format(format, file.stream, s, f), f);
-}
-
-static status write_out(const stress_request *r, const extreme_sweep *s, fault *f)
-{
-    if (r->json != NULL) /* also where nobody reads the table */
-        TRY(write_file(r->json, "json", s, f));
-    return write_file(r->output, r->format, s, f);
-}
-
 /* With what answer frees. */
 static status run(const command_line *l, const stress_request *r, extreme_sweep *s, fault *f)
 {
-    const extreme_request request = {.select = r->select,
+    const extreme_request request = {.truths = own_tables_packed(&r->truths),
+                                     .select = r->select,
                                      .jobs = r->jobs,
                                      .formulations = r->chosen.formulations,
                                      .formulation = r->chosen.formulation,
                                      .named = named_alone(&r->chosen),
                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL};
-    TRY(files_check(l, 0, own_tables_packed(&r->truths), f));
-    TRY(extreme_run(&request, own_tables_packed(&r->truths), s, f));
-    TRY(write_out(r, s, f));
+    const experiment_output to = experiment_output_of(r->output, r->format, r->json);
+    TRY(files_check_results(l, to.results != NULL, request.truths, f));
+    TRY(experiment_do(&experiment_stress, &request, &to, s, f));
     if (extreme_sweep_exit(s) == EXIT_NOTHING)
         fprintf(stderr, "beamwork: nothing was tried; see 'beamwork list' and -k\n");
     return STATUS_OK;
@@ -72,7 +48,7 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(stress_request, at)
 static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(select, select),
-                                    SHARED(truths, truths),       SHARED(output, output),
+                                    SHARED(truths, truths),       SHARED(results, output),
                                     SHARED(format, format),       SHARED(json, json),
                                     SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_stress = {

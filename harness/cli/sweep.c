@@ -17,6 +17,7 @@
 #include "harness/experiments/ranges_identity.h"
 #include "harness/experiments/ranges_table.h"
 #include "harness/experiments/shard.h"
+#include "harness/records/kept.h"
 #include "harness/study/derive.h"
 
 /* What the command line asks for. */
@@ -113,6 +114,8 @@ static status prepare(sweep_options *r, const case_type *type, sweeping *s, faul
         return fault_set(f, STATUS_REFUSED, "sweep writes text, csv, and HDF5 with -o FILE");
     TRY(read_design(r, &q, f));
     TRY(files_check(r->of.line, 1, own_tables_packed(&r->truths), f));
+    if (r->output != NULL)
+        TRY(kept_spare(r->output, f));
     if (r->of.scene == NULL) {
         TRY(case_input_truths(&r->of, &r->truths, &s->truths, f));
         q.truths = &s->truths;

@@ -187,7 +187,7 @@ static status run(const verify_request *r, const scenes *own, trial *v, fault *f
                                    .shapes = states,
                                    .progress =
                                        isatty(STDERR_FILENO) && !r->shards.quiet ? stderr : NULL};
-    TRY(files_check(r->shards.line, 1, own_tables_packed(&r->scenes.truths), f));
+    TRY(files_check_results(r->shards.line, 1, own_tables_packed(&r->scenes.truths), f));
     if (r->former != NULL)
         TRY(results_read(r->former, &v->former, f));
     TRY(scenes_truths(own, &r->scenes, &v->truths, f));

@@ -202,7 +202,7 @@ static status read_file(store_reader *r, hid_t file)
     if (!table_reader_attribute_text(file, "schema", schema, sizeof schema) ||
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version) ||
-        version != SCHEMA_VERSION)
+        version < SCHEMA_OLDEST || version > SCHEMA_VERSION)
         return fault_set(r->f, STATUS_FAULT,
                          "%.120s: not a file of results; write it with 'beamwork import FILE -o'",
                          r->path);

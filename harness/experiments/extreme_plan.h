@@ -5,6 +5,7 @@
 #include "harness/experiments/extreme_sweep.h"
 
 typedef struct extreme_request {
+    const char *truths; /* path of the packed ones */
     const char *select; /* expression over "name/group/case/formulation", or NULL */
     int jobs, formulations;
     const formulation *formulation; /* restrict to these; 0: all */

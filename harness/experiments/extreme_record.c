@@ -36,6 +36,16 @@ static void get_condition(const subject *s, field_value *out)
     schema_set_number(out, condition > 0 ? condition : NAN);
 }
 
+static void get_owner(const subject *s, field_value *out)
+{
+    schema_set_text(out, ((const extreme *)s->owner)->name);
+}
+
+static void get_x(const subject *s, field_value *out)
+{
+    out->numbers = s->record;
+}
+
 static void get_proof(const subject *s, field_value *out)
 {
     schema_set_text(out, outcome_of(s)->finding != NULL ? outcome_of(s)->finding->proof : "");
@@ -115,10 +125,75 @@ static const schema_field key_of_count[] = {
 const record_type record_extreme_count = {
     "count", "formulations", "what became of a formulation", {key_of_count, fields_of_count}};
 
-subject extreme_record_subject(const extreme_sweep *s, const extreme_outcome *o)
+/* x, or the name of a quantity, of an extreme. */
+static const schema_field key_of_extreme[] = {
+    {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_owner, .key = KEY}, {0}};
+static const schema_field field_of_x[] = {
+    {"x", "1", FIELD_DOUBLE, "what it is driven to", .get = get_x}, {0}};
+static const record_type record_extreme_x = {
+    "x", "extreme_values", "to what an extreme drives", {key_of_extreme, field_of_x}};
+static const schema_field field_of_quantity[] = {
+    {"quantity", "", FIELD_TEXT, "name of the quantity", TEXT_OF(RECORD, extreme_quantity, name)},
+    {0}};
+static const record_type record_extreme_quantity = {"extreme_quantity",
+                                                    "extreme_quantities",
+                                                    "what is looked at",
+                                                    {key_of_extreme, field_of_quantity}};
+
+static const schema_field fields_of_all[] = {
+    {"unexpected", "1", FIELD_INT, "outcomes that no finding expects",
+     AT(extreme_sweep, unexpected)},
+    {"unobserved_findings", "1", FIELD_INT, "findings of which nothing is seen",
+     AT(extreme_sweep, unobserved)},
+    {0}};
+const record_type record_extremes_all = {"extremes", "", "of the run", {fields_of_all}};
+
+static subject subject_of_outcome(const extreme_sweep *s, const extreme_outcome *o)
 {
     return (subject){.sweep = &s->first,
                      .point = &s->first.point[o->point],
                      .series = &s->first.series[o->series],
                      .record = o};
 }
+
+static void gather_outcomes(const extreme_sweep *s, subjects *out)
+{
+    for (int i = 0; i < s->outcomes; i++) {
+        const subject one = subject_of_outcome(s, &s->outcome[i]);
+        gather_add(out, &one);
+    }
+}
+
+static void gather_record(subjects *out, const void *owner, const void *record)
+{
+    gather_add(out, &(subject){.owner = owner, .record = record});
+}
+
+static void gather_extreme(const extreme *e, const record_type *type, subjects *out)
+{
+    if (type == &record_extreme)
+        gather_record(out, NULL, e);
+    for (int i = 0; type == &record_extreme_x && i < e->values; i++)
+        gather_record(out, e, &e->value[i]);
+    for (int i = 0; type == &record_extreme_quantity && i < EXTREME_MAX_QUANTITIES &&
+                    e->quantity[i].name != NULL;
+         i++)
+        gather_record(out, e, &e->quantity[i]);
+}
+
+void extreme_gather(const void *found, const record_type *type, subjects *out)
+{
+    const extreme_sweep *s = found;
+    if (type == &record_extremes_all)
+        gather_record(out, NULL, s);
+    else if (type == &record_outcome)
+        gather_outcomes(s, out);
+    for (int i = 0; type == &record_extreme_count && i < s->formulations; i++)
+        gather_record(out, NULL, &s->count[i]);
+    for (int i = 0; extremes[i].name != NULL; i++)
+        gather_extreme(&extremes[i], type, out);
+}
+
+const record_type *const extreme_records[] = {&record_extreme,          &record_extreme_x,
+                                              &record_extreme_quantity, &record_extreme_count,
+                                              &record_outcome,          NULL};

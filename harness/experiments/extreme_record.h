@@ -1,12 +1,12 @@
-/* Records of extremes, of outcomes and of the counts of a formulation, for JSON and CSV. */
+/* Records of extremes, of outcomes and of the counts of a formulation. */
 #ifndef BEAMWORK_EXTREME_RECORD_H
 #define BEAMWORK_EXTREME_RECORD_H
 
 #include "harness/experiments/extreme_sweep.h"
-#include "harness/records/schema.h"
+#include "harness/records/gather.h"
 
-extern const record_type record_extreme, record_outcome, record_extreme_count;
-subject extreme_record_subject(const extreme_sweep *s,
-                               const extreme_outcome *o); /* of record_outcome */
+extern const record_type record_extremes_all, record_extreme, record_outcome, record_extreme_count;
+extern const record_type *const extreme_records[]; /* all but the first; ends with NULL */
+void extreme_gather(const void *found, const record_type *type, subjects *out);
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "harness/experiments/extreme_expect.h"
 #include "harness/experiments/extreme_judge.h"
+#include "harness/experiments/extreme_record.h"
+#include "harness/experiments/extreme_table.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 
@@ -70,28 +72,38 @@ static status read_all(const char *path, truths *t, extreme_sweep *out, fault *f
     return extreme_expect_read(path, out, f);
 }
 
-/* With what extreme_run frees. */
-static status run_all(const extreme_request *request, const char *path, truths *t,
-                      extreme_sweep *out, fault *f)
+static status plan(const void *asked, void *found, fault *f)
 {
-    TRY(read_all(path, t, out, f));
-    TRY(extreme_plan(request, out, f));
-    if (out->outcomes > 0)
-        TRY(run_cells(request, &out->first, f));
-    for (int i = 0; i < out->outcomes; i++)
-        TRY(extreme_judge_first(out, t, &out->outcome[i], f));
-    TRY(look_closer(request, out, t, f));
-    extreme_expect(out, request->select == NULL && request->formulations == 0);
+    const extreme_request *request = asked;
+    extreme_sweep *s = found;
+    TRY(read_all(request->truths, &s->truths, s, f));
+    return extreme_plan(request, s, f);
+}
+
+static status run(const void *asked, void *found, fault *f)
+{
+    extreme_sweep *s = found;
+    return s->outcomes > 0 ? run_cells(asked, &s->first, f) : STATUS_OK;
+}
+
+/* What may be coarse is run on other meshes, too. */
+static status judge(const void *asked, void *found, fault *f)
+{
+    const extreme_request *request = asked;
+    extreme_sweep *s = found;
+    for (int i = 0; i < s->outcomes; i++)
+        TRY(extreme_judge_first(s, &s->truths, &s->outcome[i], f));
+    TRY(look_closer(request, s, &s->truths, f));
+    extreme_expect(s, request->select == NULL && request->formulations == 0);
     return STATUS_OK;
 }
 
-status extreme_run(const extreme_request *request, const char *path, extreme_sweep *out, fault *f)
-{
-    truths t = {0};
-    memset(out, 0, sizeof *out);
-    const status outcome = run_all(request, path, &t, out, f);
-    truths_free(&t);
-    if (outcome != STATUS_OK)
-        extreme_sweep_free(out);
-    return outcome;
-}
+const experiment_type experiment_stress = {.name = "stress",
+                                           .plan = plan,
+                                           .run = run,
+                                           .judge = judge,
+                                           .records = extreme_records,
+                                           .about = &record_extremes_all,
+                                           .rows = &record_outcome,
+                                           .gather = extreme_gather,
+                                           .print = extreme_table};

@@ -3,9 +3,10 @@
 #ifndef BEAMWORK_EXTREME_RUN_H
 #define BEAMWORK_EXTREME_RUN_H
 
+#include "harness/experiments/experiment.h"
 #include "harness/experiments/extreme_plan.h"
 
-/* Reads the exact values and findings of the packed truths at `path`, runs and judges. */
-status extreme_run(const extreme_request *request, const char *path, extreme_sweep *out, fault *f);
+/* Asked by an extreme_request, finds an extreme_sweep: extreme_sweep_free. */
+extern const experiment_type experiment_stress;
 
 #endif

@@ -65,6 +65,7 @@ void extreme_sweep_free(extreme_sweep *s)
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
     }
+    truths_free(&s->truths);
     sweep_free(&s->first);
     sweep_free(&s->neighbours);
     free(s->finding);

@@ -16,6 +16,7 @@ typedef struct extreme_sweep {
     int formulations, outcomes, findings, unexpected, unobserved;
     int is_new; /* outcomes of new formulations that would need a finding: they do not gate */
     formulation *formulation;
+    truths truths; /* exact values */
     sweep first, neighbours;
     extreme_outcome *outcome;
     extreme_finding *finding;

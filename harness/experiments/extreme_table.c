@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/experiments/extreme_record.h"
-#include "harness/records/csv_record.h"
 #include "harness/study/rounding.h"
 #include "harness/terminal/paragraph.h"
 
@@ -185,8 +183,9 @@ static void print_legend(FILE *to)
     fprintf(to, "\n\n");
 }
 
-void extreme_table(FILE *to, const extreme_sweep *s)
+void extreme_table(FILE *to, const void *found)
 {
+    const extreme_sweep *s = found;
     for (int i = 0; extremes[i].name != NULL; i++)
         print_extreme(to, s, i);
     print_legend(to);
@@ -199,14 +198,4 @@ void extreme_table(FILE *to, const extreme_sweep *s)
                       s->is_new);
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",
             s->unexpected, s->unobserved);
-}
-
-void extreme_table_csv(FILE *to, const extreme_sweep *s)
-{
-    csv_part row = {.type = &record_outcome};
-    csv_record_head(to, 1, &row);
-    for (int i = 0; i < s->outcomes; i++) {
-        row.s = extreme_record_subject(s, &s->outcome[i]);
-        csv_record_line(to, 1, &row);
-    }
 }

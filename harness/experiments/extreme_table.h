@@ -1,4 +1,4 @@
-/* Outcomes of a sweep of extremes for people, and one line each for programs. */
+/* Outcomes of a sweep of extremes for people. */
 #ifndef BEAMWORK_EXTREME_TABLE_H
 #define BEAMWORK_EXTREME_TABLE_H
 
@@ -6,7 +6,6 @@
 
 #include "harness/experiments/extreme_sweep.h"
 
-void extreme_table(FILE *to, const extreme_sweep *s);
-void extreme_table_csv(FILE *to, const extreme_sweep *s);
+void extreme_table(FILE *to, const void *found); /* extreme_sweep */
 
 #endif

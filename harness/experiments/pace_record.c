@@ -1,5 +1,10 @@
 #include "harness/experiments/pace_record.h"
 
+#include <stdio.h>
+#include <string.h>
+
+#include "harness/experiments/pace_order.h"
+#include "harness/experiments/pace_reach.h"
 #include "harness/records/fields_keys.h"
 
 static const char *word_of_fate(int fate)
@@ -10,6 +15,16 @@ static const char *word_of_fate(int fate)
 static const char *word_of_order(int kind)
 {
     return pace_order_name((pace_order_kind)kind);
+}
+
+static const pace *pace_of(const subject *s)
+{
+    return s->owner;
+}
+
+static void get_wanted(const subject *s, field_value *out)
+{
+    out->whole = pace_of(s)->group[((const pace_run *)s->record)->group].reference >= 0;
 }
 
 static const schema_field fields_of_run[] = {
@@ -47,9 +62,76 @@ static const schema_field fields_of_run[] = {
      AT(pace_run, last)},
     {"outcome", "", FIELD_ENUM, "grows, stops, bounded or exact; empty: something acts on it",
      AT(pace_run, fate), .word = word_of_fate, .words = PACE_FATES},
+    {"has_reference", "", FIELD_FLAG, "0: only what becomes of it is looked at", .get = get_wanted},
     {0}};
+#define KEYS keys_of_point, keys_of_series, key_of_mesh
 const record_type record_pace_run = {
-    "run", "runs", "a motion by one integrator with one step or tolerance", {fields_of_run}};
+    "run", "runs", "a motion by one integrator with one step or tolerance", {KEYS, fields_of_run}};
+
+/* Of a quantity of a run: the index counts it. */
+static void get_quantity_error(const subject *s, field_value *out)
+{
+    out->numbers = &((const pace_run *)s->record)->values[s->index];
+}
+
+static const schema_field fields_of_error[] = {
+    {"integrator", "", FIELD_TEXT, "of the run", AT(pace_run, method.name), .key = KEY},
+    {"step", "s", FIELD_DOUBLE, "of the run", AT(pace_run, step), .key = KEY},
+    {"tolerance", "1", FIELD_DOUBLE, "of the run", AT(pace_run, tolerance), .key = KEY},
+    {"quantity", "", FIELD_TEXT, "name of the quantity", OF(QUANTITY, scene_quantity, name)},
+    {"error", "1", FIELD_DOUBLE, "relative, of time", .get = get_quantity_error},
+    {0}};
+static const record_type record_pace_error = {
+    "error", "errors", "of a quantity of a run", {KEYS, fields_of_error}};
+
+static const pace_group *group_of(const subject *s)
+{
+    return s->record;
+}
+
+static const cell_result *cell_of_reference(const subject *s)
+{
+    return pace_cell_of(pace_of(s), group_of(s)->reference);
+}
+
+static void get_reference_steps(const subject *s, field_value *out)
+{
+    out->whole = cell_of_reference(s)->solve.steps;
+}
+
+static void get_reference_status(const subject *s, field_value *out)
+{
+    out->whole = cell_of_reference(s)->solve.status;
+}
+
+static void get_reference_tolerance(const subject *s, field_value *out)
+{
+    (void)s;
+    schema_set_number(out, pace_reference[0]);
+}
+
+static void get_reference_integrator(const subject *s, field_value *out)
+{
+    (void)s;
+    schema_set_text(out, "radau");
+}
+
+static const schema_field fields_of_reference[] = {
+    {"integrator", "", FIELD_TEXT, "that it is computed by", .get = get_reference_integrator},
+    {"tolerance", "1", FIELD_DOUBLE, "of the error of a step", .get = get_reference_tolerance},
+    {"steps", "1", FIELD_INT, "that were kept", .get = get_reference_steps},
+    {"status", "", FIELD_ENUM, "of the motion", .get = get_reference_status,
+     .word = fields_keys_word_of_status, .words = STATUSES},
+    {"reason", "", FIELD_TEXT, "why there is none", AT(pace_group, reason)},
+    {"uncertainty", "1", FIELD_DOUBLE, "of it, at most", AT(pace_group, uncertainty)},
+    {"order", "1", FIELD_DOUBLE, "of it, by the steps and errors of its checks",
+     AT(pace_group, order)},
+    {"end", "s", FIELD_DOUBLE, "of the motion", AT(pace_group, end)},
+    {"alone_from", "s", FIELD_DOUBLE, "from here on nothing acts; infinite: never",
+     AT(pace_group, from)},
+    {0}};
+static const record_type record_pace_reference = {
+    "reference", "references", "what errors of time are against", {KEYS, fields_of_reference}};
 
 static void get_integrator(const subject *s, field_value *out)
 {
@@ -59,6 +141,18 @@ static void get_integrator(const subject *s, field_value *out)
 static void get_nominal(const subject *s, field_value *out)
 {
     schema_set_number(out, ((const pace_ladder *)s->record)->method->order);
+}
+
+/* Names of quantities whose errors do not fall with the step. */
+static void get_standing(const subject *s, field_value *out)
+{
+    size_t used = 0;
+    out->room[0] = '\0';
+    for (int q = 0; q < s->point->scene.quantities; q++)
+        if (pace_order_stands(pace_of(s), s->record, q) && used < sizeof out->room)
+            used += (size_t)snprintf(out->room + used, sizeof out->room - used, "%s%s",
+                                     used > 0 ? " " : "", s->point->scene.quantity[q].name);
+    out->text = out->room;
 }
 
 static const schema_field fields_of_ladder[] = {
@@ -71,14 +165,178 @@ static const schema_field fields_of_ladder[] = {
      AT(pace_ladder, floor)},
     {"verdict", "", FIELD_ENUM, "on the order", AT(pace_ladder, kind), .word = word_of_order,
      .words = PACE_ORDER_KINDS},
+    {"not_converging", "", FIELD_TEXT, "quantities whose errors do not fall with the step",
+     .get = get_standing},
     {0}};
-const record_type record_pace_ladder = {
-    "order", "orders", "an integrator with steps that are halved", {fields_of_ladder}};
+static const record_type record_pace_ladder = {
+    "order", "orders", "an integrator with steps that are halved", {KEYS, fields_of_ladder}};
 
-subject pace_record_subject(const pace *p, const pace_run *r)
+/* An error, and who comes within it. */
+typedef struct reached {
+    double error;
+    const char *integrator;
+    pace_reach way;
+} reached;
+
+static void get_reached_step(const subject *s, field_value *out)
 {
+    out->numbers = &((const reached *)s->record)->way.run->step;
+}
+
+static void get_reached_tolerance(const subject *s, field_value *out)
+{
+    out->numbers = &((const reached *)s->record)->way.run->tolerance;
+}
+
+static const schema_field fields_of_reached[] = {
+    {"error", "1", FIELD_DOUBLE, "of time", AT(reached, error)},
+    {"integrator", "", FIELD_TEXT, "that comes within it", TEXT_OF(RECORD, reached, integrator)},
+    {"cost", "s", FIELD_DOUBLE, "counted work where the error is just that", AT(reached, way.cost)},
+    {"step", "s", FIELD_DOUBLE, "of the run that is within it", .get = get_reached_step},
+    {"tolerance", "1", FIELD_DOUBLE, "of that run", .get = get_reached_tolerance},
+    {0}};
+static const record_type record_pace_reached = {
+    "reached", "reached", "what an error costs", {KEYS, fields_of_reached}};
+
+static const schema_field fields_of_verdict[] = {
+    {"judged", "", FIELD_TEXT, "order, energy, momentum, tolerance or fate",
+     TEXT_OF(RECORD, pace_verdict, judged)},
+    {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(RECORD, pace_verdict, case_name)},
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults",
+     TEXT_OF(RECORD, pace_verdict, parameters)},
+    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+     TEXT_OF(RECORD, pace_verdict, formulation)},
+    {"elements", "1", FIELD_INT, "elements of each member", AT(pace_verdict, elements)},
+    {"integrator", "", FIELD_TEXT, "with its parameter, where it has one",
+     TEXT_OF(RECORD, pace_verdict, integrator)},
+    {"steps", "", FIELD_TEXT, "or tolerances, as the table says them",
+     TEXT_OF(RECORD, pace_verdict, steps)},
+    {"verdict", "", FIELD_TEXT, "what was found", AT(pace_verdict, found)},
+    {"expected", "", FIELD_TEXT, "what the table expects", TEXT_OF(RECORD, pace_verdict, expected)},
+    {"as_expected", "", FIELD_FLAG, "the two agree", AT(pace_verdict, as_expected)},
+    {"why", "", FIELD_TEXT, "it is expected", TEXT_OF(RECORD, pace_verdict, why)},
+    {0}};
+static const record_type record_pace_verdict = {
+    "verdict",
+    "verdicts",
+    "of an integrator, against the table of what is expected",
+    {fields_of_verdict}};
+
+static void get_growth(const subject *s, field_value *out)
+{
+    (void)s;
+    schema_set_number(out, pace_growth);
+}
+
+static void get_energy(const subject *s, field_value *out)
+{
+    (void)s;
+    schema_set_number(out, pace_energy);
+}
+
+static void get_momentum(const subject *s, field_value *out)
+{
+    (void)s;
+    schema_set_number(out, pace_momentum);
+}
+
+static const schema_field fields_of_all[] = {
+    {"growth", "1", FIELD_DOUBLE, "of energy, relative: more is an outcome of that name",
+     .get = get_growth},
+    {"exact_energy", "1", FIELD_DOUBLE, "relative drift up to which energy is exact",
+     .get = get_energy},
+    {"exact_momentum", "1", FIELD_DOUBLE, "relative drift up to which momentum is exact",
+     .get = get_momentum},
+    {"unexpected", "1", FIELD_INT, "verdicts that the table does not expect",
+     AT(motions, verdicts.unexpected)},
+    {0}};
+const record_type record_pace_all = {"motion", "", "of the run", {fields_of_all}};
+
+static subject subject_of(const pace *p, int run, const void *record)
+{
+    const pace_run *r = &p->run[run];
     return (subject){.sweep = &p->sweep,
                      .point = pace_point_of(p, r),
                      .series = &p->sweep.series[r->series],
-                     .record = r};
+                     .record = record,
+                     .owner = p};
 }
+
+static void gather_run(const pace *p, int run, subjects *out)
+{
+    const subject one = subject_of(p, run, &p->run[run]);
+    gather_add(out, &one);
+}
+
+static void gather_errors(const pace *p, int run, subjects *out)
+{
+    subject one = subject_of(p, run, &p->run[run]);
+    if (p->group[p->run[run].group].reference < 0 || p->run[run].values == NULL)
+        return;
+    for (; one.index < one.point->scene.quantities; one.index++)
+        gather_add(out, &one);
+}
+
+static void gather_ladders(const pace *p, const pace_group *g, subjects *out)
+{
+    for (int i = g->first; i < g->first + g->runs;) {
+        const pace_ladder ladder = pace_order_of(p, i);
+        const subject one = subject_of(p, i, gather_keep(out, &ladder, sizeof ladder));
+        if (ladder.count > 1 && one.record != NULL)
+            gather_add(out, &one);
+        i += ladder.count;
+    }
+}
+
+/* Who reaches which error at what cost, by level and integrator. */
+static void gather_reached(const pace *p, const pace_group *g, subjects *out)
+{
+    const char *name[PACE_METHODS_MOST];
+    const int count = pace_reach_methods(p, name);
+    for (int l = 0; l < PACE_LEVELS; l++)
+        for (int i = 0; i < count; i++) {
+            const reached row = {pace_levels[l], name[i],
+                                 pace_reach_of(p, (int)(g - p->group), name[i], pace_levels[l])};
+            const void *kept = row.way.run != NULL ? gather_keep(out, &row, sizeof row) : NULL;
+            const subject one = subject_of(p, g->first, kept);
+            if (kept != NULL)
+                gather_add(out, &one);
+        }
+}
+
+static void gather_group(const pace *p, const pace_group *g, const record_type *type, subjects *out)
+{
+    for (int i = g->first; i < g->first + g->runs; i++)
+        if (type == &record_pace_run)
+            gather_run(p, i, out);
+        else if (type == &record_pace_error)
+            gather_errors(p, i, out);
+    if (g->reference < 0 || g->runs == 0)
+        return;
+    const subject one = subject_of(p, g->first, g);
+    if (type == &record_pace_reference)
+        gather_add(out, &one);
+    else if (type == &record_pace_ladder)
+        gather_ladders(p, g, out);
+    else if (type == &record_pace_reached)
+        gather_reached(p, g, out);
+}
+
+void pace_gather(const void *found, const record_type *type, subjects *out)
+{
+    const motions *m = found;
+    if (type == &record_pace_all)
+        gather_add(out, &(subject){.record = m});
+    for (int i = 0; type == &record_pace_verdict && i < m->verdicts.count; i++)
+        gather_add(out, &(subject){.record = &m->verdicts.verdict[i]});
+    for (int i = 0; i < m->pace.groups; i++)
+        gather_group(&m->pace, &m->pace.group[i], type, out);
+}
+
+const record_type *const pace_records[] = {&record_pace_reference,
+                                           &record_pace_run,
+                                           &record_pace_error,
+                                           &record_pace_ladder,
+                                           &record_pace_reached,
+                                           &record_pace_verdict,
+                                           NULL};

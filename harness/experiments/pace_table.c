@@ -5,8 +5,6 @@
 
 #include "harness/experiments/pace_order.h"
 #include "harness/experiments/pace_reach.h"
-#include "harness/experiments/pace_record.h"
-#include "harness/records/csv_record.h"
 #include "harness/records/fields_keys.h"
 #include "harness/terminal/paragraph.h"
 #include "harness/terminal/table.h"
@@ -193,14 +191,4 @@ void pace_table(FILE *to, const pace *p, const pace_verdicts *all, int runs)
     for (int i = 0; i < all->count; i++)
         print_verdict(to, &all->verdict[i]);
     fprintf(to, "%d verdicts, %d differ from the expected ones\n", all->count, all->unexpected);
-}
-
-void pace_table_csv(FILE *to, const pace *p)
-{
-    csv_part row = {.type = &record_pace_run};
-    csv_record_head(to, 1, &row);
-    for (int i = 0; i < p->runs; i++) {
-        row.s = pace_record_subject(p, &p->run[i]);
-        csv_record_line(to, 1, &row);
-    }
 }

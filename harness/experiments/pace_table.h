@@ -1,4 +1,4 @@
-/* Motions and what is said of them, for people; runs as CSV. */
+/* Motions and what is said of them, for people. */
 #ifndef BEAMWORK_PACE_TABLE_H
 #define BEAMWORK_PACE_TABLE_H
 
@@ -8,6 +8,5 @@
 
 /* runs: 1: a line for each of them too, not only verdicts. */
 void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
-void pace_table_csv(FILE *to, const pace *);
 
 #endif

@@ -35,7 +35,7 @@ static status read_back(const sweep *s, const judgement *j, results *out, fault 
         return fault_set(f, STATUS_FAULT, "%.200s: cannot be written; set TMPDIR to a folder",
                          path);
     close(file);
-    status outcome = store_write(path, s, j, &e, f);
+    status outcome = store_write(path, NULL, s, j, &e, f);
     if (outcome == STATUS_OK)
         outcome = results_read(path, out, f);
     unlink(path);

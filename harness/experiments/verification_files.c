@@ -13,7 +13,7 @@ status verification_files_open(verification_files *to, const sweep *s, const jud
     to->sweep = s;
     to->judged = j;
     if (to->output != NULL)
-        TRY(store_open(s, j, &to->store, f));
+        TRY(store_open(NULL, s, j, &to->store, f));
     to->part = (json_part){.verdicts = 0};
     if (to->json != NULL)
         json_part_begin(&to->part);

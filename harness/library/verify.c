@@ -96,7 +96,7 @@ static status keep(const trial *v, const environment *e, fault *f)
     if (v->results == NULL)
         return STATUS_OK;
     known_lock();
-    const status outcome = store_write(v->results, &v->sweep, &v->judgement, e, f);
+    const status outcome = store_write(v->results, NULL, &v->sweep, &v->judgement, e, f);
     known_unlock();
     return outcome;
 }

@@ -6,7 +6,12 @@
 #include "harness/records/assumptions.h"
 #include "harness/study/rounds.h"
 
-static void add(subjects *list, const subject *one)
+struct held_record {
+    held_record *next;
+    _Alignas(max_align_t) char record[];
+};
+
+void gather_add(subjects *list, const subject *one)
 {
     if (list->count == list->room) {
         const int room = 2 * list->room + 16;
@@ -100,7 +105,7 @@ static void add_array(subject s, int count, const void *array, size_t size, subj
 {
     for (s.index = 0; s.index < count; s.index++) {
         s.record = (const char *)array + (size_t)s.index * size;
-        add(out, &s);
+        gather_add(out, &s);
     }
 }
 
@@ -112,7 +117,7 @@ static void add_curves(subject s, const solve_result *r, subjects *out)
     for (s.index = 0; s.index < r->quantities; s.index++) {
         s.record = &r->quantity[s.index];
         if (r->quantity[s.index].curve.points > 0)
-            add(out, &s);
+            gather_add(out, &s);
         s.group += r->quantity[s.index].curve.points;
     }
 }
@@ -123,7 +128,7 @@ static void add_quantities(const gathering *g, int series_index, subject s, cons
     for (s.index = 0; s.index < r->quantities; s.index++) {
         s.record = &r->quantity[s.index];
         compare_with(g, series_index, &s);
-        add(out, &s);
+        gather_add(out, &s);
     }
 }
 
@@ -147,7 +152,7 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
     const subject cell = gather_cell(g, series_index, mesh);
     const solve_result *r = &cell.series->cell[mesh].solve;
     if (type == &record_cell)
-        add(out, &cell);
+        gather_add(out, &cell);
     else if (type == &record_quantity)
         add_quantities(g, series_index, cell, r, out);
     else if (type == &record_curve)
@@ -175,7 +180,7 @@ static void add_imports(subject s, const imported *found, subjects *out)
         while (s.index + 1 < s.point->scene.quantities &&
                strcmp(s.point->scene.quantity[s.index].name, found->row[i].quantity) != 0)
             s.index++;
-        add(out, &s);
+        gather_add(out, &s);
     }
 }
 
@@ -183,7 +188,7 @@ static void gather_series(const gathering *g, const record_type *type, int index
 {
     const subject s = series_subject(g, index);
     if (type == &record_series)
-        add(out, &s);
+        gather_add(out, &s);
     if (s.series->missing[0] == '\0')
         for (int i = 0; i < s.series->meshes; i++)
             gather_mesh(g, type, index, i, out);
@@ -194,7 +199,7 @@ static void gather_series(const gathering *g, const record_type *type, int index
     for (int i = first_verdict(g->judged, index);
          i < g->judged->verdicts && g->judged->verdict[i].series == index; i++) {
         const subject one = gather_verdict(g, &g->judged->verdict[i]);
-        add(out, &one);
+        gather_add(out, &one);
     }
 }
 
@@ -209,7 +214,7 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
         for (int k = 0; k < out->count && !known; k++)
             known = out->row[k].point == p;
         if (!known)
-            add(out, &s);
+            gather_add(out, &s);
     }
 }
 
@@ -217,7 +222,7 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
 static void gather_parameters(subject s, subjects *out)
 {
     while (parameter_at(s.point->type->parameters, s.index) != NULL) {
-        add(out, &s);
+        gather_add(out, &s);
         s.index++;
     }
 }
@@ -225,14 +230,14 @@ static void gather_parameters(subject s, subjects *out)
 static void gather_meanings(subject s, subjects *out)
 {
     for (; s.index < s.point->scene.quantities; s.index++)
-        add(out, &s);
+        gather_add(out, &s);
 }
 
 void gather_assumptions(const point *p, subjects *out)
 {
     assumption a;
     for (subject s = {.point = p, .record = p}; assumptions_at(p, s.index, &a); s.index++)
-        add(out, &s);
+        gather_add(out, &s);
 }
 
 /* Of the first point, or of all. */
@@ -257,7 +262,7 @@ static void gather_agreements(const gathering *g, const case_type *of, subjects 
         for (int i = 0; i < g->judged->agreements; i++) {
             const subject s = gather_agreement(g, &g->judged->agreement[i]);
             if (s.point->type == of)
-                add(out, &s);
+                gather_add(out, &s);
         }
 }
 
@@ -268,7 +273,7 @@ static void gather_coverages(const gathering *g, const case_type *of, subjects *
             if (g->judged->coverage[i].of == of)
                 for (int k = 0; k < COVERAGE_MESHES; k++) {
                     const subject s = gather_coverage(g, &g->judged->coverage[i], k);
-                    add(out, &s);
+                    gather_add(out, &s);
                 }
 }
 
@@ -288,7 +293,7 @@ void gather_declarations(const gathering *g, subjects *out)
         if (one->imported != NULL || has_formulation(out, one->formulation.key))
             continue;
         const subject s = {.sweep = g->sweep, .series = one};
-        add(out, &s);
+        gather_add(out, &s);
     }
 }
 
@@ -307,8 +312,24 @@ void gather_case(const gathering *g, const record_type *type, const case_type *o
             gather_series(g, type, i, out);
 }
 
+const void *gather_keep(subjects *list, const void *record, size_t size)
+{
+    held_record *one = malloc(sizeof *one + size);
+    list->bad |= one == NULL;
+    if (one == NULL)
+        return NULL;
+    one->next = list->held;
+    list->held = one;
+    return memcpy(one->record, record, size);
+}
+
 void gather_free(subjects *list)
 {
+    while (list->held != NULL) {
+        held_record *next = list->held->next;
+        free(list->held);
+        list->held = next;
+    }
     free(list->row);
     memset(list, 0, sizeof *list);
 }

@@ -4,10 +4,12 @@
 
 #include "harness/records/schema.h"
 
+typedef struct held_record held_record;
 typedef struct subjects {
     int count, room;
     subject *row;
-    int bad; /* 1: out of memory */
+    held_record *held; /* that are in no result */
+    int bad;           /* 1: out of memory */
 } subjects;
 
 /* Truths that quantities are compared with: those of the verdicts; where nothing was judged the
@@ -31,6 +33,9 @@ subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);
 subject gather_coverage(const gathering *g, const coverage *c, int left_out);
+void gather_add(subjects *list, const subject *one);
+/* A copy of a record that lives as long as the list; NULL: out of memory. */
+const void *gather_keep(subjects *list, const void *record, size_t size);
 void gather_free(subjects *list);
 
 #endif

@@ -141,8 +141,7 @@ static int open_stream(const place *to)
     return dup(to->descriptor);
 }
 
-/* 1: its name says that it is HDF5. */
-static int is_hdf5(const char *path)
+int output_is_hdf5(const char *path)
 {
     const char *dot = strrchr(place_leaf(path), '.');
     return dot != NULL && (strcasecmp(dot, ".h5") == 0 || strcasecmp(dot, ".hdf5") == 0);
@@ -152,7 +151,7 @@ static status check_form(const char *path, const place *to, output_form form, fa
 {
     if (to->kind == PLACE_FOLDER)
         return fail(path, EISDIR, f);
-    if (form == OUTPUT_TEXT && is_hdf5(path))
+    if (form == OUTPUT_TEXT && output_is_hdf5(path))
         return fault_set(f, STATUS_REFUSED,
                          "%.200s: this command writes text there, not HDF5; give it a name that "
                          "does not end in %s",

@@ -16,6 +16,8 @@ typedef struct output {
     char temporary[PATH_MAX]; /* empty: written directly */
 } output;
 
+/* 1: its name says that it is HDF5. */
+int output_is_hdf5(const char *path);
 /* Text; path NULL: onto standard output. */
 status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);

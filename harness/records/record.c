@@ -63,12 +63,16 @@ static status write_image(const record *r, const char *path, fault *f)
     return outcome;
 }
 
-status record_close(record *r, const char *path, fault *f)
+status record_drop(record *r, status outcome)
 {
-    const status outcome = write_image(r, path, f);
     H5Sclose(r->scalar);
     H5Fclose(r->file);
     return outcome;
+}
+
+status record_close(record *r, const char *path, fault *f)
+{
+    return record_drop(r, write_image(r, path, f));
 }
 
 hid_t record_group(record *r, hid_t at, const char *name)
@@ -106,6 +110,11 @@ void record_text(record *r, hid_t at, const char *name, const char *text)
 void record_count(record *r, hid_t at, const char *name, long value)
 {
     put(r, at, name, H5T_NATIVE_LONG, &value);
+}
+
+void record_number(record *r, hid_t at, const char *name, double value)
+{
+    put(r, at, name, H5T_NATIVE_DOUBLE, &value);
 }
 
 void record_version(record *r, hid_t at, const char *name, const int version[2])

@@ -16,6 +16,8 @@ typedef struct record {
 status record_open(record *r, fault *f);
 /* Writes what was recorded to `path` (NULL: nothing) and frees it. */
 status record_close(record *r, const char *path, fault *f);
+/* Frees what was recorded; the outcome that led to it. */
+status record_drop(record *r, status outcome);
 
 /* Group of this name, made where it does not exist; the caller closes it with H5Gclose. */
 hid_t record_group(record *r, hid_t at, const char *name);
@@ -24,6 +26,7 @@ void record_text(record *r, hid_t at, const char *name, const char *text);
 /* An attribute text[count]. */
 void record_text_list(record *r, hid_t at, const char *name, int count, const char *const text[]);
 void record_count(record *r, hid_t at, const char *name, long value);
+void record_number(record *r, hid_t at, const char *name, double value);
 /* Two whole numbers; a text in ASCII of exactly its length (what VTK expects). */
 void record_version(record *r, hid_t at, const char *name, const int version[2]);
 void record_ascii(record *r, hid_t at, const char *name, const char *text);

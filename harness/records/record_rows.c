@@ -127,10 +127,42 @@ void record_rows(record *r, hid_t at, const char *name, int fields,
     free(rows);
 }
 
+static void rows_with(record *r, hid_t at, const record_type *type, int keys, int count,
+                      const subject row[])
+{
+    const schema_field *list[SCHEMA_MOST_FIELDS];
+    const int fields = schema_fields(type, keys, list);
+    record_rows(r, at, type->table, fields, list, count, row);
+}
+
 void record_rows_of_type(record *r, hid_t at, const record_type *type, int count,
                          const subject row[])
 {
+    rows_with(r, at, type, KEY, count, row);
+}
+
+void record_rows_alone(record *r, hid_t at, const record_type *type, int count, const subject row[])
+{
+    rows_with(r, at, type, KEY_AROUND, count, row);
+}
+
+static void put_field(record *r, hid_t at, const schema_field *which, const field_value *v)
+{
+    if (which->kind == FIELD_TEXT || which->kind == FIELD_ENUM)
+        record_text(r, at, which->name, v->text);
+    else if (which->kind == FIELD_DOUBLE)
+        record_number(r, at, which->name, *v->numbers);
+    else
+        record_count(r, at, which->name, v->whole);
+}
+
+void record_fields(record *r, hid_t at, const record_type *type, const subject *s)
+{
     const schema_field *list[SCHEMA_MOST_FIELDS];
-    const int fields = schema_fields(type, KEY, list);
-    record_rows(r, at, type->table, fields, list, count, row);
+    const int fields = schema_fields(type, KEY_AROUND, list);
+    for (int i = 0; i < fields; i++) {
+        field_value v;
+        schema_read(s, list[i], &v);
+        put_field(r, at, list[i], &v);
+    }
 }

@@ -12,5 +12,10 @@ void record_rows(record *r, hid_t at, const char *name, int fields,
 /* The table of a kind of record, with its keys. */
 void record_rows_of_type(record *r, hid_t at, const record_type *type, int count,
                          const subject row[]);
+/* The same where nothing around it says what the records belong to. */
+void record_rows_alone(record *r, hid_t at, const record_type *type, int count,
+                       const subject row[]);
+/* A record as attributes. */
+void record_fields(record *r, hid_t at, const record_type *type, const subject *s);
 
 #endif

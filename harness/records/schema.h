@@ -7,7 +7,7 @@
 
 #include "harness/study/judgement.h"
 
-enum { SCHEMA_VERSION = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
+enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"
 /* Of a number that is in the unit which the record's own field `unit` names. */
 #define OWN_UNIT "unit"
@@ -37,6 +37,7 @@ typedef struct subject {
     int group;          /* step that an iteration belongs to; first point of a curve */
     const verdict *verdict;
     const truth *truth, *model_truth; /* that a quantity is compared with */
+    const void *owner;                /* what the record is part of */
 } subject;
 
 /* What surrounds a record: offsets may refer to it. */

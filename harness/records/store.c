@@ -6,27 +6,32 @@
 
 #include "cases/format/write.h"
 #include "harness/records/gather.h"
+#include "harness/records/kept.h"
 #include "harness/records/record_rows.h"
 #include "harness/records/store_shapes.h"
 #include "harness/records/vtkhdf.h"
 #include "harness/study/price.h"
 #include "harness/study/sentence.h"
 
-static void put_environment(record *r, const environment *e)
+void store_environment(record *r, hid_t at, const environment *e)
+{
+    record_text(r, at, "schema", SCHEMA_NAME);
+    record_count(r, at, "schema_version", SCHEMA_VERSION);
+    record_text(r, at, "program_version", e->version);
+    record_text(r, at, "commit", e->commit);
+    record_text(r, at, "compiler", e->compiler);
+    record_text(r, at, "flags", e->flags);
+    record_text(r, at, "libraries", e->libraries);
+    record_text(r, at, "processor", e->processor);
+    record_text(r, at, "clock", e->clock);
+    record_count(r, at, "threads", e->threads);
+}
+
+static void put_noise(record *r, hid_t at)
 {
     char noise[32];
-    record_text(r, r->file, "schema", SCHEMA_NAME);
-    record_count(r, r->file, "schema_version", SCHEMA_VERSION);
-    record_text(r, r->file, "program_version", e->version);
-    record_text(r, r->file, "commit", e->commit);
-    record_text(r, r->file, "compiler", e->compiler);
-    record_text(r, r->file, "flags", e->flags);
-    record_text(r, r->file, "libraries", e->libraries);
-    record_text(r, r->file, "processor", e->processor);
-    record_text(r, r->file, "clock", e->clock);
-    record_count(r, r->file, "threads", e->threads);
     snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, r->file, "cost_noise", noise); /* ratios of costs below it tie */
+    record_text(r, at, "cost_noise", noise); /* ratios of costs below it tie */
 }
 
 /* A column of its own for each parameter. The record is the point: the offset counts its
@@ -163,7 +168,7 @@ static void put_case(record *r, hid_t cases, const gathering *g, const case_type
 }
 
 /* Attribute of names, a line each. at(s, i): name i, NULL behind the last. */
-static void put_names(record *r, const char *attribute, const sweep *s,
+static void put_names(record *r, hid_t group, const char *attribute, const sweep *s,
                       const char *(*at)(const sweep *s, int i))
 {
     char *text = NULL;
@@ -177,7 +182,7 @@ static void put_names(record *r, const char *attribute, const sweep *s,
         fprintf(to, "%s%s", i > 0 ? "\n" : "", at(s, i));
     r->bad |= fclose(to) != 0;
     if (!r->bad && size > 0)
-        record_text(r, r->file, attribute, text);
+        record_text(r, group, attribute, text);
     free(text);
 }
 
@@ -192,31 +197,32 @@ static const char *given_at(const sweep *s, int i)
 }
 
 /* What a run was asked for: what lies outside was left out, not lost. */
-static void put_selection(record *r, const sweep *s)
+static void put_selection(record *r, hid_t at, const sweep *s)
 {
     if (s->cases == NULL)
         return;
     if (s->select != NULL && s->select[0] != '\0')
-        record_text(r, r->file, "selection", s->select);
-    put_names(r, "selection_cases", s, case_at);
-    put_names(r, "selection_formulations", s, given_at);
+        record_text(r, at, "selection", s->select);
+    put_names(r, at, "selection_cases", s, case_at);
+    put_names(r, at, "selection_formulations", s, given_at);
 }
 
-static void put_declarations(record *r, const gathering *g)
+static void put_declarations(record *r, hid_t at, const gathering *g)
 {
     subjects list = {0};
     gather_declarations(g, &list);
     r->bad |= list.bad;
     if (!r->bad)
-        record_rows_of_type(r, r->file, &record_declaration, list.count, list.row);
+        record_rows_of_type(r, at, &record_declaration, list.count, list.row);
     gather_free(&list);
 }
 
-status store_open(const sweep *s, const judgement *j, store *out, fault *f)
+status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f)
 {
-    *out = (store){.sweep = s, .judged = j};
+    *out = (store){.experiment = experiment, .sweep = s, .judged = j};
     TRY(record_open(&out->file, f));
-    out->cases = record_group(&out->file, out->file.file, "cases");
+    out->root = kept_group(&out->file, experiment);
+    out->cases = record_group(&out->file, out->root, "cases");
     return STATUS_OK;
 }
 
@@ -227,12 +233,12 @@ void store_case(store *to, const case_type *of)
 }
 
 /* How the run ended, as its last line says it. */
-static void put_outcome(record *r, const sweep *s, const judgement *j)
+static void put_outcome(record *r, hid_t at, const sweep *s, const judgement *j)
 {
     char sentence[SENTENCE_OF_RUN];
     sentence_of_run(s, j, sentence, sizeof sentence);
-    record_text(r, r->file, "outcome", judgement_outcome(j));
-    record_text(r, r->file, "sentence", sentence);
+    record_text(r, at, "outcome", judgement_outcome(j));
+    record_text(r, at, "sentence", sentence);
 }
 
 /* All cases that are not there yet, and what is said of the run. */
@@ -242,39 +248,45 @@ static void finish(store *to, const environment *e)
     const gathering g = {s, to->judged, NULL};
     for (int i = 0; i < s->seriess; i++)
         store_case(to, s->point[s->series[i].point].type);
+    store_environment(&to->file, to->root, e);
+    put_noise(&to->file, to->root);
+    put_selection(&to->file, to->root, s);
+    put_declarations(&to->file, to->root, &g);
+}
+
+static status close_file(store *to, const char *path, fault *f)
+{
     H5Gclose(to->cases);
-    put_environment(&to->file, e);
-    put_selection(&to->file, s);
-    put_declarations(&to->file, &g);
+    H5Gclose(to->root);
+    return kept_close(&to->file, to->experiment, path, f);
 }
 
 status store_close(store *to, const char *path, const environment *e, fault *f)
 {
     if (path != NULL) {
-        record_count(&to->file, to->file.file, "unfinished_cells", to->sweep->unfinished);
+        record_count(&to->file, to->root, "unfinished_cells", to->sweep->unfinished);
         finish(to, e);
         if (to->judged != NULL)
-            put_outcome(&to->file, to->sweep, to->judged);
-    } else
-        H5Gclose(to->cases);
-    return record_close(&to->file, path, f);
+            put_outcome(&to->file, to->root, to->sweep, to->judged);
+    }
+    return close_file(to, path, f);
 }
 
-status store_write(const char *path, const sweep *s, const judgement *j, const environment *e,
-                   fault *f)
+status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
+                   const environment *e, fault *f)
 {
     store to;
-    TRY(store_open(s, j, &to, f));
+    TRY(store_open(experiment, s, j, &to, f));
     return store_close(&to, path, e, f);
 }
 
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f)
 {
     store to;
-    TRY(store_open(s, NULL, &to, f));
+    TRY(store_open(NULL, s, NULL, &to, f));
     finish(&to, e);
     if (s->series[0].cell[0].solve.shapes.states > 0)
         vtkhdf_write(&to.file, &s->point[s->series[0].point].scene,
                      &s->series[0].cell[0].solve.shapes);
-    return record_close(&to.file, path, f);
+    return close_file(&to, path, f);
 }

@@ -33,8 +33,8 @@ lab-causes: all ## errors that the rules of the ledger allow beside those seen; 
 	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
 
 # Its status 1 says that a contract is broken, which the report tells.
-lab-certificates: all ## holds every formulation against the interface, and measures what a paper should print; a second; build/elements.json
-	@$(PROGRAM) element-test all --json $(BUILD)/elements.json || [ $$? = 1 ]
+lab-certificates: all ## holds every formulation against the interface, and measures what a paper should print; a second; its part of build/results.h5
+	@$(PROGRAM) element-test all -o $(BUILD)/results.h5 || [ $$? = 1 ]
 
 lab-expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; 2 minutes; harness/study/expense.csv
 	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv

@@ -36,25 +36,31 @@ def motion(program, row, *more):
     return json.loads(done.stdout)
 
 
-def offers(found):
-    """Does its formulation offer the motion?"""
-    return any(r["status"] != "refused" for r in found["runs"])
+TABLES = ("references", "runs", "orders", "reached")
+
+
+def refused(record):
+    """{formulation: why} of those that do not offer the motion."""
+    offered = {r["formulation"] for r in record["runs"] if r["status"] != "refused"}
+    return {r["formulation"]: r["reason"] for r in reversed(record["runs"])
+            if r["formulation"] not in offered}
 
 
 def ladder(program, row):
-    """(cases, those whose formulation does not offer them), with all integrators."""
+    """(tables of all integrators, those whose formulation does not offer the motion)."""
     chosen = [word for name in row["formulations"].split() for word in ("-f", name)]
     record = motion(program, row, *chosen, "--time-limit", CELL, "--step", row["steps"],
                     "--tolerance", row["tolerances"])
-    return ([c for c in record["cases"] if offers(c)],
-            [{"case": c["case"], "parameters": row["parameters"], "formulation": c["formulation"],
-              "reason": c["runs"][0]["reason"]} for c in record["cases"] if not offers(c)])
+    without = refused(record)
+    return ({name: [r for r in record[name] if r["formulation"] not in without] for name in TABLES},
+            [{"case": row["case"], "parameters": row["parameters"], "formulation": name,
+              "reason": why} for name, why in without.items()])
 
 
 def checked(program, row):
     """How far the reference and `explicit` are apart at the same instants."""
     found = motion(program, row, "-f", row["check"], "--time-limit", CHECK, "--integrator",
-                   "explicit", "--tolerance", EXPLICIT)["cases"][0]
+                   "explicit", "--tolerance", EXPLICIT)
     coarse, fine = found["runs"]
     return {"case": row["case"], "parameters": row["parameters"], "formulation": row["check"],
             "elements": int(row["elements"]), "distances": [coarse["error"], fine["error"]],
@@ -71,11 +77,12 @@ def word_of(check):
             f"({check['formulation']})")
 
 
-def soonest(cases):
-    """`radau 7, alpha 2`: in how many of them a scheme is soonest within LEVEL."""
+def soonest(tables):
+    """`radau 7, alpha 2`: with how many formulations a scheme is soonest within LEVEL."""
     count = {}
-    for case in cases:
-        ways = [w for w in case["reached"] if w["error"] == LEVEL]
+    for name in {r["formulation"] for r in tables["runs"]}:
+        ways = [w for w in tables["reached"]
+                if w["error"] == LEVEL and w["formulation"] == name]
         best = min(ways, key=lambda w: w["cost"])["integrator"] if ways else "none"
         count[best] = count.get(best, 0) + 1
     return ", ".join(f"{name} {n}" for name, n in sorted(count.items(), key=lambda i: -i[1]))
@@ -87,19 +94,20 @@ def main():
     parser.add_argument("word", nargs="?", default="")
     parser.add_argument("-o", "--output", required=True)
     given = parser.parse_args()
-    out = {"cases": [], "left_out": [], "checks": []}
+    out = {**{name: [] for name in TABLES}, "left_out": [], "checks": []}
     with open(TABLE, newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if given.word in row["case"]]
     for row in rows:
         begin = time.monotonic()
-        cases, left_out = ladder(given.program, row)
+        tables, left_out = ladder(given.program, row)
         check = checked(given.program, row)
-        out["cases"] += cases
+        for name in TABLES:
+            out[name] += tables[name]
         out["left_out"] += left_out
         out["checks"].append(check)
         at = f" ({row['parameters']})" if row["parameters"] else ""
-        print(f"{row['case']}{at}: {len(cases)} formulations, soonest within {LEVEL:g}: "
-              f"{soonest(cases)}; reference: {word_of(check)}; {time.monotonic() - begin:.0f} s",
+        print(f"{row['case']}{at}: {len({r['formulation'] for r in tables['runs']})} formulations, soonest within {LEVEL:g}: "
+              f"{soonest(tables)}; reference: {word_of(check)}; {time.monotonic() - begin:.0f} s",
               flush=True)
     pathlib.Path(given.output).write_text(json.dumps(out), encoding="utf-8")
     return 0

@@ -1,13 +1,16 @@
-"""What `beamwork motion --json` wrote, as plain records: motions by integrators with steps and
-tolerances; and `make lab L=paces`, the same of every case of motion."""
+"""What `beamwork motion` left in the results, as plain records: motions by integrators with steps
+and tolerances; and `make lab L=paces`, the same of every case of motion."""
 import json
 import math
 import os
 from dataclasses import dataclass
 
-FILE, PACES = "motion.json", "paces.json"
+from reports import experiments
+
+PACES = "paces.json"
 KEPT = 1e-11  # of the largest energy: what does not drift by more keeps it
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # of legends and tables
+KEYS = ("case", "parameters", "formulation", "elements")  # of a problem
 NONE_WANTED = "none is wanted"  # of a reference
 STIFFENING = "stiffening"  # parameter of cases that says how many times as stiff elongation is
 
@@ -139,25 +142,27 @@ def stiffening_in(parameters):
     return float(said.get(STIFFENING, 1))
 
 
-def problem_of(row, parameters):
-    """What a case, formulation and mesh has of one set of parameters; runs of which errors are
-    wanted, and of which only the fate is."""
+def problem_of(tables, key):
+    """What a case, set of parameters, formulation and mesh has; runs of which errors are wanted,
+    and, behind them, of which only the fate is."""
     def own(name):
-        return [one for one in row[name] if one["parameters"] == parameters]
+        return tables[name].get(key, [])
 
-    runs = [run_of(r) for r in own("runs")] + [run_of(r, True) for r in own("stability")]
+    case, parameters, formulation, elements = key
+    runs = sorted((run_of(r, not r["has_reference"]) for r in own("runs")), key=lambda r: r.large)
     reference = (own("references") or [{"reason": NONE_WANTED}])[0]
     ladders = [Ladder(o["integrator"], o["nominal"], number(o, "order"), o["verdict"])
                for o in own("orders")]
-    return Problem(row["case"], parameters, row["formulation"], int(row["elements"]),
-                   stiffening_in(parameters), reference["reason"], number(reference, "uncertainty"),
-                   runs, ladders, ways_of(own("reached"), runs))
+    return Problem(case, parameters, formulation, int(elements), stiffening_in(parameters),
+                   reference["reason"], number(reference, "uncertainty"), runs, ladders,
+                   ways_of(own("reached"), runs))
 
 
-def problems_of(row):
-    """A Problem for each set of parameters."""
-    places = dict.fromkeys(one["parameters"] for one in row["runs"] + row["stability"])
-    return [problem_of(row, parameters) for parameters in places]
+def problems_of(found):
+    """A Problem for each case, set of parameters, formulation and mesh."""
+    tables = {name: experiments.grouped(found[name], *KEYS)
+              for name in ("references", "runs", "orders", "reached")}
+    return [problem_of(tables, key) for key in tables["runs"]]
 
 
 @dataclass(frozen=True)
@@ -176,13 +181,14 @@ class Check:
 class Record:
     """verdicts: rows of what is judged against what is expected. compared: problems on which
     integrators are compared, every case of motion where `make lab L=paces` ran them; left_out:
-    {(case, formulation): why it is not run}."""
+    {(case, formulation): why it is not run}. about: the program that ran them."""
 
     problems: list
     verdicts: list
     compared: list
     left_out: dict
     checks: list
+    about: dict
 
     @property
     def every(self):
@@ -205,20 +211,14 @@ def check_of(row):
 
 
 def read(path):
-    """The Record, or None where there is no such file."""
-    found = load(path)
+    """The Record of a file of results and of paces.json beside it, or None where there is none."""
+    found = experiments.read(path, "motion")
     if found is None:
         return None
-    problems = [one for row in found["cases"] for one in problems_of(row)]
-    paces = load(os.path.join(os.path.dirname(path), PACES))
+    problems = problems_of(found)
+    paces = load(os.path.join(os.path.dirname(os.path.abspath(path)), PACES))
     if paces is None:
-        return Record(problems, found["verdicts"], problems, {}, [])
-    return Record(problems, found["verdicts"],
-                  [one for row in paces["cases"] for one in problems_of(row)],
+        return Record(problems, found["verdicts"], problems, {}, [], found)
+    return Record(problems, found["verdicts"], problems_of(paces),
                   {(row["case"], row["formulation"]): row["reason"] for row in paces["left_out"]},
-                  [check_of(row) for row in paces["checks"]])
-
-
-def beside(results):
-    """The same of the files beside the results."""
-    return read(os.path.join(os.path.dirname(os.path.abspath(results)), FILE))
+                  [check_of(row) for row in paces["checks"]], found)

@@ -1,16 +1,16 @@
 """The page of certificates: what is drawn, what is left out, names from files."""
-import json
 import unittest
 
-from harness.tools.kit.program import ProgramTest, drawn, read_json, run
-from reports import certificates
+from harness.records.test.stored import put_experiment
+from harness.tools.kit.program import ProgramTest, drawn, run
+from reports import certificates, experiments
 
 
 class Site:
     """What the page asks of a site."""
 
     def __init__(self, folder, keys):
-        self.results = str(folder / "results.h5")
+        self.results = folder / "results.h5"
         self.styles = type("Styles", (), {"order": keys})
 
 
@@ -41,7 +41,7 @@ class Present(ProgramTest):
     def test_only_with_certificates_of_what_was_run(self):
         site = Site(self.folder, ["beamw:mass=lumped", "collocation"])
         self.assertFalse(certificates.present(site))
-        run("element-test", "beamw", "sheet_second", "--json", self.folder / "elements.json")
+        run("element-test", "beamw", "sheet_second", "-o", site.results)
         self.assertEqual(certificates.names(site), {"beamw"})
         self.assertFalse(certificates.present(Site(self.folder, ["collocation"])))
 
@@ -51,14 +51,14 @@ class Page(ProgramTest):
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
-        path = folder / "elements.json"
-        run("element-test", "beamw", "geometrically_exact", "--json", path)
-        record = read_json(path)
-        one = record["certificates"][1]
-        one["summary"] = "<b>&"
-        one["kept"] = False
-        one["parts"][2]["claims"][0].update(outcome="broken", sentence="J: <i> is wrong")
-        path.write_text(json.dumps(record), encoding="utf-8")
+        path = folder / "results.h5"
+        run("element-test", "beamw", "geometrically_exact", "-o", path)
+        record = experiments.read(path, "element-test")
+        record["formulations"][1].update(summary="<b>&", kept=False)
+        claim = next(c for c in record["claims"] if c["formulation"] == "geometrically_exact")
+        claim.update(outcome="broken", sentence="J: <i> is wrong")
+        path.unlink()
+        put_experiment(path, "element-test", record)
         site = drawn(folder, "-k", "elastica/default", "-f", "beamw", "-f", "geometrically_exact")
         cls.page = (site / "certificates.html").read_text(encoding="utf-8")
         cls.formulation = (site / "formulation_beamw.html").read_text(encoding="utf-8")

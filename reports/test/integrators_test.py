@@ -11,7 +11,7 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 
 
 def problems(found=None):
-    return [one for row in (found or motions.record())["cases"] for one in stored.problems_of(row)]
+    return stored.problems_of(found or motions.record())
 
 
 class Answers(unittest.TestCase):
@@ -100,7 +100,7 @@ class Answers(unittest.TestCase):
     def test_without_a_reference(self):
         """It is told, and counts nowhere."""
         found = motions.record()
-        found["cases"][0]["references"][0]["reason"] = "no result after 120 s"
+        found["references"][0]["reason"] = "no result after 120 s"
         every = problems(found)
         self.assertEqual(len(answers.judged(every)), 3)
         self.assertEqual([p.reference for p in integrators_page.unmeasured(every)],
@@ -142,7 +142,7 @@ class Words(unittest.TestCase):
     def test_doubt(self):
         """Of a scheme that wins and falls more slowly than it should."""
         found = motions.record(cases=("pendulum",), formulations=("collocation",))
-        for row in found["cases"][0]["orders"]:
+        for row in found["orders"]:
             if row["integrator"] == "radau":
                 row.update(order=1.0, verdict="low order")
         text = words.first(problems(found), 1.0)
@@ -204,7 +204,7 @@ class Page(ProgramTest):
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()
-        motions.write(folder / "motion.json", motions.record())
+        motions.leave(folder / "results.h5", motions.record())
         cls.site = drawn(folder, "-k", "elastica/default")
         cls.text = (cls.site / "integrators.html").read_text(encoding="utf-8")
 
@@ -218,9 +218,9 @@ class Page(ProgramTest):
 
     def test_every_case(self):
         """Where all cases were run, they are what is compared, and the reference is held against
-        another integrator; verdicts and maps stay those of motion.json."""
+        another integrator; verdicts and maps stay those of the results."""
         folder = self.folder
-        motions.write(folder / "motion.json", motions.record())
+        motions.leave(folder / "results.h5", motions.record())
         motions.write(folder / "paces.json", motions.paces())
         site = drawn(folder, "-k", "elastica/default")
         text = (site / "integrators.html").read_text(encoding="utf-8")
@@ -241,6 +241,11 @@ class Page(ProgramTest):
         """Without its file there is no page."""
         self.assertFalse(integrators_page.present(type("Site", (), {
             "results": str(self.folder / "results.h5")})))
+
+    def test_commit(self):
+        """That of the run, which is another than that of the verdicts."""
+        self.assertRegex(self.text, r"beamwork motion</code>, version 0\.1\.0, commit made up, "
+                                    r"2026-01-01T00:00:00Z; <span class=\"unexpected\">")
 
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_browser(self):

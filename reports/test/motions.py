@@ -1,5 +1,7 @@
-"""Made-up records of integrators, as `beamwork motion --json` writes them."""
+"""Made-up records of integrators, as `beamwork motion` leaves them in a file of results."""
 import json
+
+from harness.records.test.stored import put_experiment
 
 CONSTANTS = {"alpha": (2, 30), "conserving": (2, 20), "radau": (5, 300)}  # order, error at step 1
 COSTS = {"alpha": 1e-3, "conserving": 4e-3, "radau": 6e-3}  # [s] of a unit of time with step 1
@@ -16,7 +18,8 @@ def run(integrator, step, worse=1.0, **more):
             "stopped": None, "error": worse * error * step**order, "order": order, "cost": cost,
             "seconds": cost, "steps": 10, "rejected": 0, "iterations_per_step": 3.0,
             "energy_drift": 1e-14 if integrator == "conserving" else 1e-4, "momentum_drift": 1e-13,
-            "largest_energy": 1, "last_energy": 1, "outcome": "", "parameters": "", **more}
+            "largest_energy": 1, "last_energy": 1, "outcome": "", "parameters": "",
+            "has_reference": True, **more}
 
 
 def fate(integrator, step, stiffening):
@@ -32,7 +35,7 @@ def large_step(integrator, step, stiffening):
     """A run without an error, of which the fate is told."""
     what = fate(integrator, step, stiffening)
     stops = what == "stops"
-    return run(integrator, step, error=None, order=None, outcome=what,
+    return run(integrator, step, error=None, order=None, outcome=what, has_reference=False,
                status="not_converged" if stops else "ok",
                parameters=f"stiffening={stiffening:g}" if stiffening != 1 else "",
                reason="step 40 does not converge" if stops else "")
@@ -52,17 +55,21 @@ def reached(runs):
     return out
 
 
-def group(case, formulation, runs, stability=()):
-    """Motions of one structure on one mesh."""
+def group(case, formulation, runs):
+    """Tables of the motions of one structure on one mesh."""
     orders = [{"integrator": s, "nominal": order, "order": order, "order_before": order,
                "floor": 1e-11, "verdict": "pass", "parameters": ""}
               for s, (order, _) in CONSTANTS.items()]
     reference = {"integrator": "radau", "tolerance": 1e-10, "steps": 99, "status": "ok",
                  "reason": "", "uncertainty": 1e-12, "end": 10.0, "alone_from": 5.0,
                  "parameters": ""}
-    return {"case": case, "formulation": formulation, "elements": 8, "references": [reference],
-            "runs": runs, "orders": orders, "reached": reached(runs),
-            "stability": list(stability)}
+    tables = {"references": [reference], "runs": runs, "orders": orders, "reached": reached(runs)}
+    place = {"case": case, "formulation": formulation, "elements": 8}
+    return {name: [{**place, **row} for row in rows] for name, rows in tables.items()}
+
+
+def together(groups):
+    return {name: [row for one in groups for row in one[name]] for name in groups[0]}
 
 
 VERDICT = {"judged": "fate", "case": "pendulum", "parameters": "", "formulation": "collocation",
@@ -81,8 +88,9 @@ def record(cases=("pendulum", "free_flight_space"),
                          reason="step 3 does not converge")]
             large = [large_step(s, h, x) for x in STIFFENINGS for h in FATE_STEPS
                      for s in ("alpha", "trapezoidal", "conserving")]
-            out.append(group(case, formulation, runs, large))
-    return {"cases": out, "verdicts": [VERDICT, {**VERDICT, "steps": "0.1"}], "unexpected": 0}
+            out.append(group(case, formulation, runs + large))
+    return {**together(out), "verdicts": [VERDICT, {**VERDICT, "steps": "0.1"}], "unexpected": 0,
+            "program_version": "0.1.0", "commit": "made up", "clock": "2026-01-01T00:00:00Z"}
 
 
 def paces():
@@ -90,9 +98,15 @@ def paces():
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
     refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}
-    return {"cases": record(("elbow", "release", "spin_up"))["cases"], "checks": [check, refused],
+    found = record(("elbow", "release", "spin_up"))
+    return {**{name: found[name] for name in ("references", "runs", "orders", "reached")},
+            "checks": [check, refused],
             "left_out": [{"case": "elbow", "parameters": "", "formulation": "beamw_vlasov",
                           "reason": "does not offer shear"}]}
+
+
+def leave(path, found):
+    put_experiment(path, "motion", found)
 
 
 def write(path, found):

@@ -1,9 +1,9 @@
 """The page of stability: what a sweep of extremes found is on it; without one there is none."""
-import json
 import re
 import unittest
 
-from harness.tools.kit.program import TRUTHS, ProgramTest, read_json, run
+from harness.records.test.stored import put_experiment
+from harness.tools.kit.program import TRUTHS, ProgramTest, run
 from reports import environment, stability, stability_map
 from reports.site import Site
 
@@ -26,9 +26,9 @@ class Stability(ProgramTest):
         self.assertIn("stress", [command for command, _ in environment.more(site)])
 
     def test_sweep(self):
-        self.answered("stress", "-k", "decay_free or twist_wagner", "--json",
-                      self.folder / "stress.json")
-        record = read_json(self.folder / "stress.json")
+        self.answered("stress", "-k", "decay_free or twist_wagner", "-o",
+                      self.folder / "results.h5")
+        record = stability.read(self.folder / "results.h5")
         page = self.page()
         tried, survived = (sum(f[name] for f in record["formulations"])
                            for name in ("tried", "survived"))
@@ -49,8 +49,8 @@ class Stability(ProgramTest):
             }
 
         extreme = {
-            "name": "thin", "summary": "", "case": "c", "fixed": "", "quantities": ["w"],
-            "judge": "exact", "tolerance": 1e-6, "x_name": "x", "x_unit": "1", "values": [1.0, 2.0]
+            "name": "thin", "summary": "", "case": "c", "fixed": "", "judge": "exact",
+            "tolerance": 1e-6, "x_name": "x", "x_unit": "1"
         }
         tally = {
             "formulation": "beamw", "tried": 1, "survived": 1, "coarse": 0, "named_failures": 0,
@@ -58,10 +58,16 @@ class Stability(ProgramTest):
         }
         record = {
             "extremes": [extreme], "formulations": [tally],
-            "outcomes": [outcome(1.0, "skip"), outcome(2.0, "value")], "unexpected": 0
+            "extreme_values": [{"extreme": "thin", "x": x} for x in (1.0, 2.0)],
+            "extreme_quantities": [{"extreme": "thin", "quantity": "w"}],
+            "outcomes": [outcome(1.0, "skip"), outcome(2.0, "value")], "unexpected": 0,
+            "program_version": "0.1.0", "commit": "made up", "clock": "2026-01-01T00:00:00Z"
         }
-        (self.folder / "stress.json").write_text(json.dumps(record), encoding="utf-8")
-        self.assertIn("1 in all: 1 survived", self.page())
+        put_experiment(self.folder / "results.h5", "stress", record)
+        page = self.page()
+        self.assertIn("1 in all: 1 survived", page)
+        self.assertIn("commit made up, 2026-01-01T00:00:00Z", page)
+        self.assertIn("of the other pages are of commit", page)
 
     def test_findings_that_are_alike(self):
         """Stand in one row: extreme, outcome, values and proof the same."""

@@ -111,7 +111,7 @@ class Refusals(ProgramTest):
 class Answers(ProgramTest):
     def test_json(self):
         result = self.record(*solve("c_column", "section_data=printed"))
-        self.assertEqual(result["schema_version"], 2)
+        self.assertEqual(result["schema_version"], 3)
         self.assertEqual(result["parameters"]["section_data"], "printed")
         load = result["quantities"][0]
         self.assertAlmostEqual(load["value"] / 12858745.038, 1, delta=1e-9)

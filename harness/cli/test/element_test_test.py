@@ -3,7 +3,7 @@ import json
 import os
 import subprocess
 
-from harness.tools.kit.program import ROOT, ProgramTest, environment, run
+from harness.tools.kit.program import ROOT, ProgramTest, broken, environment, run
 
 EXAMPLES = ROOT / "elements" / "examples"
 CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # a crash is one
@@ -175,15 +175,13 @@ class Tested(ProgramTest):
         done = run("element-test", "--element", made, "--format", "json", "--time-limit", limit,
                    env=CRASHES)
         self.assertEqual(done.returncode, code, done.stderr)
-        (one, ) = json.loads(done.stdout)["certificates"]
-        self.assertEqual(one["kept"], code == 0)
+        one = json.loads(done.stdout)
+        self.assertEqual([f["kept"] for f in one["formulations"]], [code == 0])
         return one
 
     def broken(self, made, limit):
         """The sentences of what is broken; the status says so."""
-        one = self.certificate(made, 1, limit)
-        return [c["sentence"] for p in one["parts"] for c in p["claims"]
-                if c["outcome"] == "broken"]
+        return broken(self.certificate(made, 1, limit))
 
     def told(self, name, faults):
         for fault, (change, *words) in faults.items():
@@ -211,7 +209,7 @@ class Planted(Tested):
         small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")
         unused = ("    const double square", "    (void)q;\n    const double square")
         one = self.certificate(self.compiled("timoshenko.c", first, small, unused), 0)
-        self.assertNotIn("broken", [c["outcome"] for p in one["parts"] for c in p["claims"]])
+        self.assertNotIn("broken", [c["outcome"] for c in one["claims"]])
         said = self.broken(self.compiled("timoshenko.c", (first[0], first[1].replace("-d->length * psi[2] / 2", "0")), small,
                                          unused), 120)
         self.assertTrue(any("with its nodes exchanged" in s for s in said), said)
@@ -230,7 +228,10 @@ class Measured(Tested):
 
     def measured(self, *changes, code=0):
         one = self.certificate(self.compiled("timoshenko.c", *changes), code)
-        return {m["name"]: m for p in one["parts"] for m in p["measured"]}
+        errors = {}
+        for point in one["measured_points"]:
+            errors.setdefault(point["name"], []).append(point["error"])
+        return {m["name"]: {**m, "error": errors.get(m["name"], [])} for m in one["measured"]}
 
     def test_without_a_fault(self):
         found = self.measured()

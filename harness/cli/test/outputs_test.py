@@ -12,7 +12,7 @@ import unittest
 
 import h5py
 
-from harness.cli.test.work import TEXT, WHOLE, WORK
+from harness.cli.test.work import BOTH, TEXT, WHOLE, WORK
 from harness.tools.kit.program import PROGRAM, ROOT, TRUTHS, ProgramTest, read_json, run
 
 
@@ -54,9 +54,16 @@ class Places(Folder):
         """A file called .h5 is HDF5, or nothing is written."""
         for verb, options in TEXT.items():
             for option in options:
-                for name in ("a.h5", "a.HDF5"):
+                for name in ("a.h5", "a.HDF5") if (verb, option) not in BOTH else ():
                     self.refused(2, "writes text there, not HDF5", verb, *WORK[verb], option, self.folder / name)
         self.assertEqual(os.listdir(self.folder), [])
+        for verb, option in BOTH:
+            path = self.folder / f"{verb}.HDF5"
+            done = run(verb, *WORK[verb], option, path)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotEqual(done.stdout, "")
+            with h5py.File(path) as file:
+                self.assertEqual(list(file["experiments"]), [verb])
 
     def test_closed_standard_output(self):
         """Files are written all the same, and none becomes standard output."""
@@ -182,7 +189,8 @@ class Twice(Folder):
         for name in self.names("truths.h5"):
             for verb, work in WORK.items():
                 for option in [(o,) for o in TEXT[verb]] + ([WHOLE[verb]] if WHOLE[verb] else []):
-                    words = "which is read" if WHOLE[verb] == option else self.why_not(name)
+                    is_whole = WHOLE[verb] == option or (verb, *option) in BOTH
+                    words = "which is read" if is_whole else self.why_not(name)
                     self.refused(2, words, verb, *work, "--truths", truths, *option, name)
         self.assertEqual(truths.read_bytes(), before)
 

@@ -15,3 +15,5 @@ TEXT = {"verify": ("--json", "--junit", "--markdown"), "solve": ("-o",), "conver
         "stress": ("-o", "--json"), "bench": (), "sweep": ()}
 WHOLE = {"verify": ("-o",), "bench": ("-o",), "solve": ("--shapes=1", "-o"), "converge": (),
          "stress": (), "sweep": ("-o",)}
+# That take both, by the name of the file.
+BOTH = {("converge", "-o"), ("stress", "-o")}

@@ -57,24 +57,24 @@ static void kinds(void)
 }
 
 /* One outcome, and one finding of whatever `word` says for x from 2 to 3. */
-typedef struct subject {
+typedef struct expectation {
     extreme_outcome o;
     extreme_finding row;
     formulation chosen;
     extreme_count count;
     extreme_sweep s;
-} subject;
+} expectation;
 
-static void one_outcome(outcome_kind kind, double x, subject *out)
+static void one_outcome(outcome_kind kind, double x, expectation *out)
 {
-    *out = (subject){.o = {.kind = kind, .x = x, .neighbours = -1},
-                     .row = {.extreme = all,
-                             .formulation = all,
-                             .quantity = all,
-                             .outcome = word,
-                             .from = 2,
-                             .to = 3},
-                     .chosen = {.key = "element"}};
+    *out = (expectation){.o = {.kind = kind, .x = x, .neighbours = -1},
+                         .row = {.extreme = all,
+                                 .formulation = all,
+                                 .quantity = all,
+                                 .outcome = word,
+                                 .from = 2,
+                                 .to = 3},
+                         .chosen = {.key = "element"}};
     out->s = (extreme_sweep){.formulations = 1,
                              .outcomes = 1,
                              .findings = 1,
@@ -88,7 +88,7 @@ static void one_outcome(outcome_kind kind, double x, subject *out)
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
-        subject one;
+        expectation one;
         one_outcome(OUTCOME_VALUE, 1, &one);
         extreme_expect(&one.s, whole);
         gsl_test_int(one.s.unexpected, 0, "the outcome is as expected");
@@ -144,7 +144,7 @@ static void ranges(void)
               {2 * (1 - 1e-6), 0},
               {3 * (1 + 1e-6), 0}};
     for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
-        subject one;
+        expectation one;
         one_outcome(OUTCOME_SINGULAR, at[i].x, &one);
         snprintf(word, sizeof word, "singular");
         extreme_expect(&one.s, 0);

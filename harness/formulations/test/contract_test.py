@@ -2,7 +2,7 @@
 import json
 import sys
 
-from harness.tools.kit.program import ROOT, ProgramTest, environment
+from harness.tools.kit.program import ROOT, ProgramTest, broken, environment
 
 EXAMPLES = ROOT / "elements" / "examples"
 
@@ -24,9 +24,7 @@ class ManyAtOnce(ProgramTest):
                                 f"exec:'{sys.executable}' '{self.folder / 'mine.py'}'",
                                 "--format", "json", code=code,
                                 env=environment(PYTHONPATH=str(EXAMPLES))).stdout
-            (found, ) = json.loads(out)["certificates"]
-            said = [c["sentence"] for p in found["parts"] for c in p["claims"]
-                    if c["outcome"] == "broken"]
+            said = broken(json.loads(out))
             self.assertEqual(len(said), code, said)
             self.assertTrue(all("many at once gives other strains than one by one: element" in s
                                 and "strain 3: " in s for s in said), said)

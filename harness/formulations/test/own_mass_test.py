@@ -4,7 +4,7 @@ import sys
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
 from harness.formulations.test.speaker import Speaker
-from harness.tools.kit.program import ROOT, environment, run
+from harness.tools.kit.program import ROOT, broken, environment, run
 
 WITH_MODULES = environment(PYTHONPATH=str(EXAMPLES))
 FREQUENCIES = (("deep_beam", ()), ("c_column", ()), ("release", ("time=0.002", )), ("sheet_cantilever", ("modes=3", )))
@@ -87,9 +87,12 @@ class OwnMass(Speaker):
         """Outcomes of the parts about mass, and what is broken."""
         out = self.answered("element-test", "own_mass_py", "--element", element, "--format", "json", code=code,
                             env=WITH_MODULES).stdout
-        parts = json.loads(out)["certificates"][0]["parts"]
-        claims = {p["family"]: p["claims"] for p in parts if p["family"] in ("mass", "rotating", "in_time")}
-        return claims, " ".join(c["sentence"] for p in parts for c in p["claims"] if c["outcome"] == "broken")
+        record = json.loads(out)
+        claims = {}
+        for one in record["claims"]:
+            if one["family"] in ("mass", "rotating", "in_time"):
+                claims.setdefault(one["family"], []).append(one)
+        return claims, " ".join(broken(record))
 
     def test_contract(self):
         claims, broken = self.contract(self.python())

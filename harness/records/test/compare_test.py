@@ -261,11 +261,13 @@ class Compare(ProgramTest):
 
     def test_versions(self):
         """A file of another version is refused with one line."""
-        for version in (1, 3):
+        for version in (1, 4):
             done = self.compared(lambda file: file.attrs.modify("schema_version", version))
             self.assertEqual(done.returncode, 2, done.stdout)
-            self.assertIn(f"results of version {version}, this program reads 2", done.stderr)
+            self.assertIn(f"results of version {version}, this program reads 2 to 3", done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        done = self.compared(lambda file: file.attrs.modify("schema_version", 2))
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

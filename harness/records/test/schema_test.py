@@ -10,7 +10,7 @@ from harness.tools.kit import program
 from harness.tools.kit.program import ProgramTest
 
 KEYS = ("point", "formulation", "elements")
-JSON_ONLY = ("extremes", "formulations", "outcomes", "truths")
+JSON_ONLY = ("truths", )
 OF_THE_RUN = ("declarations",)  # below the root, not below a case
 OF_SOME = ("motion", "assumptions")  # not there where a case has none
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
@@ -28,7 +28,10 @@ class Schema(ProgramTest):
     @classmethod
     def setUpClass(cls):
         cls.schema = json.loads(run("schema", "--format", "json"))
-        cls.records = {r["table"]: r["fields"] for r in cls.schema["records"]}
+        cls.records = {r["table"]: r["fields"] for r in cls.schema["records"]
+                       if not r["place"].startswith("/experiments/")}
+        cls.groups = {r["place"] + r["table"]: r["fields"] for r in cls.schema["records"]
+                      if r["place"].startswith("/experiments/")}
         cls.stored = cls.class_folder()
         cls.results, cls.bench, cls.verdicts = (
             cls.stored / name for name in ("results.h5", "bench.h5", "v.json"))
@@ -57,8 +60,9 @@ class Schema(ProgramTest):
                 self.assertLessEqual({word.decode() for word in table[f["name"]]}, set(f["words"]))
 
     def test_hdf5(self):
-        for path in (self.results, self.bench):
-            with h5py.File(path) as file:
+        for path, root in ((self.results, "/"), (self.bench, "experiments/bench")):
+            with h5py.File(path) as whole:
+                file = whole[root]
                 for name in ("schema", "schema_version"):
                     self.assertEqual(text(file.attrs[name]), str(self.schema[name]))
                 for case in file["cases"].values():
@@ -93,7 +97,7 @@ class Schema(ProgramTest):
                                if table in case or table not in OF_SOME)
                     self.assertGreater(seen, 0, table)
         with h5py.File(self.bench) as file:
-            self.assertEqual(len(file["cases/elastica/timings"]), 2)
+            self.assertEqual(len(file["experiments/bench/cases/elastica/timings"]), 2)
 
     def test_references(self):
         """Rows belong to cells that are there; points of curves lie in the arrays."""
@@ -216,20 +220,36 @@ class Schema(ProgramTest):
             names = list(dict.fromkeys(name for table in tables for name in self.names(table)))
             self.assertEqual(head, names + ["omitted", "assumed"] * (verb == "solve"))
 
-    def test_stress(self):
-        arguments = ("stress", "-k", "thin", "-f", "sheet_third")
-        record = json.loads(run(*arguments, "--format", "json"))
-        besides = {"extremes": {"values", "quantities"}}
-        for table in ("extremes", "formulations", "outcomes"):
-            self.assertEqual(set(record[table][0]) - besides.get(table, set()),
-                             set(self.names(table)), table)
-        head = next(csv.reader(io.StringIO(run(*arguments, "--format", "csv"))))
-        self.assertEqual(head, self.names("outcomes"))
+    def test_experiments(self):
+        """Their groups and their JSON have the tables that are described, and no others."""
+        path = self.folder / "results.h5"
+        csv_of = {"stress": "outcomes", "motion": "runs"}
+        for verb, *asked in (("stress", "-k", "thin", "-f", "sheet_third"),
+                             ("motion", "pendulum", "-f", "collocation", "-n", "1", "--set",
+                              "time=0.1", "--integrator", "alpha", "--step", "0.01,0.005"),
+                             ("element-test", "sheet_third")):
+            place = f"/experiments/{verb}/"
+            own = {name.removeprefix(place): fields for name, fields in self.groups.items()
+                   if name.startswith(place)}
+            run(verb, *asked, "-o", path, "--json", self.folder / "record.json")
+            record = program.read_json(self.folder / "record.json")
+            with h5py.File(path) as file:
+                self.assertEqual(set(file[place]), set(own))
+                self.assertEqual(text(file[place].attrs["commit"]), record["commit"])
+                for table, fields in own.items():
+                    self.check_table(file[place][table], fields)
+                    self.assertEqual(len(file[place][table]), len(record[table]), table)
+                    for row in record[table][:1]:
+                        self.assertEqual(list(row), [f["name"] for f in fields])
+                    self.assertEqual(bool(record[table]), table != "verdicts", table)
+            if verb in csv_of:
+                head = next(csv.reader(io.StringIO(run(verb, *asked, "--format", "csv"))))
+                self.assertEqual(head, [f["name"] for f in own[csv_of[verb]]])
 
     def test_text(self):
         """The description names every field."""
         told = run("schema")
-        for fields in self.records.values():
+        for fields in (*self.records.values(), *self.groups.values()):
             for f in fields:
                 self.assertIn(f["name"], told)
                 self.assertIn(f["summary"], told)

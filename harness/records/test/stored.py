@@ -1,7 +1,9 @@
 """Stored runs for tests: made by verify, altered in one place, compared."""
+import math
 import shutil
 
 import h5py
+import numpy
 
 from harness.tools.kit.program import run
 from reference.pack import seal
@@ -37,3 +39,28 @@ def altered(old, new, change):
 def replace(group, name, rows):
     del group[name]
     group[name] = rows
+
+
+def of_dtype(values):
+    """A column of texts, flags or numbers, which may not be there."""
+    if isinstance(values[0], str):
+        return numpy.array([value.encode() for value in values] or [b""])
+    return numpy.array([math.nan if value is None else value for value in values])
+
+
+def put_experiment(path, name, record):
+    """Leaves a made-up record, {attribute or table: value or rows}, as an experiment would."""
+    with h5py.File(path, "a") as file:
+        if "schema" not in file.attrs:
+            file.attrs.update(schema=numpy.bytes_("beamwork-results"), schema_version=3)
+        group = file.require_group("experiments").create_group(name)
+        for key, value in record.items():
+            if not isinstance(value, list):
+                group.attrs[key] = value
+                continue
+            columns = {c: of_dtype([row[c] for row in value]) for c in (value[0] if value else ())}
+            rows = numpy.zeros(len(value), [(c, v.dtype) for c, v in columns.items()] or "S1")
+            for column, values in columns.items():
+                rows[column] = values
+            group[key] = rows
+    seal(path)

@@ -47,7 +47,7 @@ class Bench(ProgramTest):
         path = self.folder / "bench.h5"
         self.answered("bench", "elastica", "-f", "sheet_third", "-n", "2,4,8", "-o", path)
         with h5py.File(path) as file:
-            case = file["cases/elastica"]
+            case = file["experiments/bench/cases/elastica"]
             rows = case["timings"][()]
             self.assertEqual(list(rows["elements"]), [2, 4, 8])
             self.assertEqual(rows[0]["keep_all_repeats"], 0)

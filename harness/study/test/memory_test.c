@@ -206,7 +206,7 @@ static status write_results(const void *what, double *value, fault *f)
         s.series[0].cell[i].solve.status = STATUS_SINGULAR;
     status outcome = judgement_make(&s, &none, 0, &j, f);
     if (outcome == STATUS_OK)
-        outcome = store_write(what, &s, &j, &e, f);
+        outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
     if (outcome != STATUS_OK && *value != 0)
         fault_set(f, STATUS_OK, "a file\nwas left"); /* seen as a failure without a line */

@@ -48,6 +48,11 @@ def drawn(folder, *selection, options=()):
     return site
 
 
+def broken(record):
+    """Sentences of the claims that are broken, of what `element-test --format json` says."""
+    return [c["sentence"] for c in record["claims"] if c["outcome"] == "broken"]
+
+
 def read_json(path):
     """What a file of ours says."""
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))

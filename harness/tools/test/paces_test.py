@@ -30,8 +30,9 @@ class Run(ProgramTest):
         done = self.answered(ROOT / "harness/tools/paces.py", program.PROGRAM, "rigid_body", "-o",
                              out, program=sys.executable)
         record = json.loads(out.read_text(encoding="utf-8"))
-        self.assertGreater(len(record["cases"]), 3)
-        self.assertEqual({c["case"] for c in record["cases"]}, {"rigid_body"})
+        self.assertGreater(len({r["formulation"] for r in record["runs"]}), 3)
+        for name in paces.TABLES:
+            self.assertEqual({r["case"] for r in record[name]}, {"rigid_body"}, name)
         check, = record["checks"]
         coarse, fine = check["distances"]
         self.assertLess(fine, 0.2 * coarse)
@@ -52,12 +53,16 @@ class Words(unittest.TestCase):
         ways = [{"error": paces.LEVEL, "cost": cost, "integrator": name}
                 for name, cost in (("slow", 2), ("quick", 1))]
         ways += [{"error": 1e2 * paces.LEVEL, "cost": 0.1, "integrator": "rough"}]
-        self.assertEqual(paces.soonest([{"reached": ways}, {"reached": ways}, {"reached": []}]),
-                         "quick 2, none 1")
+        tables = {"runs": [{"formulation": name} for name in "aabc"],
+                  "reached": [{"formulation": name, **way} for name in "ab" for way in ways]}
+        self.assertEqual(paces.soonest(tables), "quick 2, none 1")
 
-    def test_offers(self):
-        self.assertFalse(paces.offers({"runs": [{"status": "refused"}]}))
-        self.assertTrue(paces.offers({"runs": [{"status": "refused"}, {"status": "ok"}]}))
+    def test_refused(self):
+        """Those of which no run is offered, with the first reason."""
+        runs = [{"formulation": name, "status": status, "reason": reason}
+                for name, status, reason in (("a", "refused", "no inertia"), ("a", "refused", "no"),
+                                             ("b", "refused", "implicit"), ("b", "ok", ""))]
+        self.assertEqual(paces.refused({"runs": runs}), {"a": "no inertia"})
 
 
 if __name__ == "__main__":

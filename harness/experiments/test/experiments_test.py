@@ -1,0 +1,157 @@
+"""One file of results for all experiments, through the program: several at a time, old files, damage."""
+import shutil
+import subprocess
+import unittest
+
+import h5py
+
+from harness.records.test.stored import altered
+from harness.tools.kit.program import PROGRAM, ProgramTest, report, run
+
+VERIFY = ("verify", "-k", "elastica/default and (beamw or collocation)")
+ASKED = {
+    "stress": ("stress", "-k", "thin and sheet_third"),
+    "motion": ("motion", "pendulum", "-f", "collocation", "-n", "1", "--set", "time=0.1",
+               "--integrator", "alpha", "--step", "0.01,0.005"),
+    "element-test": ("element-test", "sheet_third"),
+    "bench": ("bench", "elastica", "-f", "collocation", "-n", "1,2"),
+    "converge": ("converge", "elastica", "-f", "collocation", "-n", "1,2"),
+}  # yapf: disable
+SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"
+SAYS = ("schema", "schema_version", "program_version", "commit", "clock")
+
+
+def content(group):
+    """All that is in a group, as bytes."""
+    found = {"": sorted((name, str(value)) for name, value in group.attrs.items())}
+
+    def take(name, one):
+        if isinstance(one, h5py.Dataset):
+            found[name] = one[()].tobytes(), str(one.dtype)
+
+    group.visititems(take)
+    return found
+
+
+def contents(path):
+    """{group: what is in it}; verify: all else."""
+    with h5py.File(path) as file:
+        groups = {name: content(group) for name, group in file["experiments"].items()}
+        own = {name: value for name, value in content(file).items()
+               if not name.startswith("experiments/")}
+        return {**groups, "verify": own}
+
+
+class Experiments(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        """All of them at once, into a file that is not there yet."""
+        cls.stored = cls.class_folder() / "results.h5"
+        jobs = [subprocess.Popen([PROGRAM, *words, "-o", cls.stored], stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, text=True)
+                for words in (VERIFY, *ASKED.values())]
+        cls.ended = [(job.wait(), job.stderr.read()) for job in jobs]
+        for job in jobs:
+            job.stderr.close()
+
+    def setUp(self):
+        super().setUp()
+        self.path = self.folder / "results.h5"
+        shutil.copy(self.stored, self.path)
+
+    def test_all_at_once(self):
+        self.assertEqual(self.ended, [(0, "")] * (1 + len(ASKED)))
+        with h5py.File(self.stored) as file:
+            self.assertEqual(set(file["experiments"]), set(ASKED))
+            for group in (file, *file["experiments"].values()):
+                self.assertLessEqual(set(SAYS), set(group.attrs), group.name)
+        self.assertEqual([p.name for p in self.stored.parent.iterdir()], ["results.h5"])
+
+    def test_replaced_whole(self):
+        """By a run that leaves less; what others have left is the same to the byte."""
+        before = contents(self.path)
+        self.answered("element-test", "beamw", "-o", self.path)
+        self.answered("motion", "pendulum", "-f", "beamw", "-n", "1", "--set", "time=0.1",
+                      "--integrator", "alpha", "--step", "0.01", "-o", self.path)
+        after = contents(self.path)
+        self.assertEqual({n for n in before if before[n] != after[n]}, {"element-test", "motion"})
+        with h5py.File(self.path) as file:
+            self.assertEqual(set(file["experiments/element-test/claims"]["formulation"]), {b"beamw"})
+            self.assertEqual(len(file["experiments/motion/runs"]), 1)
+        self.answered("verify", "-k", "elbow/default and beamw", "-o", self.path)
+        last = contents(self.path)
+        self.assertEqual({n for n in after if after[n] != last[n]}, {"verify"})
+        with h5py.File(self.path) as file:
+            self.assertEqual(list(file["cases"]), ["elbow"])
+
+    def test_an_old_file(self):
+        """Of version 2: it is compared, and reported, and experiments are added to it."""
+        def old(file):
+            del file["experiments"]
+            file.attrs.modify("schema_version", 2)
+
+        path = altered(self.path, self.folder / "old.h5", old)
+        self.assertIn(SAME, self.answered("compare", path, self.path).stdout)
+        done = report(path, self.folder / "site")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse((self.folder / "site" / "stability.html").exists())
+        self.answered(*ASKED["stress"], "-o", path)
+        self.assertIn(SAME, self.answered("compare", path, self.path).stdout)
+        done = report(path, self.folder / "site")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "site" / "stability.html").exists())
+
+    def test_times_alone(self):
+        """What bench leaves can be compared where verify has left nothing."""
+        path = self.folder / "times.h5"
+        self.answered(*ASKED["bench"], "-o", path)
+        self.assertIn(SAME, self.answered("compare", path, path).stdout)
+
+    def test_report(self):
+        """Says of each group of which commit it is."""
+        def other(file):
+            file["experiments/stress"].attrs["commit"] = b"another one"
+
+        path = altered(self.path, self.folder / "other.h5", other)
+        done = report(path, self.folder / "site")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "site" / "environment.html").read_text(encoding="utf-8")
+        for name in (*ASKED, "verify"):
+            self.assertIn(f"<tr><td>{name}</td>", page)
+        self.assertEqual(page.count('<td class="unexpected">another one</td>'), 1)
+        self.assertIn("measured by <code>make bench</code>", page)
+
+    def test_what_would_be_lost(self):
+        """Is refused before the work, and left alone."""
+        damaged, other = self.folder / "damaged.h5", self.folder / "other.h5"
+        damaged.write_bytes(self.path.read_bytes()[:-100])
+        with h5py.File(other, "w") as file:
+            file["x"] = 1
+        for path in (damaged, other):
+            before = path.read_bytes()
+            for words in (VERIFY, *ASKED.values()):
+                self.refused(2, "give another name", *words, "-o", path)
+            self.assertEqual(path.read_bytes(), before)
+
+    def test_a_sweep_elsewhere(self):
+        """It has a file of its own: neither takes the place of the other."""
+        before = contents(self.path)
+        work = ("sweep", "warping_torsion", "--vary", "kL=1,2", "-f", "beamw", "-n", "2")
+        self.refused(2, "give another name", *work, "-o", self.path)
+        self.assertEqual(contents(self.path), before)
+        sweep = self.folder / "sweep.h5"
+        self.answered(*work, "-o", sweep)
+        self.refused(2, "give another name", *ASKED["stress"], "-o", sweep)
+        self.answered(*work, "-o", sweep)
+
+    def test_text_still(self):
+        """By the name of the file."""
+        path = self.folder / "stress.csv"
+        self.answered(*ASKED["stress"], "--format", "csv", "-o", path)
+        self.assertEqual(path.read_text(encoding="utf-8"),
+                         run(*ASKED["stress"], "--format", "csv").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

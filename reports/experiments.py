@@ -1,0 +1,78 @@
+"""What other experiments than verify have left in a file of results: a group each, below /experiments. `beamwork schema` describes their tables, whose columns keep their names here.
+
+    python -m reports.experiments RESULTS.h5 EXPERIMENT PROGRAM
+
+Status 0: its group has been written since the program was built; 1: not."""
+import datetime
+import math
+import os
+import sys
+
+import h5py
+
+from reports.data import rows, text
+
+GROUPS = "experiments"
+NAMES = ("stress", "motion", "element-test", "bench", "converge")  # verbs of beamwork
+
+
+def plain(value):
+    """A number that does not exist is none."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def attribute(value):
+    return text(value) if isinstance(value, (bytes, str)) else plain(value.item())
+
+
+def about(group):
+    return {name: attribute(value) for name, value in group.attrs.items()}
+
+
+def holds(path, name):
+    """Has the experiment left a group there?"""
+    if not os.path.exists(path):
+        return False
+    with h5py.File(path) as file:
+        return f"{GROUPS}/{name}" in file
+
+
+def read(path, name):
+    """{attribute or table: value or rows} of an experiment, or None where it has left none."""
+    if not holds(path, name):
+        return None
+    with h5py.File(path) as file:
+        group = file[GROUPS][name]
+        tables = {table: [{column: plain(value) for column, value in row.items()}
+                          for row in rows(group, table)]
+                  for table in group if isinstance(group[table], h5py.Dataset)}
+        return {**about(group), **tables}
+
+
+def made(path):
+    """[(experiment, attributes)] of all that is there."""
+    if not os.path.exists(path):
+        return []
+    with h5py.File(path) as file:
+        return [(name, about(file[GROUPS][name])) for name in file.get(GROUPS, ())]
+
+
+def grouped(found, *names):
+    """{values of these columns: rows}"""
+    out = {}
+    for row in found:
+        out.setdefault(tuple(row[name] for name in names), []).append(row)
+    return out
+
+
+def is_newer(path, name, program):
+    """Is the group of a run that was after this file was written?"""
+    run = dict(made(path)).get(name)
+    if run is None:
+        return False
+    then = datetime.datetime.strptime(run["clock"], "%Y-%m-%dT%H:%M:%S%z")
+    return then.timestamp() >= int(os.path.getmtime(program))
+
+
+if __name__ == "__main__":
+    sys.exit(0 if is_newer(*sys.argv[1:]) else 1)
