@@ -1,5 +1,5 @@
-/* A scene file as the build writes it into the program (harness/tools/pack_case.c): read and checked
- * there, without a pointer in it, and a case like any other here. */
+/* A scene file as the build writes it into the program (harness/tools/pack_case.c): read and
+ * checked there, without a pointer in it, and a case like any other here. */
 #ifndef BEAMWORK_SCENE_PACKED_H
 #define BEAMWORK_SCENE_PACKED_H
 
