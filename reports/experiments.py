@@ -3,6 +3,7 @@
     python -m reports.experiments RESULTS.h5 EXPERIMENT PROGRAM
 
 Status 0: its group has been written since the program was built; 1: not."""
+import contextlib
 import datetime
 import math
 import os
@@ -10,7 +11,7 @@ import sys
 
 import h5py
 
-from reports.data import rows, text
+from reports.data import Unreadable, rows, text
 
 GROUPS = "experiments"
 NAMES = ("stress", "motion", "element-test", "bench", "converge")  # verbs of beamwork
@@ -29,11 +30,21 @@ def about(group):
     return {name: attribute(value) for name, value in group.attrs.items()}
 
 
+@contextlib.contextmanager
+def opened(path):
+    try:
+        file = h5py.File(path)
+    except OSError as why:
+        raise Unreadable(f"{path}: cannot be read ({why}); 'make verify' writes it") from why
+    with file:
+        yield file
+
+
 def holds(path, name):
     """Has the experiment left a group there?"""
     if not os.path.exists(path):
         return False
-    with h5py.File(path) as file:
+    with opened(path) as file:
         return f"{GROUPS}/{name}" in file
 
 
@@ -41,7 +52,7 @@ def read(path, name):
     """{attribute or table: value or rows} of an experiment, or None where it has left none."""
     if not holds(path, name):
         return None
-    with h5py.File(path) as file:
+    with opened(path) as file:
         group = file[GROUPS][name]
         tables = {table: [{column: plain(value) for column, value in row.items()}
                           for row in rows(group, table)]
@@ -53,7 +64,7 @@ def made(path):
     """[(experiment, attributes)] of all that is there."""
     if not os.path.exists(path):
         return []
-    with h5py.File(path) as file:
+    with opened(path) as file:
         return [(name, about(file[GROUPS][name])) for name in file.get(GROUPS, ())]
 
 
