@@ -200,7 +200,7 @@ class Installed(ProgramTest):
         if pathlib.Path("/usr/local/share/beamwork").exists():
             self.skipTest("a copy is installed in /usr/local, which has its data")
         alone = self.folder / "beamwork"
-        shutil.copy(self.program, alone)
+        os.link(self.program, alone)
         for arguments, code in ((["truth", "elastica"], 4), (["verify"], 4),
                                 (["truth", "--scene", self.data / "examples" / "scenes" /
                                   "leaf_spring_guide.yaml"], 4)):
