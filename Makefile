@@ -120,9 +120,9 @@ ifndef RESULTS
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --beside $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
-docs: all needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
+docs: all library needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) docs/generate.py $(abspath $(PROGRAM)) $(BUILD)/docs_source $(wildcard $(BUILD)/results.h5)
+	@PYTHONDONTWRITEBYTECODE=1 BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) docs/generate.py $(abspath $(PROGRAM)) $(BUILD)/docs_source $(wildcard $(BUILD)/results.h5)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m sphinx -q -W --keep-going -c docs -d $(BUILD)/docs_trees $(BUILD)/docs_source $(BUILD)/docs
 
 # Drives every formulation to extremes.

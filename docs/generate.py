@@ -2,16 +2,20 @@
 
 usage: generate.py PROGRAM FOLDER [RESULTS.h5]     FOLDER is then the source of sphinx-build
 """
+import inspect
 import json
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import types
 
 DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 sys.path.insert(0, str(ROOT))
+from docs import results  # noqa: E402  pylint: disable=wrong-import-position
+from reports.drawing import describe, draw, scene  # noqa: E402  pylint: disable=wrong-import-position
 
 # What pages include from elsewhere in the repository.
 INCLUDED = ("CHANGELOG.md", "cases/format/scenes.md", "harness/exchange/import.md",
@@ -24,8 +28,8 @@ VERB = re.compile(r"^  ([a-z-]+) {2,}\S", re.M)
 class Site:
     """The program asked, and the folder written into."""
 
-    def __init__(self, program, folder, results):
-        self.program, self.folder, self.results = program, folder, results
+    def __init__(self, program, folder, stored):
+        self.program, self.folder, self.results = program, folder, stored
 
     def ask(self, *words):
         """What the program prints."""
@@ -74,6 +78,41 @@ def write_sections(site, name, title, text, heading):
     site.write(name, "\n\n".join(parts))
 
 
+HEADERS = {"c_interface": ("C interface of the library", "harness/library/beamwork.h"),
+           "element_interface": ("C interface of an element", "elements/element.h")}
+
+
+def write_interfaces(site):
+    """The headers that users include, and what the Python module says of itself."""
+    for page, (title, header) in HEADERS.items():
+        text = (ROOT / header).read_text("utf-8").strip()
+        site.write(f"reference/{page}.md", f"# {title}\n\n`{header}`, whole:\n\n```c\n{text}\n```")
+    sys.path.insert(0, str(ROOT / "harness" / "library" / "python"))
+    import beamwork  # pylint: disable=import-outside-toplevel,import-error
+    parts = [f"# Python module\n\n{literal(inspect.getdoc(beamwork))}"]
+    for name in beamwork.__all__:
+        value = getattr(beamwork, name)
+        if not callable(value):
+            continue
+        members = [(f"{name}{arguments(value)}", value)] + [
+            (f"{name}.{key}{arguments(member)}", member) for key, member in vars(value).items()
+            if inspect.isclass(value) and not key.startswith("_") and
+            isinstance(member, (types.FunctionType, classmethod, staticmethod, property))]
+        parts.append(f"## {name}")
+        parts += [f"`{head}`\n\n{literal(inspect.getdoc(member) or '')}" for head, member in members]
+    site.write("reference/python_module.md", "\n\n".join(parts))
+
+
+def arguments(value):
+    """As they are written in a call; nothing for what is not called."""
+    member = value.__func__ if isinstance(value, (classmethod, staticmethod)) else value
+    if not callable(member) or inspect.isclass(member) and issubclass(member, Exception):
+        return ""
+    kept = [p.replace(annotation=p.empty) for p in inspect.signature(member).parameters.values()
+            if p.name not in ("self", "cls")]
+    return str(inspect.Signature(kept))
+
+
 def write_terms(site):
     """Verdicts and terms: what `explain` says of each."""
     groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
@@ -108,7 +147,12 @@ def numbers(value):
 def problem(site, case):
     """What a case asks, from its own tables."""
     told = json.loads(site.ask("list", case, "--format", "json"))
-    parts = [f"# {case}\n\n{told['summary']}\n\nSource: {told['source']}", "## Parameters", table(
+    structure = scene.read(site.ask("scene", case))
+    results.save(draw.draw(structure), site.folder / "verification" / f"{case}_structure.svg")
+    parts = [f"# {case}\n\n{told['summary']}\n\nSource: {told['source']}",
+             f"```{{image}} {case}_structure.svg\n:alt: the structure, its supports and loads\n```",
+             "## Structure\n\n" + "\n".join(f"* {heading}: {'; '.join(lines)}" for heading, lines in describe.describe(structure)),
+             "## Parameters", table(
         ["name", "default", "unit", "what it is"],
         [[p["name"], numbers(p["default"]), p["unit"], p["summary"]] for p in told["parameters"]])]
     parts += ["## Quantities", table(
@@ -119,7 +163,6 @@ def problem(site, case):
 
 def verdicts(site, case):
     """Verdicts at the default parameters, and a figure, where results are there."""
-    from docs import results  # pylint: disable=import-outside-toplevel
     point = results.read(site.results, case).points[0]
     rows = [[s.key, v.quantity, f"{v.limit:.9g}", results.percent(v), v.verdict]
             for s in point.series for v in s.verdicts if v.verdict not in ("skip", "no truth")]
@@ -133,8 +176,7 @@ def write_verification(site, cases):
     """The verification manual, a page for each case."""
     tested = set()
     if site.results:
-        from docs import results  # pylint: disable=import-outside-toplevel
-        tested = set(results.cases(site.results))
+            tested = set(results.cases(site.results))
     for one in cases:
         case = one["case"]
         known = subprocess.run([site.program, "truth", case], text=True, check=False,
@@ -162,9 +204,9 @@ def collect(folder):
         target.write_text(LINK.sub(r"\1", (ROOT / name).read_text("utf-8")), encoding="utf-8")
 
 
-def main(program, folder, *results):
+def main(program, folder, stored=None):
     """Writes the source of the site."""
-    site = Site(program, pathlib.Path(folder), results[0] if results else None)
+    site = Site(program, pathlib.Path(folder), stored)
     collect(site.folder)
     known = json.loads(site.ask("list", "--format", "json"))
     write_commands(site)
@@ -173,6 +215,7 @@ def main(program, folder, *results):
     write_sections(site, "reference/result_schema.md", "Result schema", site.ask("schema"),
                    re.compile(r"^(/[\w/]+):[^\n]*", re.M))
     write_terms(site)
+    write_interfaces(site)
     write_formulations(site, known["formulations"])
     write_verification(site, known["cases"])
 

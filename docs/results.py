@@ -57,11 +57,16 @@ def draw(point, path, quantity=None, only=None):
     axes.set_ylabel(f"relative error of {quantity}")
     axes.grid(True, color="0.9")
     axes.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
+    save(figure, path)
+    return path
+
+
+def save(figure, path):
+    """As SVG, the same text from the same figure."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     text = re.sub(r"[ \t]+$", "", path.read_text("utf-8"), flags=re.M)
     path.write_text(text, "utf-8")
-    return path
 
 
 def main(results, image):
