@@ -53,7 +53,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_hexapod_motion = {
     .name = "hexapod_motion",
     .summary = "flexure hexapod of twelve spherical joints driven through its stroke",
-    .source = "after N section 4.3; sizes, masses and time are ours",
+    .source = "after N section 4.3; sizes, masses and time are beamwork's",
     .parameters = {joint_parameters, hexapod_parameters, timed, case_mass_omit},
     .build = build,
 };

@@ -192,8 +192,9 @@ const element_type element_collocation = {
     .name = "collocation",
     .summary =
         "geometrically exact beam with warping solved inside the element by Gauss collocation",
-    .source = "ours; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. "
-              "Mech. Eng. 49 (1985)",
+    .source =
+        "beamwork; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. "
+        "Mech. Eng. 49 (1985)",
     EXACT_TYPE,
     .limits = LIMIT_HALF_TURN,
     .options = {options},

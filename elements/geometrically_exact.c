@@ -143,7 +143,7 @@ const element_type element_geometrically_exact = {
     .summary = "geometrically exact beam with warping, two or three nodes, reduced integration",
     .source = "Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 "
               "(1985); interpolation of "
-              "rotations ours",
+              "rotations: beamwork",
     EXACT_TYPE,
     .limits = LIMIT_HALF_TURN | LIMIT_TENSION,
     .options = {options},

@@ -104,7 +104,7 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                    "'follower'");
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "its weight is in '%.40s' already, which is on all; leave one out",
+                         "its weight is in '%.40s' already, which is on all; remove one",
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 

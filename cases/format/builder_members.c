@@ -101,8 +101,8 @@ static void read_released(const fields *f, const char *key, int member, int end)
         const document_node *word = n->kind == DOCUMENT_LIST ? n->item[i] : n;
         const int c = fields_word_of(f, word, "release", fields_components, -1);
         if (c >= 0 && told >> c & 1u)
-            document_mistake(f->b->mistakes, word, 0,
-                             "release: '%s' twice at this end; leave one out", word->text);
+            document_mistake(f->b->mistakes, word, 0, "release: '%s' twice at this end; remove one",
+                             word->text);
         else if (c >= 0)
             scene_release_end(f->b->scene, member, end, c);
         told |= c >= 0 ? 1u << c : 0;
@@ -135,7 +135,7 @@ static void check_unit(const fields *f, int motion)
     const int angle = own ? 0 : fields_word(f, "unit", "m|rad", -1);
     if (angle == 0 && units->given && !own)
         document_mistake(f->b->mistakes, given, 0,
-                         "unit 'm': lengths of this scene are in %s; write that, or leave it out",
+                         "unit 'm': lengths of this scene are in %s; write that, or remove it",
                          units->name_of_length);
     const scene *s = f->b->scene;
     int angles = 0, lengths = 0;
@@ -157,7 +157,7 @@ static void check_given(const fields *f)
               unknown = fields_have(f, "such_that");
     if (known == unknown)
         document_mistake(f->b->mistakes, f->place, 0,
-                         known ? "the motion has values and is unknown; leave one out"
+                         known ? "the motion has values and is unknown; remove one"
                                : "the motion needs 'path' and 'value', one of 'time', 'pieces' and "
                                  "'table', or 'such_that'");
 }

@@ -52,7 +52,7 @@ static void check_parameters(const fields *f, scene_scheme scheme)
     for (int i = 0; i < 4 && scheme != SCENE_ALPHA && !chosen; i++)
         if (fields_have(f, of_alpha[i]))
             document_mistake(f->b->mistakes, document_find(f->map, of_alpha[i]), 0,
-                             "%s is of the integrator alpha; leave it out", of_alpha[i]);
+                             "%s applies to the integrator alpha only; remove it", of_alpha[i]);
 }
 
 /* Parameter sets of alpha have names of their own where integrators are compared (motion -u). */

@@ -67,7 +67,7 @@ static void read_drive(const fields *f, int node)
         }
         if ((ours < SCENE_RX ? n->translation[ours] : n->angle[ours - SCENE_RX]) == SCENE_HELD)
             document_mistake(f->b->mistakes, document_find(drive.map, component[c]), 0,
-                             "%s is held and driven; leave one out", component[c]);
+                             "%s is fixed and prescribed; remove one", component[c]);
         scene_drive(f->b->scene, node, ours, motion);
     }
 }

@@ -28,11 +28,11 @@ static void read_unit(const fields *f, scene_quantity *q)
             units_check(unit, f->b->mistakes);
         /* a load factor may have the unit of its load */
         if (strcmp(unit->text, own) != 0 && (f->b->units.given || strcmp(own, "1") != 0))
-            document_mistake(
-                f->b->mistakes, unit, 0,
-                "unit '%.40s': %sthe value is in %s; write that, leave it out, or give "
-                "a factor",
-                unit->text, f->b->units.given ? "with the units of this scene " : "", own);
+            document_mistake(f->b->mistakes, unit, 0,
+                             "unit '%.40s': %sthe value is in %s; write that, remove it, or give "
+                             "a factor",
+                             unit->text, f->b->units.given ? "with the units of this scene " : "",
+                             own);
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
         document_mistake(f->b->mistakes, unit, 0, "a unit of more than %zu characters; shorten it",
@@ -89,7 +89,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
         read_abscissa(entry, q);
     else if (fields_have(entry, "x"))
         document_mistake(entry->b->mistakes, document_find(entry->map, "x"), 0,
-                         "an abscissa is of a curve; add take: curve, or leave it out");
+                         "an abscissa is of a curve; add take: curve, or remove it");
 }
 
 /* The prediction's source stays when the scene is built anew: as it stands in the file. */
@@ -127,7 +127,7 @@ static void check_wanted(builder *b)
         const int asked = asked_of(b->scene, i);
         if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < asked)
             document_mistake(b->mistakes, document_find(f.map, "wanted"), 0,
-                             "quantities ask for %d of this analysis; write %d, or leave it out",
+                             "quantities ask for %d of this analysis; write %d, or remove it",
                              asked, asked);
     }
 }

@@ -126,9 +126,10 @@ static void check_material(const fields *f)
     }
     for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
         if (fields_have(f, other[i].key))
-            document_mistake(m, document_find(f->map, other[i].key), 0,
-                             "'%s' is not of a section by its stiffness matrix; leave it out",
-                             other[i].key);
+            document_mistake(
+                m, document_find(f->map, other[i].key), 0,
+                "'%s' does not apply to a section given by its stiffness matrix; remove it",
+                other[i].key);
 }
 
 void builder_sections(builder *b)
@@ -161,8 +162,9 @@ void builder_sections(builder *b)
                                  of_walls[k]);
         }
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
-            document_mistake(b->mistakes, document_find(f.map, "shear_factor"), 0,
-                             "a shear factor is of a rectangle; leave it out, or use 'given'");
+            document_mistake(
+                b->mistakes, document_find(f.map, "shear_factor"), 0,
+                "a shear factor applies to a rectangle only; remove it, or use 'given'");
         if (b->mistakes->count == 0) {
             known = section_compute(&spec, &computed, &why) == STATUS_OK;
             if (!known)
@@ -170,7 +172,7 @@ void builder_sections(builder *b)
         }
         if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
-                             "thickness terms are of walls; leave them out");
+                             "thickness terms apply to walls only; remove them");
         builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), i);
         b->names = section_names_add(b->names, entry->name,
                                      known && !computed.matrices ? &computed : NULL, b->arena);

@@ -124,7 +124,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
                              "a piece ends behind the one before it; give until: [s]");
         if (last && ends)
             document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
-                             "the last piece goes on for ever; leave 'until' out, or add the piece "
+                             "the last piece has no end; remove 'until', or add the piece "
                              "behind it");
         before = until;
         add_piece(&piece, document_find(piece.map, "is"), until, index, add);

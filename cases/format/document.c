@@ -46,7 +46,7 @@ static void tell_syntax(reader *r)
                      strstr(context, "mapping") != NULL ? "'{'" : "'['",
                      (int)p->context_mark.line + 1, (int)p->context_mark.column + 1, problem);
     else
-        mistakes_add(r->mistakes, line, column, "%s%s%s; mend indentation, colons and quotes",
+        mistakes_add(r->mistakes, line, column, "%s%s%s; correct indentation, colons and quotes",
                      context, context[0] != '\0' ? ": " : "", problem);
 }
 
@@ -196,7 +196,7 @@ static document_node *read_node(reader *r, const yaml_event_t *event, int depth)
 {
     static const char anchor[] =
         "an anchor; write the entry where it is needed, or use 'for', 'let' or 'parts'";
-    static const char tag[] = "a tag; every value is text, number or word by its key: leave it out";
+    static const char tag[] = "a tag; every value is text, number or word by its key: remove it";
     switch (event->type) {
     case YAML_ALIAS_EVENT:
         return refuse(r, event->start_mark,

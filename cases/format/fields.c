@@ -204,7 +204,7 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     if (!substitute_is_left(text) && !f->b->list[list].incomplete) /* else it is told already */
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
-                                         "; add it, or mend the name", remedy));
+                                         "; add it, or correct the name", remedy));
     return SCENE_NONE;
 }
 

@@ -59,7 +59,7 @@ static void describe(const entry_field *k, char text[DESCRIPTION])
     const char *without = k->usual != NULL ? k->usual : k->left_out;
     if (used < DESCRIPTION)
         snprintf(text + used, (size_t)(DESCRIPTION - used), "%s%s%s%s", k->words != NULL ? ")" : "",
-                 without != NULL ? "; left out: " : "", without != NULL ? without : "",
+                 without != NULL ? "; default: " : "", without != NULL ? without : "",
                  !k->needed     ? ""
                  : k->group > 0 ? "; one of these *"
                                 : " *");

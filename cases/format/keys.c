@@ -43,8 +43,8 @@ const entry_field keys_truth[] = {
     {"parameters", ENTRY_NAMES, .below = nothing, .summary = "NAME: VALUE",
      .left_out = "any values"},
     {"at", ENTRY_NUMBER, .summary = "point of a curve", .left_out = "of the one value"},
-    {"model", ENTRY_WORD, .words = "plate|solid", .summary = "another one: informs, never gates",
-     .left_out = "of beams"},
+    {"model", ENTRY_WORD, .words = "plate|solid",
+     .summary = "another one: shown only, never affects the exit status", .left_out = "of beams"},
     {"convention", ENTRY_TEXT, .summary = "of moments", .left_out = "that of the analysis"},
     {.name = NULL}};
 
@@ -129,14 +129,14 @@ const entry_field keys_root[] = {
      .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "what is computed",
      .left_out = "static to the end of the motions' paths, without these linear"},
-    {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "what is wanted of it",
+    {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "results requested of it",
      .left_out = "of each analysis what is usual: displacements where it is loaded or driven, the "
                  "first eigenvalue"},
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "what is known", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "all nodes, also those of the mesh, are held in it", .left_out = "nothing is"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
-     .summary = "physics that is left out: a word, a list of them, or {WORD: yes, WORD: {NAME: "
+     .summary = "physics that is omitted: a word, a list of them, or {WORD: yes, WORD: {NAME: "
                 "VALUE}}, the values that names have where it is",
      .left_out = "none: all that sections, loads and analyses call for is there"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
@@ -146,7 +146,7 @@ const entry_field keys_root[] = {
                 "(and in motions in time that say nothing else)",
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
-     .summary = "of earlier versions: all physics but what it lists (and warping) is left out; "
+     .summary = "of earlier versions: all physics but what it lists (and warping) is omitted; "
                 "omit stands for it now",
      .left_out = "omit says it"},
     {"meshes", ENTRY_FORMS,
@@ -264,7 +264,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
                 check_value(n->item[i], k->below, n->key[i], m);
         break;
     case ENTRY_LATER:
-        document_mistake(m, name, 0, "'%s' is not carried yet; leave it out", name->text);
+        document_mistake(m, name, 0, "'%s' is not supported yet; remove it", name->text);
         break;
     case ENTRY_FORMS:
         break;

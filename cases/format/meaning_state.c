@@ -41,7 +41,7 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
         meaning_coordinate(to, s, control->node, control->component);
         fprintf(to, " is %.10g m", at);
     } else if (a->kind == SCENE_MOTION) {
-        fprintf(to, ", %.10g s after the begin of the motion", at);
+        fprintf(to, ", %.10g s after the start of the motion", at);
     } else if (q->reduction != SCENE_AT) {
         fputs(", at the end of the static path", to);
     } else {

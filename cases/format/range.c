@@ -74,7 +74,7 @@ static int read_range(const document_node *n, int dots, const scope *names, aren
     const double steps = (to - from) / step;
     if (!(step != 0 && steps >= -1e-9)) {
         document_mistake(m, n, word >= 0 ? word + 6 : 0,
-                         "from %g to %g with steps of %g there is nothing; mend the ends or the "
+                         "from %g to %g with steps of %g there is nothing; correct the ends or the "
                          "sign of the step",
                          from, to, step);
         return -1;

@@ -87,7 +87,7 @@ static void add_keys(json_t *properties, json_t *required, const entry_field *ta
         const char *without = table->usual != NULL ? table->usual : table->left_out;
         snprintf(text, sizeof text, "%s%s%s%s%s%s", entry_summary(table),
                  table->unit != NULL ? " [" : "", table->unit != NULL ? table->unit : "",
-                 table->unit != NULL ? "]" : "", without != NULL ? "; left out: " : "",
+                 table->unit != NULL ? "]" : "", without != NULL ? "; default: " : "",
                  without != NULL ? without : "");
         json_object_set_new(value, "description", json_string(text));
         if (table->usual != NULL)

@@ -80,10 +80,11 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
 {
     const size_t length = strlen(key->text);
     if (length == 0 || scope_name_length(key->text) != length || length > 40) {
-        document_mistake(m, key, 0,
-                         "'%.60s' is no name for a value; use at most 40 letters, digits and _, a "
-                         "letter first",
-                         key->text);
+        document_mistake(
+            m, key, 0,
+            "'%.60s' is not a valid name of a value; use at most 40 letters, digits and _, a "
+            "letter first",
+            key->text);
         return 0;
     }
     for (int i = 0; functions_name(i) != NULL; i++)

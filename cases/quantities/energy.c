@@ -4,7 +4,8 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"of", ENTRY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
-     .summary = "drift: energy and what was dissipated, less energy of the begin and work",
+     .summary =
+         "energy-balance error: energy and what was dissipated, less energy at the start and work",
      ENTRY_IN(scene_quantity, what.of.balance)},
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -23,9 +24,9 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         [SCENE_KINETIC] = "kinetic energy",
         [SCENE_STRAIN] = "strain energy, springs included",
         [SCENE_ENERGY] = "kinetic and strain energy",
-        [SCENE_WORK] = "work of loads and of what is driven, since the begin",
-        [SCENE_DISSIPATED] = "energy that damping took, since the begin",
-        [SCENE_DRIFT] = "energy and what damping took, less energy of the begin and work"};
+        [SCENE_WORK] = "work of loads and of prescribed coordinates, since the start",
+        [SCENE_DISSIPATED] = "energy that damping dissipated, since the start",
+        [SCENE_DRIFT] = "energy and what damping dissipated, less energy at the start and work"};
     fputs(word[q->what.of.balance], to);
 }
 

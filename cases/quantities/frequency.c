@@ -26,7 +26,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     (void)s;
     static const char *const family[] = {
         [SCENE_ANY] = "",
-        [SCENE_NOT_AXIAL] = ", stretching modes left out",
+        [SCENE_NOT_AXIAL] = ", without stretching modes",
         [SCENE_AXIAL] = " of the stretching modes",
         [SCENE_BENDING_Y] = " of the modes that bend along the section's y",
         [SCENE_BENDING_Z] = " of the modes that bend along the section's z",

@@ -129,7 +129,7 @@ static const entry_field in_time[] = {
      .left_out = "0 where there is a step; else 1e-3, by radau 1e-5: 0.1 % of the motion",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,
-     .summary = "of alpha, 0 to 1: what is left in a step of motions that are not resolved",
+     .summary = "of alpha, 0 to 1: what remains after a step of motions that are not resolved",
      .usual = "0.9"},
     {"hht", ENTRY_NUMBER, .group = 1,
      .summary = "of alpha: the method of Hilber, Hughes and Taylor, 0 to 1/3",
@@ -143,8 +143,8 @@ static const entry_field in_time[] = {
      .left_out = "consistent by alpha and radau, lumped by the others or as the scene says",
      ENTRY_IN(scene_analysis, of.motion.mass), .first = SCENE_LUMPED},
     ABOUT("static analysis, continuation or rotation from whose last state, or motion that "
-          "goes on, with its rates and its time"),
-    {"start", ENTRY_MAP, .below = start, .summary = "velocities at the begin",
+          "continues, with its rates and its time"),
+    {"start", ENTRY_MAP, .below = start, .summary = "velocities at the start",
      .left_out = "at rest, or as about has it"},
     {.name = NULL}};
 

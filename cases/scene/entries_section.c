@@ -101,8 +101,7 @@ static const entry_field legs[] = {
 const entry_field entry_section[] = {
     {"rectangle", ENTRY_MAP, .needed = 1, .group = 1, .below = rectangle, .summary = "solid",
      ENTRY_IN(section_spec, kind), .first = SECTION_RECTANGLE},
-    {"points", ENTRY_NAMES, .below = point, .summary = "of walls, in axes of one's own",
-     .left_out = "none"},
+    {"points", ENTRY_NAMES, .below = point, .summary = "of walls, in any axes", .left_out = "none"},
     {"walls", ENTRY_LIST, .needed = 1, .group = 1, .below = wall, .summary = "thin straight walls"},
     {"constants", ENTRY_MAP, .needed = 1, .group = 1, .below = constants, .summary = "as given",
      ENTRY_IN(section_spec, kind), .first = SECTION_CONSTANTS},

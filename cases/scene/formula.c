@@ -71,11 +71,11 @@ static status emit(reader *r, jet_operation what, double number, int grows)
 {
     const instruction *last = r->to->count > 0 ? &r->to->step[r->to->count - 1] : NULL;
     if (what == JET_DIVIDE && last != NULL && last->what == JET_NUMBER && last->number == 0)
-        return wrong(r, "division by zero; mend what stands before it");
+        return wrong(r, "division by zero; correct what stands before it");
     if (is_constant(r, what, grows))
         return isfinite(r->to->step[r->to->count - 1].number)
                    ? STATUS_OK
-                   : wrong(r, "what stands before it has no finite value; mend it");
+                   : wrong(r, "what stands before it has no finite value; correct it");
     if (r->to->count == MOST)
         return wrong(r, "too long; split it into pieces");
     r->to->step[r->to->count++] = (instruction){what, number};
@@ -132,7 +132,7 @@ static status read_function(reader *r, const function *f, int word)
     double *number = &r->to->step[r->to->count - 1].number;
     *number = f->of_one != NULL ? f->of_one(*number) : *number;
     return isfinite(*number) ? STATUS_OK
-                             : wrong(r, "what stands before it has no finite value; mend it");
+                             : wrong(r, "what stands before it has no finite value; correct it");
 }
 
 static status read_word(reader *r)

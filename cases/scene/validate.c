@@ -122,9 +122,9 @@ static status check_driver(const scene *s, int i, fault *f)
 {
     const scene_driver *d = &s->driver[i];
     if (!is_used(s, i))
-        return fault_set(f, STATUS_REFUSED,
-                         "driver %s: it moves nothing; drive a coordinate with it, or leave it out",
-                         d->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "driver %s: it moves nothing; prescribe a coordinate with it, or remove it", d->name);
     if (d->value == NULL) {
         const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
                           s->driver[d->condition_driver].value != NULL;

@@ -57,11 +57,11 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
         if (start->velocity[k] != 0 || start->spin[k] != 0)
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: it goes on from a motion, with the velocities of that; leave its start out",
+                "%s: it continues a motion, with the velocities of that; remove its start",
                 scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it goes on from a motion that ends at %g s, and time goes on, too; "
+                         "%s: it continues a motion that ends at %g s, and so does its time; "
                          "let its first instant be there or later",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          before->value[before->stations - 1]);

@@ -94,7 +94,7 @@ static status check_body(const scene *s, int i, fault *f)
     if (!is_inertia(I))
         return fault_set(f, STATUS_REFUSED,
                          "%s: no body has this inertia, a principal moment is above the sum of the "
-                         "other two; mend it",
+                         "other two; correct it",
                          scene_called(s, SCENE_NODES, i).text);
     if (!is_reached(s, i))
         return fault_set(

@@ -5,7 +5,7 @@
 #include "cases/case.h"
 
 static const char omitted[] =
-    "physics left out: what the source of the case leaves out, or nothing, whatever the other "
+    "physics omitted: what the source of the case omits, or nothing, whatever the other "
     "parameters say; values of the source are not those of the latter";
 
 const parameter_type case_omit[] = {

@@ -233,7 +233,7 @@ def inertia(mask, kind, x, body, functions):
             kind, lambda *at: mass(*at).reshape(-1, c * c), x[:1])
         if not functions["analytic mass"]:
             raise Refused("derivatives are complex steps, and mass is not analytic (abs, norm, a "
-                          "comparison, .real?): mend it")
+                          "comparison, .real?): correct it")
     zero = np.zeros((N, c))
     found = [mass(kind, *states(x))] if mask & 1 else [None]
     if mask & 256:
@@ -270,7 +270,7 @@ def answers(what, mask, kind, body, said, functions):
         functions["analytic"] = is_analytic(kind, strain, x[:1])
         if not functions["analytic"]:
             raise Refused("derivatives are complex steps, and strain is not analytic (abs, norm, "
-                          "a comparison, .real?): mend it, or say gives='e'")
+                          "a comparison, .real?): correct it, or say gives='e'")
     of = (lambda: strain(kind, *state), lambda: derivatives(kind, strain, x, None),
           lambda: derivatives(kind, strain, x, body[:, 16 * n:]))
     return [f() for i, f in enumerate(of) if mask >> i & 1]

@@ -29,7 +29,7 @@ void choice_name(const char *choices, int index, char *text, int size)
 
 enum { LONGEST = 64 };
 
-static int distance(const char *a, const char *b)
+int choice_distance(const char *a, const char *b)
 {
     int row[LONGEST + 1];
     const int n = (int)strnlen(b, LONGEST);
@@ -54,7 +54,7 @@ const char *choice_nearest(const char *word, const char *(*next)(const void *, i
     const char *nearest = NULL, *name;
     int least = (int)strnlen(word, LONGEST) / 2 + 2;
     for (int i = 0; (name = next(context, i)) != NULL; i++) {
-        const int d = strncmp(name, word, strlen(word)) == 0 ? 1 : distance(word, name);
+        const int d = strncmp(name, word, strlen(word)) == 0 ? 1 : choice_distance(word, name);
         if (d < least) {
             least = d;
             nearest = name;

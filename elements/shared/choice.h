@@ -17,4 +17,7 @@ status choice_unknown(const char *what, const char *word,
 const char *choice_nearest(const char *word, const char *(*next)(const void *context, int i),
                            const void *context);
 
+/* Letters to change, add or remove to make b of a; of a the first 63 count. */
+int choice_distance(const char *a, const char *b);
+
 #endif

@@ -14,7 +14,7 @@ typedef enum status {
     STATUS_REFUSED,       /* the input makes no sense or is not offered */
     STATUS_FAULT,         /* file, disk or memory: not the fault of the physics */
     STATUS_TIME_LIMIT,    /* stopped by the clock */
-    STATUS_NO_VALUE /* all went well, and what was asked for does not exist: no such mode, load or
+    STATUS_NO_VALUE /* all went well, and the requested value does not exist: no such mode, load or
                        state */
 } status;
 

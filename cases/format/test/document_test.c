@@ -56,7 +56,7 @@ static void check_refused(void)
                {"a: \"\\0\"\n", 1, 4, "control character"},
                {"a: \xff\xfe\n", 1, 1, "UTF-8"},
                {"a: [[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]\n", 1, 19, "deeper"},
-               {"a: b: c\n", 1, 5, "mend"}};
+               {"a: b: c\n", 1, 5, "correct"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         arena a = {0};
         mistakes m = {.file = "f"};

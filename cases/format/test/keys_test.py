@@ -138,18 +138,18 @@ class KeysTest(SceneCase):
                 lines[-1] += " " + line.strip()
         self.assertGreater(len(lines), 200)
         for line in lines:
-            self.assertRegex(line, r"(\*|; left out: .+)$")
-            self.assertNotRegex(line, r"left out: .*\*$", line)
+            self.assertRegex(line, r"(\*|; default: .+)$")
+            self.assertNotRegex(line, r"default: .*\*$", line)
         said = 0
         for place, properties, required in tables(self.schema):
             for key, value in properties.items():
                 words = value["description"]
-                if "; left out: " not in words:
+                if "; default: " not in words:
                     continue
                 said += 1
                 self.assertNotIn(key, required, place)
                 if "default" in value:
-                    told = words.partition("; left out: ")[2]
+                    told = words.partition("; default: ")[2]
                     self.assertEqual(yaml.load(told, yaml.BaseLoader),
                                      yaml.load(json.dumps(value["default"]), yaml.BaseLoader)
                                      if not re.fullmatch(r"[\d.e-]+", told) else told, (place, key))

@@ -145,10 +145,10 @@ static void check_motion(void)
     } row[] = {
         {{SCENE_RATE, {.component = {1, SCENE_UX}}},
          SCENE_LAST,
-         "velocity of node_1 (1, 0, 0) along x, 2 s after the begin of the motion"},
+         "velocity of node_1 (1, 0, 0) along x, 2 s after the start of the motion"},
         {{SCENE_RATE, {.component = {1, SCENE_RY}}},
          SCENE_AT,
-         "angular velocity of node_1 (1, 0, 0) about its own y axis, 0.5 s after the begin of the "
+         "angular velocity of node_1 (1, 0, 0) about its own y axis, 0.5 s after the start of the "
          "motion"},
         {{SCENE_ORIENTATION, {.orientation = {1, 0, 2}}},
          SCENE_MAX,
@@ -159,10 +159,10 @@ static void check_motion(void)
          "along the motion"},
         {{SCENE_BALANCE, {.balance = SCENE_LZ}},
          SCENE_LAST,
-         "angular momentum about the z axis, 2 s after the begin of the motion"},
+         "angular momentum about the z axis, 2 s after the start of the motion"},
         {{SCENE_BALANCE, {.balance = SCENE_DISSIPATED}},
          SCENE_LAST,
-         "energy that damping took, since the begin, 2 s after the begin of the motion"}};
+         "energy that damping dissipated, since the start, 2 s after the start of the motion"}};
     static const double path[] = {0.5, 2};
     scene s;
     char text[MEANING_ROOM];

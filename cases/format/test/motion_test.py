@@ -162,7 +162,7 @@ class MotionTest(SceneCase):
         timed = self.answered("bench", "--scene", path, "-f", "beamw", "-n", 1).stdout
         self.assertIn("steps of motions are not divided", timed)
         listed = self.answered("list", "--scene", path).stdout
-        self.assertIn("0.5 s after the begin of the motion", re.sub(r"\s+", " ", listed))
+        self.assertIn("0.5 s after the start of the motion", re.sub(r"\s+", " ", listed))
 
     def test_loads_that_jump(self):
         """Where the path holds what the motion has not: told, unless both agree."""
