@@ -64,8 +64,9 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         snprintf(
             reason, sizeof reason,
             "undecided: between load factors %.6g and %.6g an eigenvalue of the tangent comes too "
-            "near to zero to tell whether it passes it; smaller steps, or a load that differs a "
-            "little, may tell",
+            "near to zero to decide whether it passes it; use smaller steps, or a load that "
+            "differs a "
+            "little",
             p->undecided_from, p->undecided_to);
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason);
     } else

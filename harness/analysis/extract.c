@@ -12,9 +12,9 @@
 #include "harness/model/kinematics.h"
 #include "harness/newton/quantity.h"
 
-static const char *const no_frequency =
-    "the mesh has no mode of this kind that can be told from round-off: coordinates without mass, "
-    "or with hardly any beside the heaviest, have none";
+static const char *const no_frequency = "the mesh has no mode of this kind that is distinguishable "
+                                        "from round-off: coordinates without mass, "
+                                        "or with hardly any beside the heaviest, have none";
 
 static void from_linear(const analysis_context *c, const scene_quantity *q,
                         const analysis_outcome *o, quantity_result *r)

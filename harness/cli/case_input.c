@@ -42,7 +42,7 @@ static const verb_option packed_truths[] = {
 static const verb_option own_truths[] = {
     {"truths", 0, "FILE",
      "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program); a FILE.csv: "
-     "truths of your own beside them, again for another",
+     "reference values of your own in addition; may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
     {0}};
 const option_group options_truths = {packed_truths, NULL, NULL, NULL};
@@ -118,7 +118,7 @@ static void tell_needs(const char *path, const case_type *type)
         if (s.shear_theory != SCENE_SHEAR_HARINGX && features_sheared(&s))
             snprintf(theory, sizeof theory, "shear_theory: %s", scene_shear_word(s.shear_theory));
         fprintf(stderr, "beamwork: %s: needs is read as earlier versions did; %s %s%s%s\n", path,
-                omit[0] != '\0' || theory[0] != '\0' ? "in its place write" : "leave it out", omit,
+                omit[0] != '\0' || theory[0] != '\0' ? "in its place write" : "remove it", omit,
                 omit[0] != '\0' && theory[0] != '\0' ? " and " : "", theory);
     }
     scene_free(&s);
@@ -325,7 +325,7 @@ static void close(void *group)
 }
 
 static const verb_option both[] = {
-    {"set", 's', "NAME=VALUE", "value of a case parameter (SI); again for another",
+    {"set", 's', "NAME=VALUE", "value of a case parameter (SI); may be repeated",
      .member = offsetof(case_options, set), .traits = OPTION_REPEATS, .read = read_assignment},
     {"scene", 0, "FILE", "a scene of your own in YAML, in the place of a case",
      .member = offsetof(case_options, scene_path), .traits = OPTION_INPUT},

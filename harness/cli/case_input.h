@@ -75,7 +75,7 @@ typedef struct scenes {
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
 /* The built-in truths where those cases are wanted, the ledger, the truths of each file, and the
- * tables of one's own project. */
+ * tables of your own project. */
 status scenes_truths(const scenes *, const scenes_options *, truths *t, fault *f);
 
 /* For one minor version: one line where ends of members hold their warping because of their

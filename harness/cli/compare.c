@@ -55,8 +55,8 @@ static void print_left(const command_line *l, const results *run[2], const compa
                    c->outside[i] == 1 ? "is" : "are", path[1 - i]);
         if (c->fresh[i] == 0)
             continue;
-        printf("%d series of new formulations, which do not gate, %s in %s only:", c->fresh[i],
-               c->fresh[i] == 1 ? "is" : "are", path[i]);
+        printf("%d series of new formulations, which do not affect the exit status, %s in %s only:",
+               c->fresh[i], c->fresh[i] == 1 ? "is" : "are", path[i]);
         for (const char *at = run[i]->part.fresh; *at != '\0'; at += *at == '\n') {
             printf(" %.*s", (int)strcspn(at, "\n"), at);
             at += strcspn(at, "\n");
@@ -68,7 +68,7 @@ static void print_left(const command_line *l, const results *run[2], const compa
 static void print_partial(const comparison *c)
 {
     if (c->partial > 0)
-        printf("%d series %s compared by limits only: some of their quantities were left out\n",
+        printf("%d series %s compared by limits only: some of their quantities were not computed\n",
                c->partial, c->partial == 1 ? "is" : "are");
 }
 

@@ -154,7 +154,7 @@ static void names_words(const offer *o, const char *said)
     names_formulations(o);
     if (truths_read_rules(path, &ledger, NULL) == STATUS_OK)
         for (int i = 0; i < ledger.rules; i++)
-            offer_text(o, ledger.rule[i].name, "rule of the ledger");
+            offer_text(o, ledger.rule[i].name, "known deviation");
     truths_free(&ledger);
 }
 

@@ -349,7 +349,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
                          "another program is compared at equal n: leave --error and -k away");
     if (is_program && (r->plant > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
-                         "--plant and a second mesh are for another formulation "
+                         "--plant and a second mesh require another formulation "
                          "in the same program");
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);

@@ -69,7 +69,7 @@ static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
     json_decref(root);
     return *seconds > 0 ? STATUS_OK
                         : fault_set(f, STATUS_FAULT,
-                                    "%s: its 'solve --format json' tells no seconds", c->program);
+                                    "%s: its 'solve --format json' reports no seconds", c->program);
 }
 
 static status lap_elsewhere(contestant *c, double *seconds, fault *f)

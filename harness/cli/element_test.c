@@ -59,9 +59,10 @@ static int answer(const command_line *l, void *request)
     fault f = {""};
     const char *file = file_among(l);
     if (file != NULL) {
-        fault_set(&f, STATUS_REFUSED,
-                  "element-test: '%.150s' is no name of a formulation; --element '%.150s' loads it",
-                  file, file);
+        fault_set(
+            &f, STATUS_REFUSED,
+            "element-test: '%.150s' is not the name of a formulation; --element '%.150s' loads it",
+            file, file);
         return message_fail(STATUS_REFUSED, f.text);
     }
     choose(l, r);
@@ -90,9 +91,9 @@ static const verb_group shared[] = {SHARED(formulations, chosen),
 const verb verb_element_test = {
     "element-test",
     "[FORMULATION...|all]",
-    "a formulation against the interface: what to mend, and what it can do",
+    "checks a formulation against the interface: what to correct, and what it supports",
     "Holds a formulation against the interface: derivatives against differences, energy, symmetry, "
-    "rigid motion, calls without memory, bounds, mass; each failure says what to mend. And "
+    "rigid motion, calls without memory, bounds, mass; each failure says what to correct. And "
     "measures what a paper should print of it: uniform and linear states, locking, orders of "
     "convergence. Of a formulation of your own (--element) it needs no name. It is written as text "
     "or json. A part that takes longer than the time limit (60 s) fails. Exit status: 0 the "

@@ -1,4 +1,5 @@
 /* What the words of the program and of the field mean. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +18,7 @@ typedef struct explain_request {
     truths_options truths;
 } explain_request;
 
-enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4 };
+enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4, RELATED = 3 };
 
 typedef struct dictionary {
     glossary words;
@@ -115,7 +116,7 @@ static int explain_rule(const dictionary *d, const char *word)
         const rule *r = &d->ledger.rule[i];
         if (!glossary_same(r->name, word))
             continue;
-        printf("%s (rule of the ledger)\n", r->name);
+        printf("%s (known deviation)\n", r->name);
         paragraph_write(stdout, printf("  cause: "), INDENT, r->cause);
         const rule *said = said_before(&d->ledger, i);
         if (said != r)
@@ -169,15 +170,23 @@ static int explain_quantity(const char *word)
     return found > 0;
 }
 
-/* All that can be looked up, for what is misspelt. */
+/* All names that can be looked up, in lower case. */
 typedef struct name_list {
-    int count, room;
+    int count, size;
     char (*name)[GLOSSARY_WORD];
 } name_list;
 
+static void lower(char *out, size_t size, const char *word)
+{
+    size_t i = 0;
+    for (; word[i] != '\0' && i + 1 < size; i++)
+        out[i] = word[i] == '_' || word[i] == '-' ? ' ' : (char)tolower((unsigned char)word[i]);
+    out[i] = '\0';
+}
+
 static void add_name(name_list *l, const char *name)
 {
-    if (l->count < l->room)
+    if (l->count < l->size)
         snprintf(l->name[l->count++], GLOSSARY_WORD, "%s", name);
 }
 
@@ -197,34 +206,98 @@ static void add_names(const dictionary *d, name_list *l)
         add_name(l, d->ledger.rule[k].name);
 }
 
-static const char *name_at(const void *context, int i)
+/* The name that differs from `word` in at most two letters (one, of short words), or NULL. */
+static const char *misspelt(const name_list *l, const char *word)
 {
-    const name_list *l = context;
-    return i < l->count ? l->name[i] : NULL;
+    char a[GLOSSARY_WORD], b[GLOSSARY_WORD];
+    const char *nearest = NULL;
+    lower(a, sizeof a, word);
+    int least = strlen(a) >= 6 ? 3 : strlen(a) >= 4 ? 2 : 0;
+    for (int i = 0; i < l->count; i++) {
+        lower(b, sizeof b, l->name[i]);
+        const int changed = choice_distance(a, b);
+        if (changed < least) {
+            least = changed;
+            nearest = l->name[i];
+        }
+    }
+    return nearest;
+}
+
+/* Does `text` contain `word` as a whole word, whatever the letters' case? */
+static int contains(const char *text, const char *word)
+{
+    char all[2048];
+    const size_t length = strlen(word);
+    lower(all, sizeof all, text);
+    for (const char *at = all; (at = strstr(at, word)) != NULL; at++) {
+        const char *end = at + length + (at[length] == 's');
+        if ((at == all || !isalnum((unsigned char)at[-1])) && !isalnum((unsigned char)*end))
+            return 1;
+    }
+    return 0;
+}
+
+/* Adds to `line` entries that have `word` in their names (where = 0) or their text (1). */
+static void add_related(const glossary *g, const char *word, int where, int *count, char *line,
+                        size_t size)
+{
+    for (int i = 0; i < g->entries && *count < RELATED; i++) {
+        const glossary_entry *e = &g->entry[i];
+        const size_t used = strlen(line);
+        if (where == 0 ? !contains(e->term, word) && !contains(e->also, word)
+                       : !contains(e->meaning, word))
+            continue;
+        if (contains(line, e->term))
+            continue;
+        snprintf(line + used, size - used, "%s%s", used > 0 ? ", " : "", e->term);
+        ++*count;
+    }
+}
+
+/* At most RELATED entries that share a word of four letters or more with `word`. */
+static void find_related(const glossary *g, const char *word, char *line, size_t size)
+{
+    char all[LONGEST], *rest = NULL;
+    int count = 0;
+    line[0] = '\0';
+    for (int where = 0; where < 2; where++) {
+        lower(all, sizeof all, word);
+        for (char *part = strtok_r(all, " ", &rest); part != NULL;
+             part = strtok_r(NULL, " ", &rest)) {
+            const size_t length = strlen(part);
+            if (length > 4 && part[length - 1] == 's')
+                part[length - 1] = '\0';
+            if (length >= 4)
+                add_related(g, part, where, &count, line, size);
+        }
+    }
 }
 
 static int refuse_word(const dictionary *d, const char *word)
 {
-    name_list all = {.room = 4096};
-    char text[LONGEST + 4 * GLOSSARY_WORD];
-    all.name = malloc(sizeof *all.name * (size_t)all.room);
+    name_list all = {.size = 4096};
+    char text[LONGEST + (RELATED + 2) * GLOSSARY_WORD], related[RELATED * GLOSSARY_WORD];
+    all.name = malloc(sizeof *all.name * (size_t)all.size);
     if (all.name == NULL)
         return message_fail(STATUS_FAULT, "out of memory for the glossary");
     add_names(d, &all);
-    const char *near = choice_nearest(word, name_at, &all);
+    const char *near = misspelt(&all, word);
+    find_related(&d->words, word, related, sizeof related);
+    if (near != NULL)
+        related[0] = '\0';
     snprintf(text, sizeof text,
-             "nothing is known of '%.100s'%s%s%s; 'beamwork explain' lists all words", word,
+             "unknown term '%.100s'%s%s%s%s%s; 'beamwork explain' lists all terms", word,
              near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-             near != NULL ? "'?" : "");
+             near != NULL ? "'?" : "", related[0] != '\0' ? "; related: " : "", related);
     free(all.name);
     return message_fail(STATUS_REFUSED, text);
 }
 
 static void list_words(const glossary *g)
 {
-    printf(
-        "words ('beamwork explain WORD'); also names of cases, formulations, quantities, rules of "
-        "the ledger\n");
+    printf("words ('beamwork explain WORD'); also names of cases, formulations, quantities, known "
+           "deviations\n");
     for (int i = 0; i < g->entries;) {
         const char *group = g->entry[i].group;
         char line[8192] = "";
@@ -278,9 +351,9 @@ static const verb_group shared[] = {SHARED(truths, truths), {NULL, 0}};
 const verb verb_explain = {
     "explain",
     "[WORD...]",
-    "what a word means: verdicts, theories, physics, rules of the ledger",
-    "Says what a word means: of verdicts, truths, convergence, analyses, physics, elements, times; "
-    "a case, a formulation, a quantity, a rule of the ledger. Without a word: lists the words.",
+    "what a word means: verdicts, theories, physics, known deviations",
+    "Explains a term: verdicts, truths, convergence, analyses, physics, elements, times; "
+    "a case, a formulation, a quantity, a known deviation. Without a word: lists the words.",
     "beamwork explain haringx\n"
     "beamwork explain wrong limit",
     shared,

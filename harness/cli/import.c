@@ -126,7 +126,7 @@ const verb verb_import = {
     "Reads what other programs found of a case or scene: CSV with a declared header "
     "(harness/exchange/import.md). Names, units and parameters are checked, values converted; -o "
     "FILE is of the same schema as results of verify, whose --beside takes it as one more "
-    "contestant. --format json: the mistakes of each file, for editors.",
+    "program. --format json: the mistakes of each file, for editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,
     own,

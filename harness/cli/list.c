@@ -193,7 +193,7 @@ enum { NAMES = 27 };
 
 static void list_formulations(void)
 {
-    printf("formulations ('beamwork list FORMULATION' tells about one)\n");
+    printf("formulations ('beamwork list FORMULATION' describes one)\n");
     for (int i = 0; formulations_at(i) != NULL; i++)
         paragraph_write(stdout, printf("  %-*s", NAMES - 2, formulations_at(i)->name), NAMES,
                         formulations_at(i)->summary);
@@ -366,9 +366,10 @@ const verb verb_list = {
     "list",
     "[cases|formulations|CASE|FORMULATION]",
     "cases and formulations; of one: parameters, quantities, orders, findings",
-    "Shows what there is: all cases and formulations; of a case its parameters, quantities and who "
-    "can run it; of a formulation its theory, orders, options, what it offers and lacks, what the "
-    "ledger knows of it, and the cases that it runs on.",
+    "Shows what there is: all cases and formulations; of a case its parameters, quantities and the "
+    "formulations that "
+    "support it; of a formulation its theory, orders, options, features, limitations, known "
+    "deviations and the cases that it runs on.",
     "beamwork list\n"
     "beamwork list c_column\n"
     "beamwork list collocation",

@@ -290,10 +290,12 @@ void manual_write_scene(FILE *to)
 {
     static const roff_reference see[] = {
         {"beamwork", 1}, {"beamwork-scene", 1}, {"beamwork-solve", 1}};
-    roff_page(to, "beamwork-scene", 5, "structures of one's own, for beamwork");
+    roff_page(to, "beamwork-scene", 5, "your structures, for beamwork");
     fprintf(to, ".Sh DESCRIPTION\n");
-    roff_text(to, "A scene file is YAML; all values are SI, numbers are expressions, and there is "
-                  "nothing to compile. Mistakes are told together, with their places.");
+    roff_text(
+        to,
+        "A scene file is YAML; all values are SI, numbers are expressions, and there is "
+        "nothing to compile. All errors of a file are reported in one run, with line and column.");
     fprintf(to, ".Pp\n");
     roff_text(to, key_list_head[0]);
     fprintf(to, ".Ss Every entry\n");

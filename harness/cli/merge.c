@@ -126,7 +126,7 @@ typedef struct merge_request {
 
 #define IN(at) .member = offsetof(merge_request, at)
 static const verb_option own[] = {
-    {"partial", 0, NULL, "go on without the batches that are missing", IN(on)},
+    {"partial", 0, NULL, "continue without the batches that are missing", IN(on)},
     {"verbose", 'v', NULL, "verify: every limit, not only the overview", IN(on)},
     {"quiet", 'q', NULL, "only what is unexpected, and the last sentence", IN(on)},
     {0}};

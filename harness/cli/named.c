@@ -62,12 +62,12 @@ int named_alone(const chosen_formulations *o)
 
 static const verb_option both[] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]",
-     "formulation and its options; again for another, 'all' for every one",
+     "formulation and its options; may be repeated, 'all' for every one",
      .member = offsetof(chosen_formulations, named), .traits = OPTION_REPEATS},
     {"element", 0, "FILE|exec:COMMAND",
-     "a formulation of your own: a shared object (with a '/': ./mine.so), or a command that speaks "
-     "the protocol of harness/formulations/protocol.md ('exec:python3 my_beam.py'); again for "
-     "another",
+     "a formulation of your own: a shared object (with a '/': ./mine.so), or a command that uses "
+     "the protocol of harness/formulations/protocol.md ('exec:python3 my_beam.py'); may be "
+     "repeated",
      .member = offsetof(chosen_formulations, element), .traits = OPTION_REPEATS | OPTION_INPUT,
      .most = FORMULATIONS_MOST_LOADED},
     {0}};

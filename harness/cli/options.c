@@ -283,7 +283,7 @@ static const verb_option reports[] = {
      .read = NULL},
     {"markdown", 0, "FILE", "summary as Markdown, for a pull request",
      offsetof(report_options, markdown), OPTION_OUTPUT, .read = NULL},
-    {"propose", 0, "FILE", "findings that new formulations would need, as rows for a ledger (CSV)",
+    {"propose", 0, "FILE", "known deviations that new formulations would need, as rows (CSV)",
      offsetof(report_options, propose), OPTION_OUTPUT, .read = NULL},
     {0}};
 static const verb_option solver[] = {

@@ -221,7 +221,7 @@ static status prepare(solve_request *r, const case_type *type, work *w, fault *f
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
         return fault_set(f, STATUS_REFUSED,
-                         "--error is met by the choice of the mesh: leave it out, or %s",
+                         "--error is met by the choice of the mesh: remove it, or %s",
                          r->meshes.count > 0 ? "-n" : "--restart");
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
@@ -320,7 +320,7 @@ static const verb_option own[] = {
      IN(steps), .least = 1, .most = 1000000},
     {"shapes", 0, "[STATES]",
      "store centre lines, sections and resultants of at most so many states of a path (default: "
-     "all), and as many frames of a motion, evenly over its time (60 where it is left out or at "
+     "all), and as many frames of a motion, evenly over its time (60 by default or at "
      "most 5); -o FILE becomes HDF5 for ParaView",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
     {"follow", 0, "NAME=A..B/N",
@@ -331,10 +331,10 @@ static const verb_option own[] = {
      "also stiffness, mass and gyroscopic matrices about every state, as Matrix Market, with a "
      "table of their rows, into a new folder",
      IN(matrices), .traits = OPTION_OUTPUT | OPTION_FOLDER},
-    {"ends", 0, "FILE", "also keep where motions in time stop (HDF5): --restart goes on from there",
+    {"ends", 0, "FILE", "also store where motions in time stop (HDF5): --restart continues there",
      IN(ends), .traits = OPTION_OUTPUT | OPTION_HDF5},
     {"restart", 0, "FILE",
-     "go on from where the motions of another run stopped, kept by its --ends: the same scene with "
+     "continue where the motions of another run stopped, kept by its --ends: the same scene with "
      "later stations, with the bits of one run where steps stay and end there",
      IN(restart), .traits = OPTION_INPUT},
     {0}};

@@ -132,16 +132,17 @@ void spread_free(spread_end *out)
 
 static const verb_option shards[] = {
     {"shard", 0, "K/N",
-     "compute the K-th of N shards only, each batch into a file below --into; started again, what "
-     "is missing",
+     "compute the K-th of N shards only, each batch into a file below --into; a restart computes "
+     "only "
+     "missing batches",
      .member = offsetof(shard_options, shard), .traits = OPTION_ASIDE},
     {"into", 0, "FOLDER", "of the batches of --shard (without it: of all); it is made",
      .member = offsetof(shard_options, into), .traits = OPTION_ASIDE},
     {"from", 0, "FOLDER",
-     "take the batches that are there instead of computing, as 'beamwork merge' does; again for "
-     "another",
+     "take the batches that are there instead of computing, as 'beamwork merge' does; may be "
+     "repeated",
      .member = offsetof(shard_options, from), .traits = OPTION_REPEATS | OPTION_ASIDE},
-    {"partial", 0, NULL, "go on without the batches that are missing",
+    {"partial", 0, NULL, "continue without the batches that are missing",
      .member = offsetof(shard_options, partial), .traits = OPTION_ASIDE},
     {0}};
 const option_group options_shards = {shards, begin, NULL, NULL};

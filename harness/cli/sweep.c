@@ -284,13 +284,13 @@ static int answer(const command_line *l, void *request)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
      "what the sweep is over: N equal parts (N + 1 values), with ':log' behind equal ratios; a "
-     "list of values or words; again for another parameter",
+     "list of values or words; may be repeated for another parameter",
      IN(vary), .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS},
     {"design", 0, "grid|sobol|halton|random",
      "points of the sweep: all of the grid (default), or --points N that fill the box of --vary "
      "NAME=A..B",
      IN(design)},
-    {"points", 0, "N", "how many points a design has that is no grid", IN(points), .least = 1,
+    {"points", 0, "N", "number of points of a design that is not a grid", IN(points), .least = 1,
      .most = 1000000000},
     {"seed", 0, "S", "of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
     {"derive", 0, NULL,
@@ -324,10 +324,11 @@ const verb verb_sweep = {
     "or random --points N: so many points in the box of --vary NAME=A..B (or A..B:log). Errors are "
     "against a truth stored for the very point, with --derive against one that is solved for "
     "there, else against the limit that the meshes of all formulations of the same physics go to; "
-    "points where that is not known to half of the error are told. A point that has no scene, a "
+    "points where that is not known to half of the error are reported. A point that has no scene, "
+    "a "
     "cell that fails, is a result. -o FILE: all values as HDF5, and the worst points as scenes in "
     "FILE.worst; batches that are done are kept in FILE.batches until all are: the same command "
-    "goes on from there. Exit status: 0 done, 2 refused, 4 file, disk or memory, 5 incomplete.",
+    "continues there. Exit status: 0 done, 2 refused, 4 file, disk or memory, 5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
     "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --derive -o column.h5\n"
     "beamwork sweep snap_through --vary angle=0.1..0.6 --design sobol --points 200",

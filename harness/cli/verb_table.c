@@ -44,14 +44,15 @@ static const manual_row statuses[] = {
     {"3", "nothing was judged"},
     {"4", "file, disk or memory"},
     {"5", "incomplete: interrupted (what was judged is in *.partial.*), or parts are missing; the "
-          "same command goes on"},
+          "same command continues"},
     {NULL, NULL},
 };
 static const manual_program about = {
     .verbs = verbs,
     .summary = "verification and benchmark of three-dimensional beam finite elements",
-    .question = "Which formulation, with how many elements, reaches my tolerance soonest, and can "
-                "I believe it?",
+    .question =
+        "Which formulation, with how many elements, reaches my tolerance at the lowest cost, and "
+        "what is its verdict?",
     .examples = examples,
     .statuses = statuses,
     .of_compare = "compare, as diff: 0 the same, 1 different, 2 trouble.",

@@ -240,16 +240,17 @@ static int answer(const command_line *l, void *request)
 static const verb_option own[] = {
     {"output", 'o', "FILE", "results as HDF5", IN(output), .traits = OPTION_OUTPUT},
     {"scene", 0, "FILE",
-     "a scene of your own in YAML in the place of a case, or a folder of them; again for another",
+     "a scene of your own in YAML in the place of a case, or a folder of them; may be repeated",
      IN(scenes.scene), .traits = OPTION_REPEATS | OPTION_INPUT},
     {"built-in", 0, NULL, "the built-in cases beside those of --scene", IN(scenes.built_in)},
-    {"findings", 0, "FILE.csv", "findings of your own beside the ledger; again for another",
+    {"findings", 0, "FILE.csv",
+     "known deviations of your own in addition to those listed; may be repeated",
      IN(scenes.findings), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
     {"beside", 0, "FILE",
-     "what other programs found, stored by 'beamwork import': contestants that gate nothing; again "
-     "for another file",
+     "results of other programs, stored by 'beamwork import': no effect on the exit status; may be "
+     "repeated",
      IN(beside), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
-    {"gate", 0, NULL, "verdicts of --beside count as ours do", IN(gate)},
+    {"gate", 0, NULL, "verdicts of --beside affect the exit status too", IN(gate)},
     {"shapes", 0, "[STATES]",
      "store centre lines, sections and resultants of at most so many states of a path (default: "
      "5), and 60 frames of a motion, evenly over its time",
@@ -283,11 +284,12 @@ const verb verb_verify = {
     "",
     "every formulation on every case, judged against stored truths",
     "Judges every formulation on every case and parameter point that has a truth. A formulation "
-    "that -f names or --element loads gates: against the findings of the ledger that are its own, "
+    "that -f names or --element loads counts: against the known deviations that are its own, "
     "which may be none, and by the contract of the interface (element-test), which is looked at "
-    "first. One of the tree that nobody named and the project has not accepted yet does not. "
+    "first. A formulation of the tree that is not accepted yet counts only where it is named. "
     "--tolerance and --not-worse-than are terms of your own. Exit status: 0 every verdict as "
-    "expected, 1 one differs or a contract is broken (undecided is no pass: it counts as one that "
+    "expected, 1 one differs or an interface requirement is violated (undecided did not pass: it "
+    "counts as one that "
     "differs unless a finding expects it, and more meshes, --doublings, or a larger --tolerance "
     "may decide it), 2 refused, 3 nothing was judged, 4 file, disk or memory, 5 interrupted "
     "(Ctrl-C, SIGTERM): what was judged until then is in files named .partial; with --exit-zero 0 "

@@ -35,7 +35,7 @@ static status find_meshes(series *one, const imported *found, fault *f)
         if (one->meshes > 0 && one->mesh[one->meshes - 1] == found->row[i].elements)
             continue;
         if (one->meshes == SERIES_MAX_MESHES)
-            return fault_set(f, STATUS_REFUSED, "%.60s: more than %d meshes; leave some out",
+            return fault_set(f, STATUS_REFUSED, "%.60s: more than %d meshes; remove some",
                              found->program, SERIES_MAX_MESHES);
         one->mesh[one->meshes++] = found->row[i].elements;
     }

@@ -83,9 +83,10 @@ static void take_header(reader *r, const char *key, const char *value)
     else if (strcmp(key, "convention") == 0)
         take_text(h->convention, &h->convention_line, r, value);
     else if (!axes_parse(value, &h->axes))
-        mistakes_add(r->m, r->line, 1,
-                     "axes '%.60s' are no signed permutation; write theirs = ours, as x=x y=-z z=y",
-                     value);
+        mistakes_add(
+            r->m, r->line, 1,
+            "axes '%.60s' are not a signed permutation; write theirs = beamwork's, as x=x y=-z z=y",
+            value);
 }
 
 /* "# key: value   # remark"; other lines that begin with # are remarks. */
@@ -158,7 +159,7 @@ static double number_of(const reader *r, const char *text, column c)
         return NAN;
     }
     if (!line_number(text, &value)) {
-        mistakes_add(r->m, r->line, 10 + c, "%s '%.40s' is no number", names[c], text);
+        mistakes_add(r->m, r->line, 10 + c, "%s '%.40s' is not a number", names[c], text);
         return NAN;
     }
     if ((c == SECONDS || c == UNCERTAINTY) && value < 0)

@@ -206,7 +206,7 @@ static import_header header_of(const map_reader *r)
     h.convention_line = line_of(r, "convention");
     if (line_of(r, "axes") > 0 && !axes_parse(map_keys_text(r->m, r->root, "axes", ""), &h.axes))
         document_mistake(r->m, document_find(r->root, "axes"), 0,
-                         "axes: a signed permutation, theirs = ours, as x=x y=-z z=y");
+                         "axes: a signed permutation, theirs = beamwork's, as x=x y=-z z=y");
     return h;
 }
 

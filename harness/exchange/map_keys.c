@@ -46,7 +46,7 @@ double map_keys_number(mistakes *m, const document_node *map, const char *key, d
         return otherwise;
     if (line_number(text, &value))
         return value;
-    document_mistake(m, document_find(map, key), 0, "%s '%.40s' is no number", key, text);
+    document_mistake(m, document_find(map, key), 0, "%s '%.40s' is not a number", key, text);
     return otherwise;
 }
 

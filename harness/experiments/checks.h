@@ -8,7 +8,7 @@
 
 typedef void checks_run(const formulation *chosen, claims *out);
 
-checks_run checks_declared; /* what it says of itself does not contradict itself */
+checks_run checks_declared; /* its declarations are consistent            */
 checks_run checks_features; /* what it offers it can do, alone, in subsets, as cases ask for it */
 checks_run checks_derivatives; /* J and H of the strains */
 checks_run checks_energy;      /* stress, stiffness and geometric stiffness come from the energy */

@@ -37,16 +37,16 @@ static void words(const element_type *t, claim *one)
     claims_asks(one, t->source != NULL && t->source[0] != '\0',
                 "source: name the paper and its equations");
     claims_asks(one, (t->lacks != 0) == (t->lacks_by != NULL),
-                t->lacks != 0 ? "lacks_by: name the equations that leave it out"
+                t->lacks != 0 ? "lacks_by: name the equations that omit it"
                               : "lacks_by: it is given, and nothing is in lacks");
     claims_asks(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
-                "lacks: LACKS_SHEAR_Y is for types that offer shear; leave it out");
+                "lacks: LACKS_SHEAR_Y is for types that support shear; remove it");
     claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
                 "offers: FEATURE_ROTARY_INERTIA goes with FEATURE_MASS");
     claims_asks(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
                 "tension: it goes with LIMIT_TENSION; give both or leave both out");
     claims_asks(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
-                "spreads: it goes with 'inertia' and FEATURE_MASS; give them or leave it out");
+                "spreads: it goes with 'inertia' and FEATURE_MASS; give them or remove it");
 }
 
 static void orders(const formulation *chosen, claim *one)

@@ -9,7 +9,7 @@ typedef struct extreme_request {
     const char *select; /* expression over "name/group/case/formulation", or NULL */
     int jobs, formulations;
     const formulation *formulation; /* restrict to these; 0: all */
-    int named;                      /* 1: these were asked for by name: they gate */
+    int named; /* 1: these were asked for by name: they affect the exit status */
     FILE *progress;
 } extreme_request;
 

@@ -96,7 +96,7 @@ static const schema_field fields_of_extreme[] = {
     {"name", "", FIELD_TEXT, "of the extreme", TEXT_OF(RECORD, extreme, name)},
     {"group", "", FIELD_TEXT, "the same kind of it on several cases",
      TEXT_OF(RECORD, extreme, group)},
-    {"summary", "", FIELD_TEXT, "what is driven", TEXT_OF(RECORD, extreme, summary)},
+    {"summary", "", FIELD_TEXT, "what is varied", TEXT_OF(RECORD, extreme, summary)},
     {"case", "", FIELD_TEXT, "that is driven there", TEXT_OF(RECORD, extreme, base)},
     {"fixed", "", FIELD_TEXT, "parameters beside the defaults", TEXT_OF(RECORD, extreme, fixed)},
     {"x_name", "", FIELD_TEXT, "what it is driven to", TEXT_OF(RECORD, extreme, x_name)},

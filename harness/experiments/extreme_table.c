@@ -193,7 +193,8 @@ void extreme_table(FILE *to, const void *found)
     print_counts(to, s);
     if (s->is_new > 0)
         paragraph_say(to, 0, 0,
-                      "%d outcomes of new formulations, which do not gate, are neither a value nor "
+                      "%d outcomes of new formulations, which do not affect the exit status, are "
+                      "neither a value nor "
                       "coarse and would need findings",
                       s->is_new);
     fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",

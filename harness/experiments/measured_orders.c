@@ -81,14 +81,14 @@ static void hold_against_declared(const question *q, int last, const measure *on
     else if (last > 1 && one->order < 0.1 && one->least > 0)
         claims_asks(claimed, 0,
                     "order: its errors do not fall: %.2g, %.2g, %.2g with %g, %g and %g elements "
-                    "(%s): the limit is wrong; mend the element, or its section's constants",
+                    "(%s): the limit is wrong; correct the element, or its section's constants",
                     fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
                     one->at[last - 2], one->at[last - 1], one->at[last], q->name);
     else if (last > 0)
         claims_departs(
             claimed, one->least - one->order,
             "order: at least %d is declared in %s, and %s shows %.1f: errors of %.2g and "
-            "%.2g with %g and %g elements; declare what there is, or mend it",
+            "%.2g with %g and %g elements; declare what there is, or correct it",
             one->least, analysis[q->declared], q->name, one->order, fabs(one->error[last - 1]),
             fabs(one->error[last]), one->at[last - 1], one->at[last]);
 }

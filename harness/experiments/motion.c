@@ -61,7 +61,7 @@ static void node_order(const specimen *s, double size, claim *one)
     energy_of(s, reversed, &back);
     claims_departs(one, claims_share(fabs(back - there), fabs(there)),
                    "strain, stress: with its nodes exchanged the element has an energy of %.9g J "
-                   "instead of %.9g J; mend it, or declare LIMIT_ORDER_DEPENDENT%s",
+                   "instead of %.9g J; correct it, or declare LIMIT_ORDER_DEPENDENT%s",
                    back, there, s->words);
 }
 

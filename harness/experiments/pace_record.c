@@ -44,13 +44,15 @@ static const schema_field fields_of_run[] = {
      AT(pace_run, error)},
     {"order", "1", FIELD_DOUBLE, "of the error, against the run before, of a longer step",
      AT(pace_run, order)},
-    {"cost", "s", FIELD_DOUBLE, "counted work at the prices of the project", AT(pace_run, cost)},
+    {"cost", "s", FIELD_DOUBLE, "counted work at the project's cost coefficients",
+     AT(pace_run, cost)},
     {"seconds", "s", FIELD_DOUBLE, "that the processor took", AT(pace_run, seconds)},
     {"steps", "1", FIELD_LONG, "that were kept", AT(pace_run, steps)},
-    {"rejected", "1", FIELD_LONG, "steps that were tried in vain", AT(pace_run, rejected)},
+    {"rejected", "1", FIELD_LONG, "rejected steps", AT(pace_run, rejected)},
     {"iterations_per_step", "1", FIELD_DOUBLE, "of Newton, of a step", AT(pace_run, iterations)},
     {"energy_drift", "1", FIELD_DOUBLE,
-     "largest change of the energy since nothing acts, relative; of what is held or driven: of the "
+     "largest change of the energy since nothing acts, relative; of fixed or prescribed "
+     "coordinates: of the "
      "energy less the work",
      AT(pace_run, energy)},
     {"momentum_drift", "1", FIELD_DOUBLE,

@@ -22,7 +22,7 @@ static void print_reference(FILE *to, const pace *p, const pace_group *g)
                  g->order, PACE_REFERENCE_ORDER);
     paragraph_say(to, 0, 2,
                   "errors of time: against radau at %g on the same mesh (%d steps), which is off "
-                  "by %.1e at most, as far as radau at %g and %g tell%s",
+                  "by %.1e at most, by radau at %g and %g%s",
                   pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
                   pace_reference[1], pace_reference[2], stopped);
 }
@@ -88,7 +88,7 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
             paragraph_say(to, 0, 2, "order of %s: %.2f, %.2f (nominal %d): %s", l.method->name,
                           l.before, l.order, l.method->order, pace_order_name(l.kind));
         else if (l.count > 2)
-            paragraph_say(to, 0, 2, "order of %s: %s, no errors that tell it (nominal %d)",
+            paragraph_say(to, 0, 2, "order of %s: %s, no errors that show it (nominal %d)",
                           l.method->name, pace_order_name(l.kind), l.method->order);
         i += l.count;
     }
@@ -134,7 +134,7 @@ static void print_level(FILE *to, const pace *p, int group, double level)
     double behind = 0;
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
-    fprintf(text, "soonest to an error of %g, the first three:", level);
+    fprintf(text, "lowest cost to an error of %g, the first three:", level);
     for (int place = 0; place < 3; place++) {
         pace_reach best = {NULL, INFINITY};
         for (int i = 0; i < count; i++) {

@@ -54,7 +54,7 @@ void ranges_table_head(FILE *to, const ranges *r)
     if (r->assumed[0] != '\0')
         paragraph_write(to, fprintf(to, "  "), 4, r->assumed);
     if (r->left_out[0] != '\0')
-        paragraph_say(to, fprintf(to, "  left out: "), 4, "%s", r->left_out);
+        paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->left_out);
 }
 
 /* 99.96 % are not all. */

@@ -40,7 +40,7 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     } part[] = {
         {kind[ROWS_STORED], "a stored truth"},
         {kind[ROWS_DERIVED], "a truth derived there"},
-        {kind[ROWS_LIMIT], alone ? "the limit of its own meshes, which shows convergence only"
+        {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which shows convergence only"
                                  : "the limit of the meshes of all formulations of one theory"},
         {kind[ROWS_NONE],
          "nothing: no limit is known to half of the error (finer -n, or --derive)"},

@@ -12,9 +12,10 @@ status restart_possible(const scene *s, fault *f)
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
             return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "the scene has no motion in time that --ends could keep or --restart go on "
-                     "from; leave them out, or add an analysis 'motion'");
+    return fault_set(
+        f, STATUS_REFUSED,
+        "the scene has no motion in time that --ends could store or --restart continue "
+        "from; remove them, or add an analysis 'motion'");
 }
 
 void restart_free(restart *r)
@@ -31,13 +32,12 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     if (strcmp(r->formulation, of->formulation.key) != 0 || r->elements != of->elements)
         return fault_set(
             f, STATUS_REFUSED,
-            "--restart is of -f %s -n %d and not of -f %s -n %d: a motion goes on with "
+            "--restart is of -f %s -n %d and not of -f %s -n %d: a motion continues with "
             "the formulation and the elements that it began with",
             r->formulation, r->elements, of->formulation.key, of->elements);
     if (r->keep_all != of->keep_all)
         return fault_set(f, STATUS_REFUSED, "--restart is of a run %s --keep-all: %s",
-                         r->keep_all ? "with" : "without",
-                         r->keep_all ? "give it" : "leave it out");
+                         r->keep_all ? "with" : "without", r->keep_all ? "give it" : "remove it");
     return STATUS_OK;
 }
 
@@ -54,7 +54,7 @@ static status drop_stations(const outcome_end *e, scene *s, fault *f)
     if (kept == 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "the motion goes on from %.10g s, and its last station is at %.10g s: give "
+            "the motion continues from %.10g s, and its last station is at %.10g s: give "
             "it a later one",
             e->time, last);
     m->path.stations = kept;

@@ -15,7 +15,7 @@ static void equal_stations(scene *plain, double *zero)
 
 status restart_text(const scene *s, char **out, fault *f)
 {
-    static const write_head head = {"motion", "a motion that goes on", "none"};
+    static const write_head head = {"motion", "a motion that continues another", "none"};
     double zero = 0;
     scene plain = *s;
     *out = NULL;
@@ -34,7 +34,7 @@ status restart_text(const scene *s, char **out, fault *f)
     free(*out);
     *out = NULL;
     return fault_set(f, STATUS_REFUSED,
-                     "no scene file can say this scene, by which a motion that goes on is known: "
+                     "no scene file can say this scene, by which a continued motion is identified: "
                      "leave --ends and --restart out");
 }
 

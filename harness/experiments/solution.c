@@ -94,7 +94,7 @@ static status tell_change(const solution_request *r, const solution_choice *why,
     out->status = STATUS_NOT_CONVERGED;
     snprintf(
         out->reason, sizeof out->reason,
-        "with the mesh: %.200s, and %.3g %% is asked for; -n %d goes on, --error asks for less",
+        "with the mesh: %.200s, and %.3g %% was requested; -n %d computes it, or raise --error",
         why->elements, 100 * asked, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }

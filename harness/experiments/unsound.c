@@ -90,8 +90,8 @@ static void check(const specimen *s, claims *c)
     static const double none[] = {NAN, INFINITY, -INFINITY};
     for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
         claims_doing(c, "strain and stress of a state that is %g%s", none[k], s->words);
-        spoil(s, none[k], claims_open(c, "states that are no numbers are told", 0));
-        spoil_strains(s, none[k], claims_open(c, "strains that are no numbers are told", 0));
+        spoil(s, none[k], claims_open(c, "states that are NaN or Inf are reported", 0));
+        spoil_strains(s, none[k], claims_open(c, "strains that are NaN or Inf are reported", 0));
     }
     static const double far[] = {1, 1e3, 1e10, 1e30, 1e100, 1e200, 1e300};
     for (size_t k = 0; k < sizeof far / sizeof far[0]; k++) {

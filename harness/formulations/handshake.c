@@ -170,7 +170,7 @@ static status inertia_of(const reading *r, handshake *out)
     if (given == NULL)
         return STATUS_OK;
     if (word == NULL || (strcmp(word, "vibration") != 0 && strcmp(word, "motion") != 0))
-        return refuse(r, "inertia", "give vibration or motion, or leave it out");
+        return refuse(r, "inertia", "give vibration or motion, or remove it");
     if (!(out->type.offers & FEATURE_MASS))
         return refuse(r, "inertia", "who brings it offers mass; add that to 'offers'");
     out->inertia = 1;
@@ -190,7 +190,7 @@ static status only_known_keys(const reading *r)
         for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
             known |= strcmp(keys[i], key) == 0;
         if (!known)
-            return refuse(r, key, "no such key in this protocol; leave it out");
+            return refuse(r, key, "no such key in this protocol; remove it");
     }
     return STATUS_OK;
 }
@@ -227,7 +227,7 @@ static status read_all(const reading *r, handshake *out)
     if (!out->whole)
         TRY(number_of(r, "strains", 1, ELEMENT_MAX_STRAINS, -1, &out->constants.strains));
     else if (json_object_get(r->said, "strains") != NULL)
-        return refuse(r, "strains", "a formulation of whole elements has none; leave it out");
+        return refuse(r, "strains", "a formulation of whole elements has none; remove it");
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);

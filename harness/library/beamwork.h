@@ -1,4 +1,4 @@
-/* beamwork.h: scenes, solutions and verdicts from a program of one's own.
+/* beamwork.h: scenes, solutions and verdicts from your own program.
  *
  * Handles are opaque and documents are text: no struct crosses the border. SI units, UTF-8.
  * A function that can fail returns a bw_status. *why (NULL: not wanted) is then one line that names

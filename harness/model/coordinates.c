@@ -221,7 +221,7 @@ static status note_left_out(model *m, const tally *of, fault *f)
         attached += m->mesh.vertex[i].body != i;
     const int fixed = fixed_warps(m, &absent);
     if (of->held > 0)
-        TRY(coordinates_note_left_out(m, f, "%d held coordinates", of->held));
+        TRY(coordinates_note_left_out(m, f, "%d fixed degrees of freedom", of->held));
     if (m->scene->plane != SCENE_SPACE)
         TRY(coordinates_note_left_out(m, f, "%d coordinates held in the plane %s", of->across,
                                       scene_plane_name(m->scene)));

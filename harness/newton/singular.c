@@ -157,7 +157,7 @@ void singular_explain(analysis_context *c, fault *f)
     condition_at_rest(c, &c->eq, &lost);
     if (lost == NO_NUMBER)
         fault_set(f, STATUS_SINGULAR,
-                  "the formulation returned what is no number: look at its energy, stresses or "
+                  "the formulation returned NaN or Inf: look at its energy, stresses or "
                   "derivatives at rest");
     else if (lost)
         explain_loss(c, f);

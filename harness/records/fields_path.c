@@ -227,18 +227,18 @@ const record_type record_event = {"event",
 static const schema_field fields_of_motion[] = {
     {"analysis", "1", FIELD_INT, "of the scene", AT(motion_record, analysis)},
     {"analysis_name", "", FIELD_TEXT, "as the scene calls it", .get = get_analysis_of_motion},
-    {"time", "s", FIELD_DOUBLE, "where the step ended; the first record: the begin", MOTION(time)},
-    {"step", "s", FIELD_DOUBLE, "its length; of the begin 0", MOTION(step)},
+    {"time", "s", FIELD_DOUBLE, "where the step ended; the first record: the start", MOTION(time)},
+    {"step", "s", FIELD_DOUBLE, "its length; of the start 0", MOTION(step)},
     {"iterations", "1", FIELD_INT, "of Newton's method", MOTION(iterations)},
     {"rejected", "1", FIELD_INT, "longer steps that were tried before it", MOTION(rejected)},
     {"error", "1", FIELD_DOUBLE,
      "estimate of what it adds to places, by the size; 0: none was made", MOTION(error)},
     {"kinetic", "J", FIELD_DOUBLE, "energy of motion", BALANCE(SCENE_KINETIC)},
     {"strain", "J", FIELD_DOUBLE, "energy stored in members and springs", BALANCE(SCENE_STRAIN)},
-    {"work", "J", FIELD_DOUBLE, "of loads and of what is driven, since the begin",
+    {"work", "J", FIELD_DOUBLE, "of loads and of prescribed coordinates, since the start",
      BALANCE(SCENE_WORK)},
-    {"dissipated", "J", FIELD_DOUBLE, "by damping, since the begin", BALANCE(SCENE_DISSIPATED)},
-    {"drift", "J", FIELD_DOUBLE, "both energies and what was dissipated, less work and the begin",
+    {"dissipated", "J", FIELD_DOUBLE, "by damping, since the start", BALANCE(SCENE_DISSIPATED)},
+    {"drift", "J", FIELD_DOUBLE, "both energies and what was dissipated, less work and the start",
      BALANCE(SCENE_DRIFT)},
     {"px", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PX)},
     {"py", "kg m/s", FIELD_DOUBLE, "momentum", BALANCE(SCENE_PY)},
@@ -249,7 +249,7 @@ static const schema_field fields_of_motion[] = {
     {0}};
 const record_type record_motion = {"motion",
                                    "motion",
-                                   "a motion in time at its begin and where its steps ended",
+                                   "a motion in time at its start and where its steps ended",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_motion}};
 
 static void get_path(const subject *s, field_value *out)

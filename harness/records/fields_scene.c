@@ -121,7 +121,7 @@ static const schema_field fields_of_assumption[] = {
     {0}};
 const record_type record_assumption = {"assumption",
                                        "assumptions",
-                                       "what is assumed of a section of a scene of one's own",
+                                       "what is assumed of a section of your scene",
                                        {keys_of_point, fields_of_assumption}};
 
 static void get_meaning(const subject *s, field_value *out)

@@ -80,7 +80,8 @@ static const schema_field fields_of_readings[] = {
      .get = get_round},
     {"round_5", "s", FIELD_DOUBLE, "both together in a round", TIMES(as_is.round[4]),
      .get = get_round},
-    {"keep_all_repeats", "1", FIELD_INT, "the same with nothing left out", TIMES(keep_all.repeats)},
+    {"keep_all_repeats", "1", FIELD_INT, "the same with all degrees of freedom",
+     TIMES(keep_all.repeats)},
     {"keep_all_setup", "s", FIELD_DOUBLE, "set-up", TIMES(keep_all.setup), .get = get_measured},
     {"keep_all_solve", "s", FIELD_DOUBLE, "the rest", TIMES(keep_all.solve), .get = get_measured},
     {"keep_all_round_1", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[0]),
@@ -93,7 +94,7 @@ static const schema_field fields_of_readings[] = {
      .get = get_round},
     {"keep_all_round_5", "s", FIELD_DOUBLE, "both together in a round", TIMES(keep_all.round[4]),
      .get = get_round},
-    {"keep_all_free", "1", FIELD_INT, "unknowns with nothing left out", TIMES(free_keep_all)},
+    {"keep_all_free", "1", FIELD_INT, "unknowns with all degrees of freedom", TIMES(free_keep_all)},
     {0}};
 static const schema_field fields_of_parts[] = {
     {"seconds_elements", "s", FIELD_DOUBLE, "of Newton's iterations: elements",

@@ -126,7 +126,7 @@ static void write_legend(FILE *to, const overview *o)
             "number: quantities that have it.\n",
             o->joined ? " and options" : "");
     if (o->accepted < o->columns)
-        fprintf(to, "\n(new): not accepted yet; its verdicts do not gate.\n");
+        fprintf(to, "\n(new): not accepted yet; its verdicts do not affect the exit status.\n");
 }
 
 static void write_row(FILE *to, const overview *o, int row)
@@ -235,7 +235,7 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     char sentence[SENTENCE_OF_RUN];
     fprintf(to, "## beamwork: %s%s\n\n", words_before(s), judgement_outcome(j));
     for (int i = 0; i < j->breaches; i++)
-        fprintf(to, "**%s breaks the contract of the interface**: %s\n\n", j->breach[i].formulation,
+        fprintf(to, "**%s violates the interface requirements**: %s\n\n", j->breach[i].formulation,
                 j->breach[i].why);
     fprintf(to,
             "%d verdicts against truths in %d cells: %d differ from the expected one; %d of %d "
@@ -247,9 +247,9 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     if (j->unobserved > 0)
         fprintf(to, "; %d findings were not observed", j->unobserved);
     if (j->unmet > 0)
-        fprintf(to, "; %d truths speak of nothing that exists", j->unmet);
+        fprintf(to, "; %d reference values refer to nothing that exists", j->unmet);
     if (j->flaws > 0)
-        fprintf(to, "; %d cells contradict themselves", j->flaws);
+        fprintf(to, "; %d inconsistent run records", j->flaws);
     fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);
     sentence_of_run(s, j, sentence, sizeof sentence);
     if (sentence[0] != '\0')

@@ -58,7 +58,7 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
 /* Those whose cost is that of any formulation with as many strains. */
 static void write_unpriced(FILE *to, const sweep *s, const reached list[], int count)
 {
-    const char *before = "; without prices of its own: ";
+    const char *before = "; without cost coefficients of its own: ";
     for (int i = 0; i < count; i++) {
         const formulation *one = &s->series[list[i].series].formulation;
         if (price_own(price_rows, one))

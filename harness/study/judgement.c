@@ -39,8 +39,8 @@ static void expect(const sweep *s, truths *t, verdict *v)
         if (!rules_hold(r, &subject))
             continue;
         if (v->rule != NULL) {
-            snprintf(v->reason, sizeof v->reason, "two findings speak of it: %.60s and %.60s",
-                     v->rule->name, r->name);
+            snprintf(v->reason, sizeof v->reason,
+                     "two known deviations apply to it: %.60s and %.60s", v->rule->name, r->name);
             v->expected = VERDICT_PASS;
             return;
         }

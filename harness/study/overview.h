@@ -17,7 +17,7 @@ typedef enum overview_mark {
     OVERVIEW_BIASED,
     OVERVIEW_WRONG,
     OVERVIEW_NO_VALUE, /* diverged or refused */
-    OVERVIEW_FLAW,     /* a cell contradicts itself, or its stored value */
+    OVERVIEW_FLAW,     /* an inconsistent run record, or its stored value */
     OVERVIEW_MARKS
 } overview_mark;
 

@@ -157,7 +157,8 @@ static void check_name(reader *r)
     for (int i = 0; i < r->t->rules; i++)
         if (strcmp(r->t->rule[i].name, name) == 0)
             WRONG(r, RULE, "a rule '%.60s' is there already (%.100s); give this one another name",
-                  name, r->t->rule[i].from != NULL ? r->t->rule[i].from : "the ledger");
+                  name,
+                  r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
 /* A rule that says neither why nor how that is known explains nothing. */
@@ -195,7 +196,7 @@ static void check(reader *r, double *largest)
     check_verdicts(r);
     check_list(r, PREDICTED, check_prediction);
     if (text[0] != '\0' && (!line_number(text, largest) || *largest < 0))
-        WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is no number of at least zero", text);
+        WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is not a number of at least zero", text);
 }
 
 /* The cases of the run and the built-in ones, NULL behind the last; the caller frees it. */

@@ -66,7 +66,7 @@ static void take_elements(reader *r, int *out)
     if (text[0] == '\0')
         return;
     if (*end != '\0' || count < 1 || count > INT_MAX)
-        WRONG(r, ELEMENTS, "elements '%.40s' is no number above zero; the continuum has none",
+        WRONG(r, ELEMENTS, "elements '%.40s' is not a number above zero; the continuum has none",
               text);
     else
         *out = (int)count;

@@ -41,7 +41,7 @@ const char *reach_defect_words(verdict_kind kind)
     case VERDICT_UNDECIDED:
         return "with a limit that is not known";
     default:
-        return "with a limit of its own";
+        return "with a different limit";
     }
 }
 

@@ -74,7 +74,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
         passed(v, text, size);
         return;
     case VERDICT_BIASED:
-        snprintf(text, size, "has a limit of its own within the tolerance: %+.3g %%",
+        snprintf(text, size, "has a different limit within the tolerance: %+.3g %%",
                  100 * v->error);
         return;
     case VERDICT_WRONG_LIMIT:
@@ -142,7 +142,7 @@ static int count_undecided(const judgement *j)
 static void failures(const judgement *j, char *text, size_t size)
 {
     int parts = 0;
-    count_part(text, size, &parts, j->breaches, "formulation breaks the contract of the interface",
+    count_part(text, size, &parts, j->breaches, "formulation violates the interface requirements",
                "formulations break the contract of the interface");
     count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
                "verdicts differ from the expected ones");
@@ -152,12 +152,11 @@ static void failures(const judgement *j, char *text, size_t size)
                "results are worse than in the former run");
     count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
                "values differ from their stored ones");
-    count_part(text, size, &parts, j->flaws, "cell contradicts itself",
-               "cells contradict themselves");
+    count_part(text, size, &parts, j->flaws, "inconsistent run record", "inconsistent run records");
     count_part(text, size, &parts, j->unobserved, "finding was not observed",
                "findings were not observed");
-    count_part(text, size, &parts, j->unmet, "truth speaks of nothing that exists",
-               "truths speak of nothing that exists");
+    count_part(text, size, &parts, j->unmet, "reference value refers to nothing that exists",
+               "reference values refer to nothing that exists");
 }
 
 /* Verdicts that are no pass and were expected, by a limit that was derived or by a rule alone. */
@@ -185,12 +184,13 @@ static known count_known(const judgement *j)
 static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
-        snprintf(text, size, "%d %s: none needs a finding", j->is_new,
-                 j->is_new == 1 ? "is of a new formulation, which does not gate"
-                                : "are of new formulations, which do not gate");
+        snprintf(text, size, "%d %s: none needs a known deviation", j->is_new,
+                 j->is_new == 1 ? "is of a new formulation, which does not affect the exit status"
+                                : "are of new formulations, which do not affect the exit status");
     else
         snprintf(text, size,
-                 "not gated: %d of %d %s %s no pass and would need a finding (--propose FILE "
+                 "without effect on the exit status: %d of %d %s %s not a pass and would need a "
+                 "known deviation (--propose FILE "
                  "writes %s down)",
                  j->proposed, j->is_new,
                  j->is_new == 1 ? "verdict of a new formulation" : "verdicts of new formulations",
@@ -213,7 +213,7 @@ static void expected_findings(const judgement *j, char *text, size_t size)
         add_part(text, size, &parts, ", ", part);
     }
     if (k.by_rule > 0) {
-        snprintf(part, sizeof part, "%d %s%s explained by a finding of the ledger", k.by_rule,
+        snprintf(part, sizeof part, "%d %s%s explained by a known deviation", k.by_rule,
                  derived > 0 ? "more " : "of them ", k.by_rule == 1 ? "is" : "are");
         add_part(text, size, &parts, ", ", part);
     }
@@ -243,7 +243,8 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
         snprintf(text, size, "%s: %s.", word, more);
     else
         snprintf(text, size, "%s: %s%s%s%s.", word, of,
-                 j->proposed > 0 ? "nothing that gates differs from what is expected"
-                                 : "every verdict is as expected",
+                 j->proposed > 0
+                     ? "nothing that affects the exit status differs from what is expected"
+                     : "every verdict is as expected",
                  more[0] != '\0' ? "; " : "", more);
 }

@@ -93,8 +93,8 @@ typedef struct sweep_request {
     int doublings;    /* so many meshes beyond the scene's finest, each of twice the elements */
     int formulations; /* restrict to these, or 0: all */
     const formulation *formulation;
-    int named; /* 1: these were asked for by name: they gate, also where the project has not
-                  accepted them yet */
+    int named; /* 1: these were asked for by name: they affect the exit status, also where the
+                  project has not accepted them yet */
     /* relative, in the place of those of the cases: who is within it passes; 0: those of the cases
      */
     double tolerance;

@@ -29,7 +29,8 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
     for (int i = ties; i < count && list[i].defect == NULL; i++)
         if (isfinite(list[i].cost) &&
             rounds_compare(time_of(s, &list[i]), time_of(s, &list[0])) < 0) {
-            fputs(told++ > 0 ? "; " : "; dearer by its counts, faster in every round: ", to);
+            fputs(told++ > 0 ? "; " : "; more expensive by its counts, faster in every round: ",
+                  to);
             way(to, s, &list[i]);
         }
 }

@@ -87,8 +87,8 @@ static void energy_line(FILE *to, const extent *e)
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
     fprintf(text,
-            "%.6g J at the end, %.6g J of it kinetic; work since the begin %.6g J, dissipated "
-            "%.3g J; what is missing is at most %.2g J",
+            "%.6g J at the end, %.6g J of it kinetic; work since the start %.6g J, dissipated "
+            "%.3g J; energy-balance error at most %.2g J",
             last->balance[SCENE_ENERGY], last->balance[SCENE_KINETIC], last->balance[SCENE_WORK],
             last->balance[SCENE_DISSIPATED], fabs(drift));
     if (size > 0 && drift != 0)
@@ -140,7 +140,7 @@ static void momentum_line(FILE *to, const extent *e)
     const int at = fprintf(to, "momenta: ");
     paragraph_say(to, at, INDENT,
                   "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they move by at most "
-                  "%.2g and %.2g from those at the begin",
+                  "%.2g and %.2g from those at the start",
                   length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
                   change_of(e, SCENE_LX));
 }

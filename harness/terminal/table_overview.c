@@ -205,7 +205,7 @@ static void print_legend(FILE *to, screen look, const overview *o)
     fprintf(to, "\nA mark is the worst verdict%s; its number: quantities that have it.\n",
             o->joined ? " over all parameters and options" : " over all parameters");
     if (o->accepted < o->columns)
-        fprintf(to, "(new): not accepted yet; its verdicts do not gate.\n");
+        fprintf(to, "(new): not accepted yet; its verdicts do not affect the exit status.\n");
 }
 
 void table_overview(FILE *to, screen look, const overview *o)

@@ -101,7 +101,7 @@ static void parts_of(FILE *to, const series *one, int mesh)
     else if (t->dense.unknowns > 0)
         fprintf(to, "    dense %ld x %.4g ms", iterations, 1e3 * t->dense.iteration);
     if (t->dense.unknowns > 0)
-        fprintf(to, " (%d unknowns): %.4g times ours\n", t->dense.unknowns,
+        fprintf(to, " (%d unknowns): %.4g times as long\n", t->dense.unknowns,
                 dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
 }
 

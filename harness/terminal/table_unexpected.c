@@ -139,7 +139,7 @@ static void print_flaw(FILE *to, const sweep *s, const flaw *c, int number)
     char what[32];
     snprintf(what, sizeof what, "n = %d", one->mesh[c->mesh]);
     print_subject(to, number, p, one, what);
-    paragraph_say(to, 0, INDENT, "contradicts itself: %s", c->why);
+    paragraph_say(to, 0, INDENT, "inconsistent run record: %s", c->why);
     print_command(to, p, one, NULL);
 }
 

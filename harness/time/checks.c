@@ -36,7 +36,7 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
         model_spreads(c->model, follows) != spreads)
         return fault_set(f, STATUS_REFUSED,
-                         "a motion goes on with the mass of the motion before it; give both "
+                         "a motion continues with the mass of the motion before it; give both "
                          "lumped or both consistent");
     return STATUS_OK;
 }

@@ -107,7 +107,7 @@ status resume_before(const analysis_context *c, int before, const outcome_end **
     const analysis_outcome *all = &c->outcomes[before];
     *out = &outcome_motion_of(all)->end;
     if (all->status != STATUS_OK || (*out)->value == NULL)
-        return fault_set(f, STATUS_NOT_CONVERGED, "the motion that this one goes on from: %s",
+        return fault_set(f, STATUS_NOT_CONVERGED, "the motion that this one continues: %s",
                          all->reason);
     return STATUS_OK;
 }
@@ -121,7 +121,7 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     if (here.states != e->states || here.coordinates != e->coordinates ||
         here.strains != e->strains || (e->released > 0 && e->released != instant_ends(c->model)))
         return fault_set(f, STATUS_REFUSED,
-                         "the motion that this one goes on from has %zu numbers, this mesh %zu: "
+                         "the motion that this one continues has %zu numbers, this mesh %zu: "
                          "take its formulation and elements",
                          e->states, here.states);
     const double *from = e->value;

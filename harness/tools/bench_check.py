@@ -54,13 +54,13 @@ def checks(program, folder):
     for cell in CELLS:
         slow = against(program, cell, cell[1], "--plant", "20")
         found = slow["outcome"] == "slower" and 1.15 < slow["ratio"] < 1.25
-        yield row("20 % planted, one process", cell, slow, found and not differing(slow))
+        yield row("20 % injected, one process", cell, slow, found and not differing(slow))
         same = against(program, cell, cell[1])
-        yield row("nothing planted, one process", cell, same, is_undecided(same))
+        yield row("nothing injected, one process", cell, same, is_undecided(same))
     same = against(program, CELLS[0], copy)
-    yield row("nothing planted, two programs", CELLS[0], same, is_undecided(same))
+    yield row("nothing injected, two programs", CELLS[0], same, is_undecided(same))
     more = against(program, KEPT, str(wrapper))
-    yield row("nothing left out by the other program", KEPT, more,
+    yield row("the other program keeps all degrees of freedom", KEPT, more,
               more["outcome"] == "slower" and "free" in differing(more))
 
 

@@ -6,7 +6,7 @@ usage: causes.py PROGRAM VERIFY_JSON -o FILE [--minutes M] [--rule RULE]...
 For each rule of the ledger and each case that it was seen in, the verdict whose limit is farthest
 from the truth is looked at again:
   finer      the same on more elements, up to 256;
-  without    with one feature of the scene left out (shear, trapeze, wagner, warping);
+  without    with one feature of the scene omitted (shear, trapeze, wagner, warping);
   instead    with a formulation that differs in one thing.
 A change that takes nine tenths of the error away shows where it comes from.  Limits, uncertainties
 and truths are the program's own; where a changed scene has no truth, the limit of collocation
@@ -218,7 +218,7 @@ def main():
     parser.add_argument("verdicts")
     parser.add_argument("-o", dest="out", required=True)
     parser.add_argument("--minutes", type=float, default=10, help="no series begins later")
-    parser.add_argument("--rule", action="append", help="this one only; again for another")
+    parser.add_argument("--rule", action="append", help="this one only; may be repeated")
     given = parser.parse_args()
     with open(given.verdicts, encoding="utf-8") as file:
         verdicts = [

@@ -10,7 +10,7 @@ endif
 lab: $(L:%=lab-%)
 	@$(if $(L),:,awk -F':.*## ' '/^lab-[a-z-]+:.*## /{printf "make lab L=%-17s %s\n", substr($$1, 5), $$2}' harness/tools/lab.mk)
 
-lab-bench-check: all ## plants work of known size: comparisons must find it, and nothing else; 2 minutes; build/bench_check.json
+lab-bench-check: all ## injects work of known size: comparisons must find it, and nothing else; 2 minutes; build/bench_check.json
 	@$(PYTHON) harness/tools/bench_check.py $(PROGRAM) -o $(BUILD)/bench_check.json
 
 ELEMENT_TIME := $(BUILD)/harness/model/test/element_time
@@ -24,10 +24,10 @@ lab-bench-mechanisms: all ## joint and hexapod: growth with the elements, parts 
 	@$(PROGRAM) bench spherical_joint -f sheet_third -f sheet_second -f collocation -n 1,2,4,8,16,32 --dense -o $(BUILD)/mechanisms_joint.h5
 	@$(PROGRAM) bench hexapod -f sheet_third -f sheet_second -f collocation -n 1,2 --dense -o $(BUILD)/mechanisms_hexapod.h5
 
-lab-blind-spots: verify $(PLANTED) ## the smallest fault in each stiffness, mass and load that the gate notices, by quantity and by formulation; 10 minutes; harness/blind_spots.csv, harness/planted_faults.csv
+lab-blind-spots: verify $(PLANTED) ## the smallest fault in each stiffness, mass and load that verify reports, by quantity and by formulation; 10 minutes; harness/blind_spots.csv, harness/planted_faults.csv
 	@BEAMWORK_TRUTHS=$(TRUTHS) $(PYTHON) harness/tools/blind_spots.py $(PLANTED) $(BUILD)/verify.json $(BUILD)/results.h5 reference/findings.csv -o harness/blind_spots.csv -p harness/planted_faults.csv
 
-lab-causes: all ## errors that the rules of the ledger allow beside those seen; experiments on the causes; 10 minutes; build/causes.json
+lab-causes: all ## errors that the known deviations allow next to those seen; experiments on the causes; 10 minutes; build/causes.json
 	@test -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@$(PYTHON) harness/tools/causes.py $(PROGRAM) $(BUILD)/verify.json -o $(BUILD)/causes.json
 	@$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv
@@ -39,7 +39,7 @@ lab-certificates: all ## holds every formulation against the interface, and meas
 lab-expense: verify needs-report ## what cells are expected to cost before they are solved, fitted to the counted work of verify; 2 minutes; harness/study/expense.csv
 	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv
 
-lab-faults: ## plants the faults of physics of harness/tools/faults.csv one by one; each must be noticed; 20 minutes; build/faults.json
+lab-faults: ## injects the faults of physics of harness/tools/faults.csv one by one; each must be noticed; 20 minutes; build/faults.json
 	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/mutate.py --physics >$(BUILD)/faults.list
 	@LIST=$(BUILD)/faults.list harness/tools/mutants.sh $(BUILD)/faults
 
@@ -57,7 +57,7 @@ lab-instructions: all ## what limits now: instructions of the parts of a solutio
 lab-motions: needs-truths all ## every stored value of motions in time beside limits of meshes, at all times; MOTIONS=--fine: finer ones, longer; 2 minutes; build/lab/motions.csv
 	@mkdir -p $(LAB) && $(PYTHON) harness/tools/motions.py $(PROGRAM) $(MOTIONS) -o $(LAB)/motions.csv
 
-lab-mutants: ## plants faults of one edit that are made, a fixed sample of all sources; MUTANTS=HEAD~1.. on lines that commits touched, MUTANTS='--count 500' more; an hour; build/lab/mutants.json
+lab-mutants: ## injects faults of one edit that are made, a fixed sample of all sources; MUTANTS=HEAD~1.. on lines that commits touched, MUTANTS='--count 500' more; an hour; build/lab/mutants.json
 	@mkdir -p $(LAB) && $(PYTHON) harness/tools/mutate.py $(MUTANTS) >$(LAB)/mutants.list
 	@LIST=$(LAB)/mutants.list harness/tools/mutants.sh $(LAB)/mutants
 

@@ -106,7 +106,7 @@ def main():
         out["left_out"] += left_out
         out["checks"].append(check)
         at = f" ({row['parameters']})" if row["parameters"] else ""
-        print(f"{row['case']}{at}: {len({r['formulation'] for r in tables['runs']})} formulations, soonest within {LEVEL:g}: "
+        print(f"{row['case']}{at}: {len({r['formulation'] for r in tables['runs']})} formulations, lowest cost within {LEVEL:g}: "
               f"{soonest(tables)}; reference: {word_of(check)}; {time.monotonic() - begin:.0f} s",
               flush=True)
     pathlib.Path(given.output).write_text(json.dumps(out), encoding="utf-8")

@@ -172,7 +172,7 @@ def write(path, cells, names, runs):
     said = [
         "# Seconds of one count on the reference machine, written by `make lab L=prices`. Count: a column"
         " of the table `cells`, or a product of two.",
-        "# formulation empty: of all; *: of those without prices of their own; `;` between options.",
+        "# formulation empty: of all; *: of those without cost coefficients of their own; `;` between options.",
         f"# {len(cells)} cells of {len({c['case'] for c in cells})} cases, least of {runs} runs;"
         " predicted by measured time, of cases that took no part: factor"
         f" {quantile(np.log(own / seconds), 0.5):.2f} in the median,"
@@ -180,7 +180,7 @@ def write(path, cells, names, runs):
         f"# Ratios of two formulations of a case, times within a factor {NEAR}:"
         f" {quantile(cost - time, 0.5):.2f} in the median, {quantile(cost - time, 0.9):.2f} for nine"
         f" of ten; from a ratio of {noise:.2f} on nine of ten are measured in that order: the noise.",
-        "# By the prices of any formulation (*), of formulations that took no part:"
+        "# By the cost coefficients of any formulation (*), of formulations that took no part:"
         f" {quantile(np.log(generic / seconds), 0.5):.2f} in the median,"
         f" {quantile(np.log(generic / seconds), 0.9):.2f} for nine of ten.",
         "formulation,count,seconds",

@@ -136,7 +136,7 @@ class Rotors(ProgramTest):
                 scene = JEFFCOTT % {**DEFAULT, "density": density, "omega": omega, "last": 3}
                 done = self.record("solve", "--scene", self.written(scene), "-f", "collocation", "-n", 2)
                 self.assertEqual([q["status"] for q in done["quantities"]], ["ok", "ok", "no_value", "no_value"])
-                self.assertIn("told from round-off", done["quantities"][2]["reason"])
+                self.assertIn("distinguishable from round-off", done["quantities"][2]["reason"])
 
     def test_speeds(self):
         """Below, next to and above the critical speed; a flat disc and a long one."""

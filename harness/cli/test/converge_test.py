@@ -99,7 +99,7 @@ class Forms(unittest.TestCase):
         wrong = [one for one in whole["answers"] if one["defect"]]
         self.assertTrue(wrong)
         self.assertTrue(all(one["rank"] == 0 and not one["tie"] for one in wrong))
-        self.assertIn("; also within 1 %, with a limit of its own: ", whole["sentence"])
+        self.assertIn("; also within 1 %, with a different limit: ", whole["sentence"])
         cheapest = whole["answers"][0]
         self.assertEqual(cheapest["defect"], "")
         self.assertLess(min(one["cost"] for one in wrong), cheapest["cost"])

@@ -228,7 +228,7 @@ class Gate(ProgramTest):
                               tolerance=float(tolerance.rstrip("%")) / (100 if "%" in tolerance else 1))
         self.assertIn("undecided", done.stdout[done.stdout.rfind("FAIL:"):])
         self.refused(2, "--tolerance '2'", "verify", *RUN, "--tolerance", "2")
-        self.assertIn("undecided is no pass", " ".join(run("verify", "--help").stdout.split()))
+        self.assertIn("undecided did not pass", " ".join(run("verify", "--help").stdout.split()))
 
     def test_loaded_without_a_name(self):
         done, files = self.verified("stiffness", named=())
@@ -262,7 +262,7 @@ class Gate(ProgramTest):
             self.assertEqual(report(files["h5"], site).returncode, 0)
             page = (pathlib.Path(site) / "index.html").read_text(encoding="utf-8")
             free = [each.name for each in pathlib.Path(site).rglob("*.html")
-                    if "not gating" in each.read_text(encoding="utf-8")]
+                    if "without effect on the exit status" in each.read_text(encoding="utf-8")]
         self.assertEqual(free, [])
         self.assertRegex(page, r"Outcome\.</strong> <span" + (">PASS:" if outcome == "pass" else r' class="wrong">FAIL:'))
 

@@ -57,7 +57,7 @@ class NotAccepted(ProgramTest):
         out = " ".join(self.verified("new").split())
         self.assertIn("(new)", out)
         for text in (out, " ".join(self.verified("new", "-q").split())):
-            self.assertRegex(text, r"nothing that gates differs from what is expected; not gated: "
+            self.assertRegex(text, r"nothing that affects the exit status differs from what is expected; without effect on the exit status: "
                              r"\d+ of \d+ verdicts of new formulations")
             self.assertNotIn("every verdict is as expected", text)
 
@@ -82,5 +82,5 @@ class NotAccepted(ProgramTest):
         for truths, code in (("accepted", 1), ("new", 0)):
             what = ("stress", "-k", f"slender_square and {NAME}", "--truths", self.truths[truths])
             out = self.answered(*what, code=code).stdout
-            self.assertEqual("which do not gate" in out, truths == "new", out)
+            self.assertEqual("which do not affect the exit status" in out, truths == "new", out)
             self.answered(*what, "-f", NAME, code=1)

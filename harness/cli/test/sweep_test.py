@@ -152,7 +152,7 @@ class References(ProgramTest):
         kind, *_, screen = self.kinds("elastica", "--vary", "load=1.25,1.5", "-f", "sheet_third",
                                       "-n", "2,4,8,16", "-k", "w_over_L")
         self.assertEqual(kind, [["limit of the meshes of all"]] * 2)
-        self.assertIn("the limit of its own meshes", screen)
+        self.assertIn("the limit from the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
         """A formulation without shear along one axis beside one that has it."""

@@ -85,7 +85,7 @@ class Import(ProgramTest):
             "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'",
             "C_xx_curve, m/N, 2,,,, 1,": "is a curve: give x",
             "C_zz, m/N, 2,,, 3, 1,": "is no curve: leave x empty",
-            "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is no number",
+            "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is not a number",
             "C_zz, m/N, 3,,,,,": "value is missing",
             "C_thz_Mz, rad/(N m), 2,,,, 1,": "what a moment does",
             "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"
@@ -307,7 +307,7 @@ class Import(ProgramTest):
             (("  u_x", "  u_xq"),
              "map.yaml:12: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"),
             (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"),
-                                                                 "is no number")):
+                                                                 "is not a number")):
             path.write_text(good.replace(*change), encoding="utf-8")
             said = self.mapped(path, DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt",
                                status=2).stderr

@@ -112,7 +112,7 @@ class Words(ProgramTest):
                          [r["error"] for r in record["runs"]])
         text = run(*asked).stdout
         self.assertIn("free_flight_space (time=7.5), collocation, n = 4, to 7.5 s", text)
-        self.assertIn("soonest to an error of 0.01, the first three:", text)
+        self.assertIn("lowest cost to an error of 0.01, the first three:", text)
 
     def test_consistent_mass_is_not_lumped_in_silence(self):
         """By an integrator that has it lumped only there is no motion, and no order of it."""
@@ -130,7 +130,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         for name in ("conserving", "explicit"):
             self.assertEqual(len(re.findall(rf"  {name} .*stops at 0 s", text)), 3, text)
             self.assertIn(f"the integrator {name} has lumped mass only", text)
-            self.assertIn(f"order of {name}: undecided, no errors that tell it", text)
+            self.assertIn(f"order of {name}: undecided, no errors that show it", text)
         self.assertNotIn("nan", text)
 
     def test_refusals(self):

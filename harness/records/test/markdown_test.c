@@ -135,7 +135,7 @@ int main(void)
     j.flaw = flaws;
     text = written(&s, &j);
     holds(text, "## beamwork: fail");
-    holds(text, "2 cells contradict themselves");
+    holds(text, "2 inconsistent run records");
     holds(text, "| case_of_test | **!c2** |\n");
     free(text);
 
@@ -143,7 +143,7 @@ int main(void)
     j = (judgement){.judged = 1, .breaches = 1, .breach = &broken};
     text = written(&s, &j);
     holds(text,
-          "## beamwork: fail\n\n**mine breaks the contract of the interface**: energy: it is none");
+          "## beamwork: fail\n\n**mine violates the interface requirements**: energy: it is none");
     free(text);
 
     j = (judgement){.verdicts = 0};

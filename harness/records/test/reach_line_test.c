@@ -135,7 +135,7 @@ static void not_every_quantity(void)
     b.s.seriess = 3;
     expect(&b, 0.01,
            "for 1 % in 1 of 3 quantities (without a reference: sway, tilt): red n = 4; blue n = 4; "
-           "green n = 4; without prices of its own: red, blue, green\n");
+           "green n = 4; without cost coefficients of its own: red, blue, green\n");
     b.s.seriess = 1;
     b.t.rows--;
     expect(&b, 0.01,
@@ -152,10 +152,12 @@ static void other_models(void)
     make(&b, 2 * price_noise);
     b.s.seriess = 1;
     add_model(&b, "agreement", 4);
-    expect(&b, 0.01, "for 1 % in every quantity: red n = 4; without prices of its own: red\n");
+    expect(&b, 0.01,
+           "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n");
     add_model(&b, "independent", 3.1);
     expect(&b, 0.01,
-           "for 1 % in every quantity: red n = 4; without prices of its own: red; of another model "
+           "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red; of "
+           "another model "
            "(solid, plate): up to 3.2 % off (load)\n");
     expect(&b, 1e-9,
            "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
@@ -163,7 +165,8 @@ static void other_models(void)
     b.s.seriess = 4;
     expect(&b, 0.2,
            "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-           "prices of its own: grey, red, blue, green; of another model (solid, plate): up to 6.5 "
+           "cost coefficients of its own: grey, red, blue, green; of another model (solid, plate): "
+           "up to 6.5 "
            "% off (load)\n");
     finish(&b);
 }
@@ -173,7 +176,8 @@ int main(void)
     bench b;
     make(&b, 2 * price_noise);
     expect(&b, 0.01,
-           "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without prices of its "
+           "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without cost "
+           "coefficients of its "
            "own: red, blue, green; not reached by grey (load: 10 %)\n");
     expect(&b, 1e-9,
            "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
@@ -182,10 +186,11 @@ int main(void)
     make(&b, 1 + (price_noise - 1) / 2);
     expect(&b, 0.2,
            "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-           "prices of its own: grey, red, blue, green\n");
+           "cost coefficients of its own: grey, red, blue, green\n");
     expect(&b, 0.03,
            "for 3 % in every quantity: red n = 2, blue n = 2: within noise of each other; green n "
-           "= 2; without prices of its own: red, blue, green; not reached by grey (load: 10 %)\n");
+           "= 2; without cost coefficients of its own: red, blue, green; not reached by grey "
+           "(load: 10 %)\n");
     finish(&b);
     not_every_quantity();
     other_models();

@@ -36,7 +36,7 @@ class Bench(ProgramTest):
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
         self.assertRegex(text, r"\b[uv] within 10\b[^%]* %: none that passes; also within it, with a "
-                               r"limit of its own: beamw, n = \d+, [\d.]+ ms")
+                               r"different limit: beamw, n = \d+, [\d.]+ ms")
         told = re.findall(r"(?m)^  (\S[\w, ]*) within ([\d., ]+) %: ", done.stdout)
         for name in {n for names, _ in told for n in names.split(", ")}:
             levels = [level for names, some in told if name in names.split(", ")

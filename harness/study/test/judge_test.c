@@ -23,7 +23,7 @@ static void limits(void)
     bench_says(&b, "converges to a wrong limit: -0.115 %");
     bench_fill(&b, 3 * (1 + 0.8e-4), 0.7, 2);
     bench_expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
-    bench_says(&b, "has a limit of its own within the tolerance: +0.008 %");
+    bench_says(&b, "has a different limit within the tolerance: +0.008 %");
     bench_fill(&b, 3 * (1 + 1.2e-4), 0.7, 2);
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "limit just outside, and sharp");
     bench_fill(&b, 3 * (1 + 2e-4), -6e-4 * 1024 * 0.9, 2);

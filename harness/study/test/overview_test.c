@@ -122,13 +122,12 @@ static void sentences(void)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 3 of them are limits off the truth (1 within the "
              "tolerance, 2 beyond it) just as derived for these formulations (beamwork explain "
-             "\"wrong limit, as predicted\"), 4 more are explained by a finding of the ledger.");
+             "\"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 7;
     says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them are limits off the "
              "truth (1 within the tolerance, 2 beyond it) just as derived for these formulations "
              "(beamwork "
-             "explain \"wrong limit, as predicted\"), 4 more are explained by a finding of the "
-             "ledger.");
+             "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 0;
     add(&r, 0, VERDICT_BIASED, 0, 1);
     says(&r, "FAIL: 1 verdict differs from the expected one.");
@@ -137,7 +136,8 @@ static void sentences(void)
     r.j.unobserved = 2;
     r.j.unmet = 1;
     says(&r, "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
-             "ones, 1 cell contradicts itself, 2 findings were not observed, 1 truth speaks of "
+             "ones, 1 inconsistent run record, 2 findings were not observed, 1 reference value "
+             "refers to "
              "nothing that exists.");
     r.j.judged = 0;
     says(&r, "");
@@ -155,27 +155,38 @@ static void single_ones(void)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the truth (0 within the "
              "tolerance, 1 beyond it) just as derived for its formulation (beamwork explain "
-             "\"wrong limit, as predicted\"), 1 more is explained by a finding of the ledger.");
+             "\"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
     make(&r);
     add(&r, 0, VERDICT_PASS, 1, 3);
     r.j.is_new = 2;
-    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not gate: "
-             "none needs a finding.");
+    says(&r, "PASS: every verdict is as expected; 2 are of new formulations, which do not affect "
+             "the exit status: "
+             "none needs a known deviation.");
     r.j.proposed = 1;
-    says(&r, "PASS: nothing that gates differs from what is expected; not gated: 1 of 2 verdicts "
-             "of new formulations is no pass and would need a finding (--propose FILE writes it "
+    says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
+             "effect on the exit status: "
+             "1 of 2 verdicts "
+             "of new formulations is not a pass and would need a known deviation (--propose FILE "
+             "writes it "
              "down).");
     r.j.proposed = 2;
-    says(&r, "PASS: nothing that gates differs from what is expected; not gated: 2 of 2 verdicts "
-             "of new formulations are no pass and would need a finding (--propose FILE writes them "
+    says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
+             "effect on the exit status: "
+             "2 of 2 verdicts "
+             "of new formulations are not a pass and would need a known deviation (--propose FILE "
+             "writes them "
              "down).");
     r.j.is_new = r.j.proposed = 1;
-    says(&r, "PASS: nothing that gates differs from what is expected; not gated: 1 of 1 verdict of "
-             "a new formulation is no pass and would need a finding (--propose FILE writes it "
+    says(&r, "PASS: nothing that affects the exit status differs from what is expected; without "
+             "effect on the exit status: "
+             "1 of 1 verdict of "
+             "a new formulation is not a pass and would need a known deviation (--propose FILE "
+             "writes it "
              "down).");
     r.j.proposed = 0;
-    says(&r, "PASS: every verdict is as expected; 1 is of a new formulation, which does not gate: "
-             "none needs a finding.");
+    says(&r, "PASS: every verdict is as expected; 1 is of a new formulation, which does not affect "
+             "the exit status: "
+             "none needs a known deviation.");
 }
 
 /* Formulations with options share columns where they are many. */

@@ -117,7 +117,7 @@ int main(void)
     b.j.flaws = 1;
     b.j.flaw = &b.c;
     holds(&b, "\n 3. made_up (length=2;width=3), element:order=3, n = 4\n"
-              "    contradicts itself: more steps than iterations\n");
+              "    inconsistent run record: more steps than iterations\n");
 
     b.j.unobserved = 1;
     b.known[0].missed = 1;

@@ -52,7 +52,7 @@ def whole_list(values, what):
     except TypeError:
         raise TypeError(f"{what}: a list is expected, not {values!r}") from None
     if not listed:
-        raise Refused(f"{what}: an empty list; leave it out for the scene's own")
+        raise Refused(f"{what}: an empty list; omit the argument for the scene's own")
     return ",".join(str(whole(v, what)) for v in listed).encode()
 
 

@@ -60,7 +60,7 @@ def written(value, where, depth=0):
 def name(key, where):
     """A key as it is written; from_, for_ and is_, which Python takes as keywords, without the _."""
     if not isinstance(key, str) or not key:
-        raise Refused(f"{where}: the key {key!r} is no name")
+        raise Refused(f"{where}: the key {key!r} is not a name")
     return quoted(key[:-1] if key in ("from_", "for_", "is_") else key, where)
 
 
