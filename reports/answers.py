@@ -139,7 +139,7 @@ def way(series, quantities, level):
 def words_of(v):
     """What a verdict that is not a pass says against a formulation."""
     if v.verdict in words.OWN_LIMITS:
-        return "with a limit of its own"
+        return "with a different limit"
     return {"low order": "of low order", "undecided": "with a limit that is not known"}.get(
         v.verdict, v.verdict)
 

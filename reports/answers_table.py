@@ -92,7 +92,7 @@ def sentence(answer):
     for words, ways in by_words.items():
         out += f"; also within {100 * answer.level:g} %, {words}: {told(ways)}"
     if answer.faster:
-        out += f"; dearer by its counts, measured faster in every round: {told(answer.faster)}"
+        out += f"; more expensive by its counts, measured faster in every round: {told(answer.faster)}"
     return out
 
 
@@ -123,10 +123,10 @@ def main():
         description="Which formulation, with how many elements, is within an error at least cost.")
     arguments.add_argument("results", help="as verify writes it")
     arguments.add_argument("--error", type=tolerance, action="append",
-                           help="0.3%% or 0.003; again for another (10, 1, 0.1, 0.01%%)")
+                           help="0.3%% or 0.003; may be repeated (10, 1, 0.1, 0.01%%)")
     arguments.add_argument("--format", choices=("text", "csv", "json"), default="text")
     arguments.add_argument("--all-points", action="store_true", help="not only the defaults")
-    arguments.add_argument("-k", "--case", action="append", help="this case only; again for another")
+    arguments.add_argument("-k", "--case", action="append", help="this case only; may be repeated")
     arguments.add_argument("-o", "--output", type=argparse.FileType("w"), default=sys.stdout)
     r = arguments.parse_args()
     try:

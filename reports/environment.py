@@ -9,13 +9,13 @@ NAVIGATION = [("environment.html", "environment")]
 OUTCOME = ("outcome", "sentence")  # of the run, which the first page says
 # (command of make, files that it leaves beside the results, what they add)
 ADDS = (
-    ("lab L=bench-check", ("bench_check.json", ), "planted work that the times must show"),
+    ("lab L=bench-check", ("bench_check.json", ), "injected work that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
      "times of the joint and the hexapod beside the published ones"),
-    ("lab L=causes", ("causes.json", ), "experiments on the causes of the ledger"),
+    ("lab L=causes", ("causes.json", ), "experiments on the causes of known deviations"),
     ("lab L=newton", ("newton.json", ), "Newton with stresses as unknowns beside displacements only"),
     ("lab L=paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
-    ("lab L=faults", ("faults.json", ), "planted faults"),
+    ("lab L=faults", ("faults.json", ), "injected faults"),
     ("lab L=fuzz", ("fuzz.json", ), "any bytes as input"),
 )
 # (command of make, experiment whose group it leaves in the results, what it adds)

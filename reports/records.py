@@ -109,14 +109,14 @@ class Series:
     imported: str = ""  # file of another program that it was read from
     model: str = "beam"
     unranked: str = ""  # why its costs rank nothing: derivatives by differences, another process
-    is_new: bool = False  # not accepted yet: its verdicts do not gate
+    is_new: bool = False  # not accepted yet: its verdicts do not affect the exit status
     other: str = ""  # physics that it leaves out where that matters: another model
     without: str = ""  # what it leaves out, and what that changes
 
     @property
     def marks(self):
         """What is said wherever its name stands."""
-        return "; ".join(filter(None, (self.unranked, "new, not gating" if self.is_new else "")))
+        return "; ".join(filter(None, (self.unranked, "new, without effect on the exit status" if self.is_new else "")))
 
     @property
     def label(self):

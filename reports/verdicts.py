@@ -16,7 +16,7 @@ KINDS = (
     Kind("pass", "✓", "pass", "the limit is the truth as far as both are known"),
     Kind("low order", "↓", "other", "the limit is the truth, approached more slowly than need be"),
     Kind("undecided", "~", "other", "the limit is not known well enough to say more"),
-    Kind("biased", "≈", "other", "within the tolerance, but surely a limit of its own"),
+    Kind("biased", "≈", "other", "within the tolerance, but significantly different from the reference value"),
     Kind(
         "biased, as predicted",
         "≅",
@@ -29,7 +29,7 @@ KINDS = (
         "known",
         "a limit of its own beyond the tolerance, derived for the form as printed: the program does what is printed",
     ),
-    Kind("wrong limit", "≠", "wrong", "a limit that is surely beyond the tolerance"),
+    Kind("wrong limit", "≠", "wrong", "a limit that is significantly beyond the tolerance"),
     Kind("refused", "R", "other", "the finest mesh was refused, with its reason"),
     Kind("diverged", "✗", "wrong", "the finest mesh has no value"),
     Kind("skip", "·", "skip", "needs what the formulation does not offer"),

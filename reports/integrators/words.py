@@ -48,7 +48,7 @@ def trust(problems, noise):
     unread = len(best) - passed
     told = (f"; of {passed} the order of the scheme is confirmed, of {unread} it cannot be read"
             if unread else ", and the order of the scheme is confirmed")
-    return (f"These {len(best)} answers can be believed: errors are measured on the same mesh "
+    return (f"These {len(best)} answers are verified: errors are measured on the same mesh "
             f"against a reference that is closer than they are{told}.")
 
 
@@ -56,8 +56,8 @@ def first(problems, noise):
     """The first sentences of the page."""
     told = answers.judged(problems)
     if not told:
-        return "No run of these results tells an error of time."
-    where = (f"{told[0].name}: soonest is" if len(told) == 1 else
+        return "No run of these results has an error of time."
+    where = (f"{told[0].name}: lowest cost" if len(told) == 1 else
              f"Of {len(told)} problems (a case with a formulation) soonest is")
     levels = "; ".join(soonest(told, level, noise) for level in answers.LEVELS)
     return f"{where} {levels}. {trust(told, noise)}"

@@ -46,7 +46,7 @@ def momenta(motion):
 def sentence(motion, how):
     """One motion in one sentence."""
     rejected = int(motion.columns["rejected"].sum())
-    tries = (f" ({rejected} longer {'one' if rejected == 1 else 'ones'} tried in vain)"
+    tries = (f" ({rejected} longer {'one' if rejected == 1 else 'ones'} rejected)"
              if rejected else "")
     drift = float(np.abs(motion.drift).max())
     name = scheme(how)
@@ -65,7 +65,7 @@ def between(values, form):
 
 def whenever(meaning):
     """What a quantity is, without the instant at which it is read."""
-    return re.sub(r", \S+ s after the begin of the motion", "", meaning)
+    return re.sub(r", \S+ s after the start of the motion", "", meaning)
 
 
 def spread(motions):

@@ -90,7 +90,7 @@ class Page(ProgramTest):
                                             program=sys.executable, cwd=ROOT).stderr)
 
     def test_what_has_no_prices_is_told(self):
-        self.assertNotIn("Without prices of their own", self.page)
+        self.assertNotIn("Without cost coefficients of their own", self.page)
         for mesh in self.cases[0].points[0].series[0].meshes:
             mesh.priced = False
         site = Site(cases=self.cases)

@@ -126,8 +126,8 @@ class Pages(ProgramTest):
 
     def test_the_scene_is_first(self):
         for name, page in self.pages.items():
-            self.assertLess(page.index(f'id="{name}_scene"'), page.index("What is asked"))
-            self.assertLess(page.index("What is asked"), page.index("Which formulation?"))
+            self.assertLess(page.index(f'id="{name}_scene"'), page.index("<h2>Quantities"))
+            self.assertLess(page.index("<h2>Quantities"), page.index("Which formulation?"))
 
     def test_every_quantity_is_explained(self):
         for one in self.cases:

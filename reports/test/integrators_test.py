@@ -130,7 +130,7 @@ class Words(unittest.TestCase):
             told = {s: int(n) for s, n in re.findall(r"(\w+) in (\d+)", said)}
             self.assertEqual(told, {s: n for s, n in count.items() if 2 * n >= max(count.values())})
             self.assertTrue(said.endswith(f"of {reached}"), said)
-        self.assertIn("12 answers can be believed", text)
+        self.assertIn("12 answers are verified", text)
 
     def test_one_problem(self):
         """The step stands in the sentence."""

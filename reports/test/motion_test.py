@@ -53,7 +53,7 @@ class Words(unittest.TestCase):
         found = motion()
         found.columns["step"][1] = 0.001
         found.columns["rejected"][3] = 2
-        self.assertIn("400 steps of 0.001 to 0.005 s (2 longer ones tried in vain)",
+        self.assertIn("400 steps of 0.001 to 0.005 s (2 longer ones rejected)",
                       words.sentence(found, {}))
 
     def test_spread(self):
@@ -221,7 +221,7 @@ class Truths(ProgramTest):
     def test_words(self):
         self.assertEqual(words.between([2.04e-5, 1.96e-5], "{:.0e}"), "2e-05")
         self.assertEqual(words.between([1, 3], "{:.1f}"), "1.0 to 3.0")
-        self.assertEqual(words.whenever("displacement of a along x, 0.125 s after the begin of the "
+        self.assertEqual(words.whenever("displacement of a along x, 0.125 s after the start of the "
                                         "motion, plus 1"), "displacement of a along x, plus 1")
 
     def test_stored_truths_are_read(self):
