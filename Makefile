@@ -61,12 +61,12 @@ $(call in_order,$(MAKECMDGOALS))
 endif
 
 # Where nothing is compiled here, the compiler's part is not looked for.
-QUIET := $(if $(filter-out help clean format format-check $(if $(filter-out mutants faults,$(L)),,lab),$(or $(MAKECMDGOALS),$(if $(DEBUG),all,help))),,1)
+QUIET := $(if $(filter-out help clean format format-check words $(if $(filter-out mutants faults,$(L)),,lab),$(or $(MAKECMDGOALS),$(if $(DEBUG),all,help))),,1)
 ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify docs test tests stress bench layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify docs words test tests stress bench layers asan tidy format format-check check clean report truths FORCE
 .DEFAULT_GOAL := $(if $(DEBUG),all,help)
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -174,6 +174,10 @@ tidy: needs-layout
 # Rewrites the C sources in the house's layout.
 format: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 -i
+
+# Rows of WORDS in words.py: pattern, what to write instead.
+words: ## check texts that users read, documentation and comments for words to avoid; prints what to write instead
+	@$(PYTHON) harness/tools/words.py
 
 format-check: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 --dry-run -Werror

@@ -1,0 +1,206 @@
+"""Checks texts for private words: prints FILE:LINE: WORD (CONTEXT): what to write instead.
+
+usage: words.py [--counts] [FILE ...]
+
+Without a file: every file that git tracks, test folders excepted. Texts are strings of C and
+Python, templates, scene files and help lines of the Makefile ("shown"), Markdown ("docs") and
+comments. A line with `words: ok (REASON)` is not checked. Exit status 1 when a text that is shown
+or a page has a hit, or comments have more hits of a pattern than its row of WORDS allows. --counts
+prints the number of hits of each pattern instead.
+"""
+import csv
+import io
+import pathlib
+import re
+import subprocess
+import sys
+import tokenize
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KINDS = ("shown", "docs", "comments")
+# Pattern, what to write instead, hits that comments may still have (lower the number when it falls).
+WORDS = (
+    (r"\bsoonest\b", "at the lowest cost; fastest", 16),
+    (r"\b(told|tells?)\b", "reports, prints; told apart: distinguished", 121),
+    (r"\bleft out\b", "default; eliminated; omitted; not shown", 89),
+    (r"\bleave (it|them|one|some) out\b", "remove it", 1),
+    (r"\blimits? of (its|their) own\b|\bown limits?\b", "different limit, biased limit", 8),
+    (r"\b(ours|one's own)\b", "your; user-defined; name the variant", 42),
+    (r"\b(the|its|at|since the|of the) begin\b", "start; t = 0", 45),
+    (r"\bmend(s|ed|ing)?\b", "fix, correct", 4),
+    (r"\bin vain\b", "rejected", 3),
+    (r"\bsurely\b", "significantly", 6),
+    (r"\bbelieve[ds]?\b", "verified; checked", 14),
+    (r"\bdoubt(s|ed)?\b", "uncertainty; not known to", 18),
+    (r"\b(nobody|somebody)\b", "by default; the user; no program", 68),
+    (r"\b(he|his|him)\b", "it, its", 4),
+    (r"\bwho (is|are|can|has|was)\b", "which formulation", 14),
+    (r"\b(is|are|what is) no (number|pass|case|name|grid)\b", "NaN or Inf; did not pass; unknown", 16),
+    (r"\bledger\b(?!\\\")", "list of known deviations", 36),
+    (r"\brooms? (above|below)\b|\b(a|this|every) room\b|^Rooms\b", "folder", 2),
+    (r"\b(the|this) house\b", "the source code", 5),
+    (r"(?<!beamwork-)\bseal(ed|s)?\b", "checksum", 0),
+    (r"(?<![=/])\b(prices?|priced|unpriced)\b(?!\.csv)", "cost coefficients", 28),
+    (r"\bagain for another\b", "may be repeated", 0),
+    (r"\bcontest(s|ants?)?\b", "compared program or formulation; comparison", 13),
+    (r"(?<!-)\bplant(s|ed|ing)?\b(?!\.c)", "inject, injected", 12),
+    (r"\bcontradicts? (itself|themselves|it|what)\b", "inconsistent", 3),
+    (r"\bspeaks? of\b", "applies to, refers to", 28),
+    (r"\bwithout end\b", "as n tends to infinity", 0),
+    (r"\b(dealt|deals? (out|them|to))\b", "assigned", 1),
+    (r"(?<!-)\bgates?\b|\bgated\b|\bgating\b", "counts towards the exit status", 26),
+    (r"\bwhat (is|are|was|were) (driven|held|asked|wanted|left|missing|released)\b",
+     "prescribed, fixed, requested, missing", 89),
+    (r"\bdear(er|est)?\b", "more expensive", 14),
+    (r"\bgo(es)? on\b", "continues, resumes", 46),
+    (r"\bas cheap\b", "tie", 1),
+    (r"\bknown to no better than\b", "uncertainty", 1),
+)
+ANY = re.compile("|".join(pattern for pattern, *_ in WORDS), re.I)
+EXEMPT = "words: ok ("
+# This table, what the fault programs search for in code, logs of experiments.
+SKIPPED = re.compile(r"(^|/)(test|tests)/|^harness/tools/(words\.py|faults\.csv)$|^CHANGELOG\.md$")
+C_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
+
+
+def c_texts(text):
+    """(line, kind, text) of strings and comments; adjacent strings and line comments are one."""
+    parts, end = [], 0
+    for match in C_TOKEN.finditer(text):
+        token = match.group()
+        line = text.count("\n", 0, match.start()) + 1
+        if token[0] == "'":
+            continue
+        kind = "comments" if token[0] == "/" else "shown"
+        content = token[1:-1] if kind == "shown" else token.strip("/* ").replace("\n", " \n") + " "
+        joins = parts and parts[-1][1] == kind and not text[end:match.start()].strip()
+        if kind == "shown" and text[text.rfind("\n", 0, match.start()) + 1:match.start()].lstrip().startswith("#include"):
+            continue
+        if joins:
+            parts[-1][2].append((line, content))
+        else:
+            parts.append((line, kind, [(line, content)]))
+        end = match.end()
+    for _, kind, pieces in parts:
+        yield kind, pieces
+
+
+def python_texts(text):
+    """As c_texts; a string that is a statement is a comment."""
+    previous = tokenize.NEWLINE
+    pieces, kind = [], "shown"
+    starts = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENCODING, tokenize.NL)
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.STRING or tokenize.tok_name[token.type] == "FSTRING_MIDDLE":
+            if not pieces:
+                kind = "comments" if previous in starts else "shown"
+            text = re.sub(r"\{[^{}\n]*\}", "{}", token.string) if "f" in token.string[:2] else token.string
+            for offset, row in enumerate(text.split("\n")):
+                pieces.append((token.start[0] + offset, row.strip("\"'") + " " * (offset > 0)))
+        elif token.type == tokenize.COMMENT:
+            yield "comments", [(token.start[0], token.string.lstrip("# "))]
+        elif token.type != tokenize.NL and pieces:
+            yield kind, pieces
+            pieces = []
+        if token.type != tokenize.COMMENT:
+            previous = token.type
+
+
+def hash_texts(kind):
+    """Lines of scripts: comments only. Of the Makefile and scene files `kind` is shown."""
+    def texts(text):
+        for number, line in enumerate(text.split("\n"), 1):
+            found = re.search(r"(^|\s)#+\s?(.*)", line)
+            if found:
+                helps = found.group().strip().startswith("##")
+                yield "shown" if helps else "comments", [(number, found.group(2))]
+            if kind == "shown":
+                yield kind, [(number, line[:found.start()] if found else line)]
+    return texts
+
+
+def line_texts(kind):
+    """Every line, without code and names of files; of code in templates the strings."""
+    code = re.compile(r'`[^`]*`|^ *also called:.*|<code>.*?</code>|\b(href|id|class|name)="[^"]*"')
+    strings = re.compile(r'"[^"]*\s[^"]*"')
+
+    def texts(text):
+        for number, line in enumerate(text.split("\n"), 1):
+            line = re.sub(r"\{[{%].*?[%}]\}", lambda m: "{" + " ".join(strings.findall(m.group())) + "}", line)
+            yield kind, [(number, code.sub("` `", line))]
+    return texts
+
+
+def table_texts(text):
+    """Fields of more than one word; lists of names (a|b) are not."""
+    for number, line in enumerate(text.split("\n"), 1):
+        for field in next(csv.reader([line]), ()):
+            if "|" not in field:
+                yield "shown", [(number, field)]
+
+
+READERS = {".c": c_texts, ".h": c_texts, ".py": python_texts, ".md": line_texts("docs"),
+           ".html": line_texts("shown"), ".yaml": hash_texts("shown"), ".csv": table_texts,
+           ".sh": hash_texts("comments"), ".mk": hash_texts("comments"), "": hash_texts("comments")}
+
+
+def hits(name, text):
+    """(kind, pattern, line, word, context, remedy) of every hit in a text named `name`."""
+    reader = READERS.get(pathlib.PurePath(name).suffix)
+    if reader is None:
+        return
+    lines = text.split("\n")
+    for kind, pieces in reader(text):
+        whole = "".join(piece for _, piece in pieces)
+        if not ANY.search(whole):
+            continue
+        if kind == "shown" and not re.search(r"\s", whole.strip()):
+            continue  # names of options, keys, files
+        for pattern, remedy, _ in WORDS:
+            for match in re.finditer(pattern, whole, re.I):
+                line, length = pieces[0][0], 0
+                for line, piece in pieces:
+                    length += len(piece)
+                    if match.start() < length:
+                        break
+                line += whole[length - len(piece):match.start()].count("\n")
+                if EXEMPT not in lines[line - 1]:
+                    context = whole[max(0, match.start() - 40):match.end() + 40]
+                    yield kind, pattern, line, match.group(), " ".join(context.split()), remedy
+
+
+def tracked():
+    """Names of files that are checked."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files"], check=True, capture_output=True,
+                            text=True).stdout.splitlines()
+    return [name for name in listed if not SKIPPED.search(name) and (ROOT / name).exists()]
+
+
+def main(arguments):
+    counts = "--counts" in arguments
+    chosen = [name for name in arguments if name != "--counts"]
+    found = {}
+    for name in chosen or tracked():
+        path = pathlib.Path(name) if chosen else ROOT / name
+        for kind, pattern, *rest in hits(name, path.read_text(encoding="utf-8")):
+            found.setdefault((pattern, kind), []).append((name, *rest))
+    if counts:
+        for pattern, *_ in WORDS:
+            print(*(f"{len(found.get((pattern, kind), ())):5}" for kind in KINDS), pattern)
+        print(*(f"{sum(len(v) for k, v in found.items() if k[1] == kind):5}" for kind in KINDS), "all")
+        return 0
+    allowed = {} if chosen else {(pattern, "comments"): most for pattern, _, most in WORDS}
+    bad = 0
+    for (pattern, kind), places in found.items():
+        most = allowed.get((pattern, kind), 0)
+        if len(places) > most:
+            bad += 1
+            for name, line, word, context, remedy in places:
+                print(f"{name}:{line}: {word} ({context}): write {remedy}")
+            if most:
+                print(f"{len(places)} of these in comments, {most} are allowed")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
