@@ -59,7 +59,7 @@ WORDS = (
 ANY = re.compile("|".join(pattern for pattern, *_ in WORDS), re.I)
 EXEMPT = "words: ok ("
 # This table, what the fault programs search for in code, logs of experiments.
-SKIPPED = re.compile(r"(^|/)(test|tests)/|^harness/tools/(words\.py|faults\.csv)$|^CHANGELOG\.md$")
+SKIPPED = re.compile(r"(^|/)(test|tests)/|^harness/tools/(words\.py|faults\.csv)$")
 C_TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
 
