@@ -66,7 +66,7 @@ static const verb_option own[] = {
     {"output", 'o', "FILE",
      "into that file of results in HDF5, beside what other experiments left there", IN(output),
      .traits = OPTION_OUTPUT},
-    {"dense", 0, NULL, "time the published algorithm (newton=dense) beside every cell", IN(dense)},
+    {"dense", 0, NULL, "also time the published algorithm (newton=dense) on every mesh", IN(dense)},
     {"against", 0, "OTHER",
      "compare in alternation with another formulation (without -n: at equal error), or with "
      "another program (a path with a '/': at equal n)",
@@ -86,7 +86,7 @@ static const verb_group shared[] = {
 const verb verb_bench = {
     "bench",
     "[CASE...]",
-    "error against run time: the cheapest way to an error",
+    "error against run time, and the lowest cost for an error",
     "Times every formulation and mesh of the cases named (or, without one, of all cases at all "
     "parameter points that have a truth, selected with -k): the least of enough repetitions in "
     "five alternating rounds on one processor, set-up and solution apart, with the error. Times "

@@ -36,12 +36,12 @@ static status read_either(const verb_option *o, void *member, const char *value,
 
 static const verb_option packed_truths[] = {
     {"truths", 0, "FILE",
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program)",
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program)",
      .traits = OPTION_INPUT},
     {0}};
 static const verb_option own_truths[] = {
     {"truths", 0, "FILE",
-     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 beside the program); a FILE.csv: "
+     "packed truths (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); a FILE.csv: "
      "reference values of your own in addition; may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
     {0}};
@@ -327,7 +327,7 @@ static void close(void *group)
 static const verb_option both[] = {
     {"set", 's', "NAME=VALUE", "value of a case parameter (SI); may be repeated",
      .member = offsetof(case_options, set), .traits = OPTION_REPEATS, .read = read_assignment},
-    {"scene", 0, "FILE", "a scene of your own in YAML, in the place of a case",
+    {"scene", 0, "FILE", "your scene file (YAML) instead of a case",
      .member = offsetof(case_options, scene_path), .traits = OPTION_INPUT},
     {0}};
 const option_group options_case = {both, begin, end, close};

@@ -41,7 +41,8 @@ static status export(const export_request *r, const case_type *type, scene *s, f
 {
     char of[PARAMETERS_TEXT + PATH_MAX];
     if (r->to == NULL || strcmp(r->to, "calculix") != 0)
-        return fault_set(f, STATUS_REFUSED, "which program is the deck for? Say --to calculix");
+        return fault_set(f, STATUS_REFUSED,
+                         "the program of the deck is missing; add --to calculix");
     if (r->meshes.count > 1)
         return fault_set(f, STATUS_REFUSED, "a deck has one mesh; give one number with -n");
     TRY(files_check(r->of.line, 0, NULL, f));

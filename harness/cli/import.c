@@ -122,7 +122,7 @@ static const verb_group shared[] = {SHARED(output, output), SHARED(format, forma
 const verb verb_import = {
     "import",
     "FILE...",
-    "what other programs found, for 'verify --beside'",
+    "results of other programs, for 'verify --beside'",
     "Reads what other programs found of a case or scene: CSV with a declared header "
     "(harness/exchange/import.md). Names, units and parameters are checked, values converted; -o "
     "FILE is of the same schema as results of verify, whose --beside takes it as one more "

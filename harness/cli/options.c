@@ -287,7 +287,7 @@ static const verb_option reports[] = {
      offsetof(report_options, propose), OPTION_OUTPUT, .read = NULL},
     {0}};
 static const verb_option solver[] = {
-    {"keep-all", 0, NULL, "leave nothing out: same answer, more work",
+    {"keep-all", 0, NULL, "keep all degrees of freedom: same answer, more work",
      .member = offsetof(solver_options, keep_all)},
     {"threads", 0, "N",
      "threads that share the loop over elements (default 1); results are the same",

@@ -220,8 +220,7 @@ static status check_matrices(const solve_request *r, const scene *s, fault *f)
 static status prepare(solve_request *r, const case_type *type, work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
-        return fault_set(f, STATUS_REFUSED,
-                         "--error is met by the choice of the mesh: remove it, or %s",
+        return fault_set(f, STATUS_REFUSED, "--error chooses the mesh: remove it, or %s",
                          r->meshes.count > 0 ? "-n" : "--restart");
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
@@ -313,13 +312,13 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(solve_request, at)
 static const verb_option own[] = {
-    {"error", 0, "R", "change from mesh to mesh that counts as none (default 0.1%)", IN(error),
+    {"error", 0, "R", "change from mesh to mesh that is negligible (default 0.1%)", IN(error),
      .read = option_error},
     {"steps", 0, "N",
-     "load steps between two stations of a path, to begin with; longer where that goes well",
-     IN(steps), .least = 1, .most = 1000000},
+     "initial number of load steps between two stations of a path; the step size adapts", IN(steps),
+     .least = 1, .most = 1000000},
     {"shapes", 0, "[STATES]",
-     "store centre lines, sections and resultants of at most so many states of a path (default: "
+     "store centre lines, sections and resultants of at most STATES states of a path (default: "
      "all), and as many frames of a motion, evenly over its time (60 by default or at "
      "most 5); -o FILE becomes HDF5 for ParaView",
      IN(shapes), .least = 1, .most = SHAPES_ALL},

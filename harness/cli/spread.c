@@ -136,7 +136,7 @@ static const verb_option shards[] = {
      "only "
      "missing batches",
      .member = offsetof(shard_options, shard), .traits = OPTION_ASIDE},
-    {"into", 0, "FOLDER", "of the batches of --shard (without it: of all); it is made",
+    {"into", 0, "FOLDER", "folder of the batches of --shard (without it: of all); it is created",
      .member = offsetof(shard_options, into), .traits = OPTION_ASIDE},
     {"from", 0, "FOLDER",
      "take the batches that are there instead of computing, as 'beamwork merge' does; may be "

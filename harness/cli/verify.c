@@ -240,9 +240,10 @@ static int answer(const command_line *l, void *request)
 static const verb_option own[] = {
     {"output", 'o', "FILE", "results as HDF5", IN(output), .traits = OPTION_OUTPUT},
     {"scene", 0, "FILE",
-     "a scene of your own in YAML in the place of a case, or a folder of them; may be repeated",
+     "your scene file (YAML) instead of a case, or a folder of them; may be repeated",
      IN(scenes.scene), .traits = OPTION_REPEATS | OPTION_INPUT},
-    {"built-in", 0, NULL, "the built-in cases beside those of --scene", IN(scenes.built_in)},
+    {"built-in", 0, NULL, "the built-in cases in addition to those of --scene",
+     IN(scenes.built_in)},
     {"findings", 0, "FILE.csv",
      "known deviations of your own in addition to those listed; may be repeated",
      IN(scenes.findings), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
@@ -252,27 +253,26 @@ static const verb_option own[] = {
      IN(beside), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
     {"gate", 0, NULL, "verdicts of --beside affect the exit status too", IN(gate)},
     {"shapes", 0, "[STATES]",
-     "store centre lines, sections and resultants of at most so many states of a path (default: "
+     "store centre lines, sections and resultants of at most STATES states of a path (default: "
      "5), and 60 frames of a motion, evenly over its time",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
     {"doublings", 0, "N",
-     "so many more meshes of each series, each of twice the elements: do the verdicts stand?",
+     "N more meshes of each series, each with twice the elements: are the verdicts the same?",
      IN(doublings), .least = 1, .most = 10},
     {"tolerance", 0, "R",
      "limits within R (1% or 0.01) of the reference value pass: in place of the tolerances of the "
-     "cases, and whatever their order",
+     "cases, for any order of convergence",
      IN(tolerance), .traits = OPTION_VERDICT, .read = option_error},
     {"not-worse-than", 0, "FILE",
      "results of a former 'verify -o', or the short table of them that 'compare FILE -o' writes: "
      "fail where the error of any mesh is larger than there by more than 2 %, its value is gone, "
      "or a limit has moved by more than 0.001 % that no exact value judges as closely",
      IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
-    {"exit-zero", 0, NULL,
-     "explore: exit status 0 whatever the verdicts are; files say how it ended as ever",
-     IN(exit_zero), .traits = OPTION_ASIDE},
-    {"verbose", 'v', NULL, "every limit, not only the overview", IN(verbose),
+    {"exit-zero", 0, NULL, "exit status 0 for any verdicts; files have the outcome", IN(exit_zero),
      .traits = OPTION_ASIDE},
-    {"quiet", 'q', NULL, "only what is unexpected, and the last sentence", IN(shards.quiet),
+    {"verbose", 'v', NULL, "print every limit, not only the overview", IN(verbose),
+     .traits = OPTION_ASIDE},
+    {"quiet", 'q', NULL, "print only unexpected verdicts, and the last sentence", IN(shards.quiet),
      .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {
@@ -282,19 +282,20 @@ static const verb_group shared[] = {
 const verb verb_verify = {
     "verify",
     "",
-    "every formulation on every case, judged against stored truths",
-    "Judges every formulation on every case and parameter point that has a truth. A formulation "
-    "that -f names or --element loads counts: against the known deviations that are its own, "
-    "which may be none, and by the contract of the interface (element-test), which is looked at "
-    "first. A formulation of the tree that is not accepted yet counts only where it is named. "
-    "--tolerance and --not-worse-than are terms of your own. Exit status: 0 every verdict as "
-    "expected, 1 one differs or an interface requirement is violated (undecided did not pass: it "
-    "counts as one that "
-    "differs unless a finding expects it, and more meshes, --doublings, or a larger --tolerance "
-    "may decide it), 2 refused, 3 nothing was judged, 4 file, disk or memory, 5 interrupted "
-    "(Ctrl-C, SIGTERM): what was judged until then is in files named .partial; with --exit-zero 0 "
-    "in the place of 1 and 3. With --shard K/N --into FOLDER: computes a part, 0 when all of it is "
-    "there, 5 when some is missing (start it again); 'beamwork merge' judges",
+    "every formulation on every case, with verdicts against stored reference values",
+    "Computes every formulation on every case and parameter point that has a reference value, and "
+    "assigns verdicts. A formulation that -f names or --element loads affects the exit status: its "
+    "own known deviations apply (--findings; none by default), and the interface requirements are "
+    "checked first (element-test). A formulation of the tree that is not accepted yet affects it "
+    "only where it is named. Exit status: 0 every verdict as expected; 1 a verdict differs, or an "
+    "interface requirement is violated (undecided did not pass: it differs unless a known "
+    "deviation "
+    "expects it; more meshes, --doublings, or a larger --tolerance may decide it); 2 invalid "
+    "input; "
+    "3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, SIGTERM): finished verdicts are "
+    "in files named .partial. With --exit-zero 0 instead of 1 and 3. With --shard K/N --into "
+    "FOLDER: computes a part, 0 when it is complete, 5 when batches are missing (start it again); "
+    "'beamwork merge' assigns the verdicts",
     "beamwork verify -k \"c_column and collocation\"\n"
     "beamwork verify --shard 1/4 --into parts\n"
     "beamwork verify -o build/results.h5",
