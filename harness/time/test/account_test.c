@@ -8,60 +8,15 @@
 
 extern const case_type case_free_flight_space, case_elbow;
 
-enum { INTEGRATOR, STEP, TOLERANCE, KIND, RADIUS, PARAMETERS };
-typedef enum kind { FREE, DRIVEN, TURNED, DAMPED, FOLLOWED, PARTED, KINDS } kind;
-static const char *const kind_name[] = {"free",   "driven base", "turned base",
-                                        "damped", "follower",    "goes on"};
-
-static void drive(scene *s, int node, int component, const char *name, const char *function)
-{
-    const int driver = scene_add_moving_driver(s, name);
-    scene_drive_piece(s, driver, 0, function);
-    scene_drive(s, node, component, driver);
-}
-
-static status build(const double value[], scene *s, fault *f)
-{
-    static const double middle[] = {0.6}, end[] = {1};
-    const kind of_kind = (kind)value[KIND];
-    (void)f;
-    const swung of = swung_build(s);
-    scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]);
-    how.tolerance = value[TOLERANCE];
-    how.alpha = scene_alpha_of_radius(value[RADIUS]);
-    if (of_kind == DRIVEN || of_kind == TURNED) {
-        how.start = (scene_start){.spin = {0}};
-        scene_hold(s, of.base, SCENE_UX, SCENE_RZ);
-    }
-    if (of_kind == DRIVEN)
-        drive(s, of.base, SCENE_UY, "shift", "0.4*t^4");
-    if (of_kind == TURNED)
-        drive(s, of.base, SCENE_RZ, "turn", "1.5*t^4");
-    if (of_kind == DAMPED)
-        scene_member_at(s, of.member)->damping = 0.05;
-    if (of_kind == FOLLOWED) {
-        const int load = scene_add_load(s, SCENE_FORCE, of.tip, 0.5, -1, 2);
-        scene_load_piece(s, load, 0, "sin(2*t)");
-        scene_load_at(s, load)->follower = 1;
-    }
-    int motion = SCENE_NONE;
-    if (of_kind == PARTED) {
-        motion = scene_add_motion(s, motion, 1, middle, how);
-        how.start = (scene_start){.spin = {0}};
-    }
-    motion = scene_add_motion(s, motion, 1, end, how);
-    scene_add_quantity(s, "x", "m", motion, scene_coordinate(of.tip, SCENE_UX));
-    return STATUS_OK;
-}
-
-static const parameter_type table[] = {
-    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
-    [STEP] = {"step", "s", 0.1, 1e-6, 1, NULL, "of it"},
-    [TOLERANCE] = {"tolerance", "1", 0, 0, 1, NULL, "of the error of a step"},
-    [KIND] = {"kind", "1", 0, 0, KINDS - 1, NULL, "of what acts"},
-    [RADIUS] = {"rho", "1", 0.9, 0, 1, NULL, "spectral radius"},
-    {0}};
-static const case_type moved = {.name = "moved", .parameters = {table}, .build = build};
+static const struct {
+    const char *name, *values;
+} kind[] = {{"free", "base=free"},
+            {"driven base", "base=driven;thrown=0"},
+            {"turned base", "base=turned;thrown=0"},
+            {"damped", "damping=0.05"},
+            {"follower", "load=follower"},
+            {"goes on", "parts=2;middle=0.6"}};
+enum { DAMPED = 3, KINDS = sizeof kind / sizeof kind[0] };
 
 /* What is missing at most of the last motion, by account_size; *turned: the work by the energy. */
 static double missing(const solve_result *r, double *turned)
@@ -85,16 +40,16 @@ static void balanced(scene_scheme by, double step, double most)
         for (int adapts = 0; adapts < 2; adapts++) {
             cell_result r;
             double turned, off;
-            swung_solve(&moved, (const double[]){by, step, adapts ? 1e-6 : 0, k, 0.9}, PARAMETERS,
-                        &r);
+            swung_solve(&r, "%s;integrator=%s;step=%.17g;tolerance=%g", kind[k].values,
+                        scenes_integrator[by], step, adapts ? 1e-6 : 0);
             off = missing(&r.solve, &turned);
             gsl_test(!(off < (adapts ? fmax(most, 1e-4) : most)), "scheme %d, %s%s: %g of it", by,
-                     kind_name[k], adapts ? ", adaptive" : "", off);
-            gsl_test(!(turned > 0.01), "scheme %d, %s: work is done (%g)", by, kind_name[k],
+                     kind[k].name, adapts ? ", adaptive" : "", off);
+            gsl_test(!(turned > 0.01), "scheme %d, %s: work is done (%g)", by, kind[k].name,
                      turned);
             const double *last = r.solve.motion[r.solve.motions - 1].at.balance;
             gsl_test((k == DAMPED) != (last[SCENE_DISSIPATED] > 1e-3 * last[SCENE_ENERGY]),
-                     "scheme %d, %s: %g J dissipated of %g J", by, kind_name[k],
+                     "scheme %d, %s: %g J dissipated of %g J", by, kind[k].name,
                      last[SCENE_DISSIPATED], last[SCENE_ENERGY]);
             cell_result_free(&r);
         }

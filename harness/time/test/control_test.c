@@ -4,35 +4,17 @@
 
 #include "harness/time/test/swung.h"
 
-enum { INTEGRATOR, STEP, TOLERANCE, SPIN, PARAMETERS };
-
-static status build(const double value[], scene *s, fault *f)
+static void turn(scene_scheme by, double step, double tolerance, double spin, cell_result *r)
 {
-    static const double end[] = {2};
-    (void)f;
-    const swung of = swung_build(s);
-    scene_set_body(s, of.base, (scene_body){.mass = 100, .inertia = {100, 100, 100}});
-    scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]);
-    how.tolerance = value[TOLERANCE];
-    how.start = (scene_start){.spin = {0, value[SPIN], 0}};
-    const int motion = scene_add_motion(s, SCENE_NONE, 1, end, how);
-    scene_add_quantity(s, "x", "m", motion, scene_coordinate(of.tip, SCENE_UX));
-    return STATUS_OK;
+    swung_solve(r, "base=heavy;thrown=0;end=2;integrator=%s;step=%g;tolerance=%.17g;spin=%g",
+                scenes_integrator[by], step, tolerance, spin);
 }
-
-static const parameter_type table[] = {
-    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
-    [STEP] = {"step", "s", 0.1, 1e-6, 1, NULL, "of it"},
-    [TOLERANCE] = {"tolerance", "1", 0, 0, 1, NULL, "of the error of a step"},
-    [SPIN] = {"spin", "rad/s", 0, 0, 10, NULL, "of all"},
-    {0}};
-static const case_type turned = {.name = "turned", .parameters = {table}, .build = build};
 
 /* A radian is the most of a step: of 3 rad/s a step of 0.5 s is halved whenever it is tried. */
 static void halve(void)
 {
     cell_result r;
-    swung_solve(&turned, (const double[]){SCENE_ALPHA, 0.5, 0, 3}, PARAMETERS, &r);
+    turn(SCENE_ALPHA, 0.5, 0, 3, &r);
     gsl_test_int(r.solve.motions, 9, "records of steps");
     for (int i = 1; i < r.solve.motions; i++) {
         const outcome_step *one = &r.solve.motion[i].at;
@@ -50,7 +32,7 @@ static void follow(scene_scheme by, double order, double tolerance)
     for (int k = 0; k < 2; k++) {
         cell_result r;
         const double most = tolerance / pow(2, k * order);
-        swung_solve(&turned, (const double[]){by, 0.1, most, 1}, PARAMETERS, &r);
+        turn(by, 0.1, most, 1, &r);
         steps[k] = r.solve.motions - 1;
         for (int i = 1; i < r.solve.motions; i++) {
             const outcome_step *one = &r.solve.motion[i].at;
@@ -71,7 +53,7 @@ static void share(scene_scheme by, double tolerance)
 {
     cell_result r;
     double sum = 0;
-    swung_solve(&turned, (const double[]){by, 0.1, tolerance, 1}, PARAMETERS, &r);
+    turn(by, 0.1, tolerance, 1, &r);
     for (int i = 1; i < r.solve.motions; i++) {
         const outcome_step *one = &r.solve.motion[i].at;
         const double part = one->step / 2;

@@ -7,19 +7,6 @@
 #include "harness/time/test/flying.h"
 #include "harness/time/test/swung.h"
 
-static const double eta = 0.02;
-
-static void add_beam(scene *s)
-{
-    static const double end[] = {1};
-    scene_init(s, "damped");
-    const swung of = swung_build(s);
-    scene_member_at(s, of.member)->damping = eta;
-    scene_motion how = swung_motion(SCENE_ALPHA, 0.01);
-    how.alpha = scene_alpha_of_radius(0.5);
-    scene_add_motion(s, SCENE_NONE, 1, end, how);
-}
-
 static double *strains_in(flying *f, double h)
 {
     const size_t n = (size_t)(model_elements(f->m) * model_strains(f->m));
@@ -45,7 +32,7 @@ int main(void)
     const double d = 1e-3, h = 0.002;
     scene s;
     flying f;
-    add_beam(&s);
+    scenes_read(&s, SWUNG, "damping=0.02;rho=0.5;step=0.01");
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &f) != STATUS_OK, "begins: %s",
              f.why.text);
     for (int i = 0; i < 300; i++)

@@ -8,36 +8,16 @@
 #include "harness/time/test/flying.h"
 #include "harness/time/test/swung.h"
 
-static const scene_start field = {
-    .velocity = {0.3, -0.1, 0.2}, .spin = {0.8, -1.5, 1.1}, .centre = {0.4, -0.7, 0.2}};
 static const double driven_rate = 0.4, none = 1e-10;
 
 /* A beam whose tip turns by angles about axes askew. driven: the first of them is driven. */
-static int add_beam(scene *s, int driven)
-{
-    static const double end[] = {1}, axis[3][3] = {{0.2, 1, 0.3}, {0.7, -0.1, 1}, {1, 0.4, -0.2}};
-    scene_init(s, "launched");
-    const swung of = swung_build(s);
-    scene_node *tip = scene_node_at(s, of.tip);
-    tip->rotation = SCENE_ROTATION_SEQUENCE;
-    memcpy(tip->axis, axis, sizeof axis);
-    scene_set_body(s, of.tip, (scene_body){.mass = 1, .inertia = {1, 1, 1}});
-    if (driven) {
-        const int turn = scene_add_moving_driver(s, "turn");
-        scene_drive_piece(s, turn, 0, "0.4*t");
-        scene_drive(s, of.tip, SCENE_RX, turn);
-    }
-    scene_motion how = swung_motion(SCENE_ALPHA, 0.02);
-    how.start = field;
-    scene_add_motion(s, SCENE_NONE, 1, end, how);
-    return of.tip;
-}
-
 static void launched(int driven)
 {
     scene s;
     flying at;
-    const int tip = add_beam(&s, driven);
+    scenes_read(&s, SWUNG, "tip=%s;step=0.02", driven ? "askew_driven" : "askew");
+    const int tip = scenes_find(&s, SCENE_NODES, driven ? "tip_askew_driven" : "tip_askew");
+    const scene_start field = scene_motion_of(&s.analysis[0])->start;
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &at) != STATUS_OK, "begins: %s",
              at.why.text);
     for (int i = 0; i < model_vertices(at.m); i++) {
@@ -73,17 +53,10 @@ static void launched(int driven)
 /* Axes that turn about a place, where a node is held: the state is at rest in them. */
 static void turning(double beside)
 {
-    static const double end[] = {1};
     scene_rotating_frame frame = {.omega = {0.8, -1.5, 1.1}, .centre = {0.3, 0.5, beside}};
     scene s;
     flying at;
-    scene_init(&s, "turning");
-    const swung of = swung_build(&s);
-    memcpy(scene_node_at(&s, of.base)->position, (const double[]){0.3, 0.5, 0}, sizeof frame.omega);
-    scene_hold(&s, of.base, SCENE_UX, SCENE_UZ);
-    scene_motion how = swung_motion(SCENE_ALPHA, 0.02);
-    how.start = (scene_start){.velocity = {0}};
-    scene_add_motion(&s, SCENE_NONE, 1, end, how);
+    scenes_read(&s, SWUNG, "base=held;thrown=0;step=0.02");
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &at) != STATUS_OK, "begins: %s",
              at.why.text);
     const status outcome = launch_turning(&at.c, &at.masses, scene_motion_of(&s.analysis[0]),

@@ -22,27 +22,11 @@ static void throw_rod(scene *s, scene_scheme by)
 /* Two rods with a joint and a spring across it, on a base that shakes. */
 static void shake_rods(scene *s, scene_scheme by)
 {
-    static const double end[] = {1}, y_axis[] = {0, 1, 0};
-    double stiffness[36] = {0};
-    scene_init(s, "shaken");
-    const swung of = swung_build(s);
-    const int far = scene_add_node(s, 1.8, 0, 0.4),
-              second = scene_add_member(s, of.tip, far, 0, y_axis),
-              shaken = scene_add_moving_driver(s, "shaken");
-    scene_set_body(s, of.tip, (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
-    scene_drive_piece(s, shaken, 0, "0.3*sin(5*t)");
-    scene_drive(s, of.base, SCENE_UY, shaken);
-    for (int i = 0; i < 6; i++)
-        stiffness[7 * i] = i < 3 ? 20 : 0.5;
-    scene_add_spring(s, of.base, far, stiffness);
-    if (by != SCENE_EXPLICIT) {
-        scene_release_end(s, second, 0, SCENE_RY);
-        scene_release_end(s, second, 0, SCENE_UX);
-        scene_member_at(s, second)->damping = 0.01;
-    }
-    scene_motion how = swung_motion(by, 0.02);
-    how.start.velocity[1] = 0;
-    scene_add_motion(s, SCENE_NONE, 1, end, how);
+    scenes_read(s, SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
+                by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
+    /* which the reader refuses: no body is like that */
+    scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
+                   (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
 }
 
 static int same(const flying *f, const double a[], const double b[])
@@ -108,47 +92,14 @@ static void reject(const char *name, void (*build)(scene *, scene_scheme), const
     scene_free(&s);
 }
 
-enum { INTEGRATOR, STEP, TOLERANCE, PARAMETERS };
 enum { STATIONS = 60, CROSSINGS = 4, PERIOD = CROSSINGS, MEAN, WAY, TIP };
 
 /* Watched at the base, whose way is known: 0.3 sin 5 t; and the tip at many stations. */
-static status build_watched(const double value[], scene *s, fault *f)
+static void watch(int by, double step, double tolerance, cell_result *out)
 {
-    (void)f;
-    double at[STATIONS];
-    for (int i = 0; i < STATIONS; i++)
-        at[i] = 3.0 * (i + 1) / STATIONS;
-    const swung of = swung_build(s);
-    const int shaken = scene_add_moving_driver(s, "shaken");
-    scene_drive_piece(s, shaken, 0, "0.3*sin(5*t)");
-    scene_drive(s, of.base, SCENE_UY, shaken);
-    scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]);
-    how.tolerance = value[TOLERANCE];
-    how.start.velocity[1] = 0;
-    const int motion = scene_add_motion(s, SCENE_NONE, STATIONS, at, how);
-    const scene_extract way = scene_coordinate(of.base, SCENE_UY);
-    for (int i = 0; i < CROSSINGS; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "crossing %d", i);
-        scene_set_passing(scene_add_quantity(s, name, "s", motion, way), SCENE_CROSSING,
-                          (scene_passing){.direction = SCENE_EITHER, .order = i});
-    }
-    scene_set_passing(scene_add_quantity(s, "period", "s", motion, way), SCENE_PERIOD,
-                      (scene_passing){.direction = SCENE_RISING});
-    scene_set_passing(scene_add_quantity(s, "mean", "m", motion, way), SCENE_MEAN,
-                      (scene_passing){.until = 1});
-    scene_set_curve(scene_add_quantity(s, "way", "m", motion, way), "t", "s", 1, 0);
-    scene_set_curve(scene_add_quantity(s, "tip", "m", motion, scene_coordinate(of.tip, SCENE_UY)),
-                    "t", "s", 1, 0);
-    return STATUS_OK;
+    swung_solve(out, "base=shaken;read=passed;stations=sixty;integrator=%s;step=%g;tolerance=%g",
+                scenes_integrator[by], step, tolerance);
 }
-
-static const parameter_type table[] = {
-    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
-    [STEP] = {"step", "s", 0.1, 1e-6, 1, NULL, "of it"},
-    [TOLERANCE] = {"tolerance", "1", 0, 0, 1, NULL, "of the error of a step"},
-    {0}};
-static const case_type watched = {.name = "watched", .parameters = {table}, .build = build_watched};
 
 static void near(int by, const char *what, double found, double expected)
 {
@@ -161,7 +112,7 @@ static void near(int by, const char *what, double found, double expected)
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
-    swung_solve(&watched, (const double[]){by, step, tolerance}, PARAMETERS, &r);
+    watch(by, step, tolerance, &r);
     const quantity_result *q = r.solve.quantity;
     for (int i = 0; i < CROSSINGS; i++)
         near(by, r.scene.quantity[i].name, q[i].value, (i + 1) * PI / 5);
@@ -199,7 +150,7 @@ int main(void)
         reject("shaken", shake_rods, &element_collocation, 1, of, h / 4);
     }
     cell_result exact;
-    swung_solve(&watched, (const double[]){SCENE_RADAU, 0.1, 1e-8}, PARAMETERS, &exact);
+    watch(SCENE_RADAU, 0.1, 1e-8, &exact);
     pass(SCENE_ALPHA, 0.2, 3e-4, 0.1, &exact);
     pass(SCENE_CONSERVING, 0.2, 3e-4, 0.1, &exact);
     pass(SCENE_RADAU, 0.2, 1e-6, 4e-6, &exact);

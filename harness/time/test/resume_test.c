@@ -5,57 +5,17 @@
 
 #include "harness/time/test/swung.h"
 
-enum { INTEGRATOR, TOLERANCE, PARTS, JOINT, PARAMETERS };
-enum { MOST_PARTS = 3 };
-
-/* A load that jumps at 0.5 s: there steps end, whoever walks across. */
-static status build(const double value[], scene *s, fault *f)
-{
-    static const double ends[] = {0.25, 0.5, 1}, whole = 1;
-    const int parts = (int)value[PARTS];
-    (void)f;
-    const swung of = swung_build(s);
-    if (value[JOINT] > 0) { /* a rod at the tip that turns and slides there */
-        static const double z_axis[] = {0, 0, 1};
-        const int rod = scene_add_member(s, of.tip, scene_add_node(s, 1.4, 0.9, 0.3),
-                                         scene_member_at(s, of.member)->section, z_axis);
-        scene_release_end(s, rod, 0, SCENE_RX);
-        scene_release_end(s, rod, 0, SCENE_UZ);
-    }
-    const int kick = scene_add_load(s, SCENE_FORCE, of.base, 0, 0, 1);
-    scene_load_piece(s, kick, 0.5, "0");
-    scene_load_piece(s, kick, 0, "1.5");
-    scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], 1 / 64.0);
-    how.tolerance = value[TOLERANCE];
-    int motion = SCENE_NONE;
-    for (int i = 0; i < parts; i++) {
-        motion = scene_add_motion(s, motion, 1, parts == 1 ? &whole : &ends[i + MOST_PARTS - parts],
-                                  how);
-        how.start = (scene_start){.velocity = {0}};
-    }
-    scene_add_quantity(s, "x", "m", motion, scene_coordinate(of.tip, SCENE_UX));
-    scene_add_quantity(s, "turn", "rad", motion, scene_coordinate(of.tip, SCENE_RY));
-    scene_add_quantity(s, "spin", "rad/s", motion, scene_rate(of.tip, SCENE_RZ));
-    scene_add_quantity(s, "energy", "J", motion, scene_balance_of(SCENE_ENERGY));
-    scene_add_quantity(s, "work", "J", motion, scene_balance_of(SCENE_WORK));
-    scene_add_quantity(s, "missing", "J", motion, scene_balance_of(SCENE_DRIFT));
-    scene_add_quantity(s, "strain", "J", motion, scene_balance_of(SCENE_STRAIN));
-    return STATUS_OK;
-}
-
-static const parameter_type table[] = {
-    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
-    [TOLERANCE] = {"tolerance", "1", 0, 0, 1, NULL, "0: all steps are alike"},
-    [PARTS] = {"parts", "1", 1, 1, MOST_PARTS, NULL, "of the motion"},
-    [JOINT] = {"joint", "1", 0, 0, 1, NULL, "1: with released ends"},
-    {0}};
-static const case_type parted = {.name = "parted", .parameters = {table}, .build = build};
-
+/* A load that jumps at 0.5 s: there steps end, whoever walks across. joint: of a rod at the tip. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
-    swung_solve(&parted, (const double[]){scheme, tolerance, 1, joint}, PARAMETERS, &one);
-    swung_solve(&parted, (const double[]){scheme, tolerance, parts, joint}, PARAMETERS, &more);
+    cell_result *const in[] = {&one, &more};
+    for (int i = 0; i < 2; i++)
+        swung_solve(
+            in[i],
+            "load=kick;read=balance;integrator=%s;step=%.17g;tolerance=%g;second=%s;parts=%d",
+            scenes_integrator[scheme], 1 / 64.0, tolerance, joint ? "turns_and_slides" : "none",
+            i == 0 ? 1 : parts);
     for (int i = 0; i < one.solve.quantities; i++) {
         gsl_test(one.solve.quantity[i].status != STATUS_OK, "%s: %s: %s", name,
                  one.scene.quantity[i].name, one.solve.quantity[i].reason);

@@ -5,66 +5,17 @@
 
 #include "harness/time/test/swung.h"
 
-enum { INTEGRATOR, STEP, ASKED, PARAMETERS };
 /* Stations that are asked for, by the parameter. */
 enum { ODD, ENDS, BOTH, ASKED_KINDS };
 
-static const double odd[] = {0,     0.1037, 0.1041, 0.2113, 0.2891, 0.3579, 0.4233,
-                             0.497, 0.5511, 0.6103, 0.6789, 0.7357, 0.8},
-                    ends[] = {0, 0.08, 0.16, 0.24, 0.32, 0.4, 0.48, 0.56, 0.64, 0.72, 0.76, 0.8};
-enum { ODDS = sizeof odd / sizeof odd[0], ENDINGS = sizeof ends / sizeof ends[0] };
-
-static const struct {
-    const char *name;
-    scene_component of;
-    int rate;
-} read[] = {{"x", {1, SCENE_UX}, 0},
-            {"y", {1, SCENE_UY}, 0},
-            {"turn", {1, SCENE_RY}, 0},
-            {"v", {1, SCENE_UZ}, 1},
-            {"spin", {1, SCENE_RX}, 1}};
-enum { KINEMATIC = sizeof read / sizeof read[0], ENERGY = KINEMATIC, STRAIN, READINGS };
-
-static void add(scene *s, int motion, int forces)
-{
-    for (int i = 0; i < READINGS; i++) {
-        const scene_extract what = i == ENERGY   ? scene_balance_of(SCENE_ENERGY)
-                                   : i == STRAIN ? scene_balance_of(SCENE_STRAIN)
-                                   : read[i].rate
-                                       ? scene_rate(read[i].of.node, read[i].of.component)
-                                       : scene_coordinate(read[i].of.node, read[i].of.component);
-        scene_quantity *q = scene_add_quantity(s,
-                                               i == ENERGY   ? "energy"
-                                               : i == STRAIN ? "strain"
-                                                             : read[i].name,
-                                               "", motion, what);
-        if (i < KINEMATIC || forces)
-            scene_set_curve(q, "t", "s", 1, 0);
-    }
-}
-
-static status build(const double value[], scene *s, fault *f)
-{
-    (void)f;
-    swung_build(s);
-    const scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]);
-    const int at_ends = value[ASKED] == ENDS;
-    const int motion =
-        scene_add_motion(s, SCENE_NONE, at_ends ? ENDINGS : ODDS, at_ends ? ends : odd, how);
-    add(s, motion, value[ASKED] != ODD);
-    return STATUS_OK;
-}
-
-static const parameter_type table[] = {
-    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
-    [STEP] = {"step", "s", 0.04, 1e-6, 1, NULL, "of it"},
-    [ASKED] = {"asked", "1", 0, 0, ASKED_KINDS, NULL, "which stations"},
-    {0}};
-static const case_type flown = {.name = "flown", .parameters = {table}, .build = build};
+static const char *const asked_for[ASKED_KINDS] = {
+    "inside_steps;read=last_forces", "ends_of_steps;read=curves", "inside_steps;read=curves"};
+enum { KINEMATIC = 5, STRAIN = 6, READINGS };
 
 static void solve(int scheme, double step, int asked, cell_result *out)
 {
-    swung_solve(&flown, (const double[]){scheme, step, asked}, PARAMETERS, out);
+    swung_solve(out, "integrator=%s;step=%g;stations=%s", scenes_integrator[scheme], step,
+                asked_for[asked]);
 }
 
 /* Largest difference of the curves, each by the largest value of it. */

@@ -7,88 +7,36 @@
 #include "elements/math/pi.h"
 #include "harness/time/test/swung.h"
 
-enum { INTEGRATOR, STEP, WATCHED, PARAMETERS };
-
-/* 0.3 sin 5 t until 3 s. */
+/* Of the base, 0.3 sin 5 t until 3 s. */
 static const struct {
     const char *name;
-    scene_reduction how;
-    scene_passing of;
     double expected, at, tolerance; /* at < 0: of no value */
-} known[] = {
-    {"largest", SCENE_MAX, {.until = 1}, 0.3, PI / 10, 1e-12},
-    {"least", SCENE_MIN, {.until = 1.5}, -0.3, 3 * PI / 10, 1e-12},
-    {"largest behind 1.5 s", SCENE_MAX, {.from = 1.5}, 0.3, -1, 1e-12},
-    {"largest before it turns", SCENE_MAX, {.until = 0.2}, 0.3 * 0.8414709848078965, 0.2, 1e-12},
-    {"time of the largest", SCENE_MAX_TIME, {.until = 1}, PI / 10, PI / 10, 1e-9},
-    {"time of the least", SCENE_MIN_TIME, {.until = 1.5}, 3 * PI / 10, 3 * PI / 10, 1e-9},
-    {"first fall", SCENE_CROSSING, {0, SCENE_FALLING, 0, 0, 0}, PI / 5, PI / 5, 1e-12},
-    {"second fall", SCENE_CROSSING, {0, SCENE_FALLING, 1, 0, 0}, 3 * PI / 5, -1, 1e-12},
-    {"first rise", SCENE_CROSSING, {0, SCENE_RISING, 0, 0, 0}, 2 * PI / 5, -1, 1e-12},
-    {"third of all", SCENE_CROSSING, {0, SCENE_EITHER, 2, 0, 0}, 3 * PI / 5, -1, 1e-12},
-    {"rise behind 2 s", SCENE_CROSSING, {0, SCENE_RISING, 0, 2, 3}, 4 * PI / 5, -1, 1e-12},
-    {"rise through 0.15", SCENE_CROSSING, {0.15, SCENE_RISING, 1, 0, 0}, 13 * PI / 30, -1, 1e-12},
-    {"period", SCENE_PERIOD, {0, SCENE_RISING, 0, 0, 0}, 2 * PI / 5, -1, 1e-12},
-    {"per second", SCENE_PER_SECOND, {0, SCENE_FALLING, 0, 0, 0}, 2.5 / PI, -1, 1e-12},
-    {"mean of a period", SCENE_MEAN, {.until = 2 * PI / 5}, 0, -1, 1e-9},
-    {"mean of half of it", SCENE_MEAN, {.from = PI / 5, .until = 2 * PI / 5}, -0.6 / PI, -1, 1e-8}};
+} known[] = {{"largest", 0.3, PI / 10, 1e-12},
+             {"known_least", -0.3, 3 * PI / 10, 1e-12},
+             {"largest_behind_1_5_s", 0.3, -1, 1e-12},
+             {"largest_before_it_turns", 0.3 * 0.8414709848078965, 0.2, 1e-12},
+             {"time_of_the_largest", PI / 10, PI / 10, 1e-9},
+             {"time_of_the_least", 3 * PI / 10, 3 * PI / 10, 1e-9},
+             {"first_fall", PI / 5, PI / 5, 1e-12},
+             {"second_fall", 3 * PI / 5, -1, 1e-12},
+             {"first_rise", 2 * PI / 5, -1, 1e-12},
+             {"third_of_all", 3 * PI / 5, -1, 1e-12},
+             {"rise_behind_2_s", 4 * PI / 5, -1, 1e-12},
+             {"rise_through_0_15", 13 * PI / 30, -1, 1e-12},
+             {"period", 2 * PI / 5, -1, 1e-12},
+             {"per_second", 2.5 / PI, -1, 1e-12},
+             {"mean_of_a_period", 0, -1, 1e-9},
+             {"mean_of_half_of_it", -0.6 / PI, -1, 1e-8}};
 enum { KNOWN = sizeof known / sizeof known[0] };
-
-static status build_known(const double value[], scene *s, fault *f)
-{
-    static const double end[] = {3};
-    (void)f;
-    const swung of = swung_build(s);
-    const int shaken = scene_add_moving_driver(s, "shaken");
-    scene_drive_piece(s, shaken, 0, "0.3*sin(5*t)");
-    scene_drive(s, of.base, SCENE_UY, shaken);
-    scene_motion how = swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]);
-    how.start = (scene_start){.velocity = {0}};
-    const int motion = scene_add_motion(s, SCENE_NONE, 1, end, how);
-    for (int i = 0; i < KNOWN; i++)
-        scene_set_passing(
-            scene_add_quantity(s, known[i].name, "", motion, scene_coordinate(of.base, SCENE_UY)),
-            known[i].how, known[i].of);
-    scene_set_passing(
-        scene_add_quantity(s, "never", "", motion, scene_coordinate(of.base, SCENE_UY)),
-        SCENE_CROSSING, (scene_passing){.level = 0.5});
-    return STATUS_OK;
-}
-
-static status build_free(const double value[], scene *s, fault *f)
-{
-    static const double end[] = {2};
-    (void)f;
-    const swung of = swung_build(s);
-    const int motion = scene_add_motion(s, SCENE_NONE, 1, end,
-                                        swung_motion((scene_scheme)value[INTEGRATOR], value[STEP]));
-    scene_add_quantity(s, "x", "m", motion, scene_coordinate(of.tip, SCENE_UX));
-    if (value[WATCHED] == 0)
-        return STATUS_OK;
-    const scene_extract z = scene_coordinate(of.tip, SCENE_UZ);
-    scene_set_passing(scene_add_quantity(s, "crossing", "s", motion, z), SCENE_CROSSING,
-                      (scene_passing){.level = -0.4, .direction = SCENE_EITHER});
-    scene_set_passing(scene_add_quantity(s, "least", "m", motion, z), SCENE_MIN,
-                      (scene_passing){.until = 0});
-    scene_set_passing(scene_add_quantity(s, "most", "m", motion, z), SCENE_MAX,
-                      (scene_passing){.from = 0.3, .until = 1.9});
-    return STATUS_OK;
-}
-
-static const parameter_type table[] = {
-    [INTEGRATOR] = {"integrator", "1", 0, 0, 3, TIMED_INTEGRATORS, "scheme"},
-    [STEP] = {"step", "s", 0.02, 1e-6, 1, NULL, "of it"},
-    [WATCHED] = {"watched", "1", 1, 0, 1, NULL, "1: between stations, too"},
-    {0}};
-static const case_type driven = {.name = "driven", .parameters = {table}, .build = build_known},
-                       flown = {.name = "flown", .parameters = {table}, .build = build_free};
 
 static void exactly(int scheme, double step)
 {
     cell_result r;
-    swung_solve(&driven, (const double[]){scheme, step, 1}, PARAMETERS, &r);
+    swung_solve(&r, "base=shaken;thrown=0;read=known;end=3;integrator=%s;step=%g",
+                scenes_integrator[scheme], step);
     for (int i = 0; i < KNOWN; i++) {
-        const quantity_result *q = &r.solve.quantity[i];
+        const quantity_result *q =
+            &r.solve.quantity[scenes_find(&r.scene, SCENE_QUANTITIES, known[i].name)];
         const double expected = known[i].expected;
         gsl_test(q->status != STATUS_OK, "scheme %d, %s: %s", scheme, known[i].name, q->reason);
         gsl_test(!(fabs(q->value - expected) <= known[i].tolerance),
@@ -96,19 +44,26 @@ static void exactly(int scheme, double step)
         gsl_test(known[i].at >= 0 && !(fabs(q->x - known[i].at) <= 1e-9),
                  "scheme %d, %s at %.15g, not %.15g", scheme, known[i].name, q->x, known[i].at);
     }
-    gsl_test(r.solve.quantity[KNOWN].status != STATUS_NO_VALUE, "a level that is never reached: %g",
-             r.solve.quantity[KNOWN].value);
+    const quantity_result *never =
+        &r.solve.quantity[scenes_find(&r.scene, SCENE_QUANTITIES, "never")];
+    gsl_test(never->status != STATUS_NO_VALUE, "a level that is never reached: %g", never->value);
     cell_result_free(&r);
+}
+
+static void fly(int scheme, double step, int watched, cell_result *out)
+{
+    swung_solve(out, "end=2;read=%s;integrator=%s;step=%g", watched ? "crossings" : "way",
+                scenes_integrator[scheme], step);
 }
 
 /* Errors fall with the order of the scheme, estimates of what lies between steps as fast. */
 static void freely(const char *name, int scheme, double step, double order)
 {
     cell_result exact, r[2], unwatched;
-    swung_solve(&flown, (const double[]){SCENE_RADAU, 0.002, 1}, PARAMETERS, &exact);
-    swung_solve(&flown, (const double[]){scheme, step, 0}, PARAMETERS, &unwatched);
+    fly(SCENE_RADAU, 0.002, 1, &exact);
+    fly(scheme, step, 0, &unwatched);
     for (int i = 0; i < 2; i++)
-        swung_solve(&flown, (const double[]){scheme, step / (1 << i), 1}, PARAMETERS, &r[i]);
+        fly(scheme, step / (1 << i), 1, &r[i]);
     gsl_test(memcmp(&unwatched.solve.quantity[0].value, &r[0].solve.quantity[0].value,
                     sizeof(double)) != 0,
              "%s: who is watched moves otherwise", name);

@@ -1,6 +1,102 @@
 #include "harness/tools/kit/scenes.h"
 
+#include <gsl/gsl_test.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/format/scene_file.h"
+#include "harness/formulations/parameters.h"
+
+const char *const scenes_integrator[] = {"alpha", "conserving", "radau", "explicit"};
+
+enum { MOST_FILES = 8 };
+static struct {
+    scene_file *file[MOST_FILES];
+    int count;
+} known;
+
+static void forget(void)
+{
+    while (known.count > 0)
+        scene_file_free(known.file[--known.count]);
+}
+
+/* Nothing of the test can go on. */
+static void end(const char *path, const char *why)
+{
+    gsl_test(1, "%s: %s", path, why);
+    exit(gsl_test_summary());
+}
+
+static const case_type *read_file(const char *path)
+{
+    mistakes m;
+    fault f = {""};
+    if (known.count == MOST_FILES)
+        end(path, "more files than MOST_FILES");
+    if (scene_file_read_form(path, &known.file[known.count], &m, &f) != STATUS_OK) {
+        mistakes_print(&m, stderr);
+        end(path, f.text);
+    }
+    if (known.count == 0)
+        atexit(forget);
+    return scene_file_case(known.file[known.count++]);
+}
+
+const case_type *scenes_case(const char *path)
+{
+    for (int i = 0; i < known.count; i++) {
+        const case_type *type = scene_file_case(known.file[i]);
+        if (strcmp(type->file, path) == 0)
+            return type;
+    }
+    return read_file(path);
+}
+
+__attribute__((format(printf, 3, 0))) static void parse(const case_type *type, double value[],
+                                                        const char *values, va_list list)
+{
+    char text[PARAMETERS_TEXT];
+    fault f = {""};
+    if (vsnprintf(text, sizeof text, values, list) >= (int)sizeof text)
+        end(type->file, "values of more than PARAMETERS_TEXT characters");
+    parameters_default(type, value);
+    if (parameters_parse(type, text, value, NULL, &f) != STATUS_OK)
+        end(type->file, f.text);
+}
+
+void scenes_at(const case_type *type, double value[], const char *values, ...)
+{
+    va_list list;
+    va_start(list, values);
+    parse(type, value, values, list);
+    va_end(list);
+}
+
+void scenes_read(scene *s, const char *path, const char *values, ...)
+{
+    const case_type *type = scenes_case(path);
+    double value[CASE_MAX_PARAMETERS];
+    fault f = {""};
+    va_list list;
+    va_start(list, values);
+    parse(type, value, values, list);
+    va_end(list);
+    scene_init(s, type->name);
+    if (case_build(type, value, s, &f) != STATUS_OK)
+        end(path, f.text);
+}
+
+int scenes_find(const scene *s, scene_list list, const char *name)
+{
+    for (int i = 0; i < scene_count(s, list); i++)
+        if (strcmp(scene_own_name(s, list, i), name) == 0)
+            return i;
+    end(name, "the scene has none of that name");
+    return SCENE_NONE;
+}
 
 section_spec timed_profile(const timed_section *of)
 {

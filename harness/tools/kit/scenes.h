@@ -1,8 +1,24 @@
-/* Structures that several tests load in their own ways. */
+/* Scenes of tests: files as users write them, and structures that several tests load in their own
+ * ways. */
 #ifndef BEAMWORK_TEST_SCENES_H
 #define BEAMWORK_TEST_SCENES_H
 
-#include "cases/scene/scene.h"
+#include "cases/case.h"
+#include "cases/scene/names.h"
+
+/* A scene file by its path from the root of the sources, as long as the test runs. The reader's
+ * message ends a test whose file it refuses. */
+const case_type *scenes_case(const char *path);
+/* values: "name=value;...", printf style, of its parameters. */
+void scenes_at(const case_type *, double value[], const char *values, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Its scene there, which the caller frees. */
+void scenes_read(scene *s, const char *path, const char *values, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Index of what the file calls so. */
+int scenes_find(const scene *, scene_list, const char *name);
+/* "alpha", ...: as files have it. */
+extern const char *const scenes_integrator[SCENE_SCHEMES];
 
 /* A straight section by its products [N, N, N m^2, N m^2] and [kg/m, kg m]. */
 typedef struct timed_section {
