@@ -75,18 +75,36 @@ void scenes_at(const case_type *type, double value[], const char *values, ...)
     va_end(list);
 }
 
-void scenes_read(scene *s, const char *path, const char *values, ...)
+__attribute__((format(printf, 3, 0))) static void build(scene *s, const char *path,
+                                                        const char *values, va_list list)
 {
     const case_type *type = scenes_case(path);
     double value[CASE_MAX_PARAMETERS];
     fault f = {""};
-    va_list list;
-    va_start(list, values);
     parse(type, value, values, list);
-    va_end(list);
     scene_init(s, type->name);
     if (case_build(type, value, s, &f) != STATUS_OK)
         end(path, f.text);
+}
+
+void scenes_read(scene *s, const char *path, const char *values, ...)
+{
+    va_list list;
+    va_start(list, values);
+    build(s, path, values, list);
+    va_end(list);
+}
+
+void scenes_ask(const char *path, const element_type *e, int elements, answer *a,
+                const char *values, ...)
+{
+    scene s;
+    va_list list;
+    va_start(list, values);
+    build(&s, path, values, list);
+    va_end(list);
+    ask_scene(&s, e, NULL, elements, a);
+    scene_free(&s);
 }
 
 int scenes_find(const scene *s, scene_list list, const char *name)

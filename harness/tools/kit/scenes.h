@@ -3,8 +3,8 @@
 #ifndef BEAMWORK_TEST_SCENES_H
 #define BEAMWORK_TEST_SCENES_H
 
-#include "cases/case.h"
 #include "cases/scene/names.h"
+#include "harness/tools/kit/ask.h"
 
 /* A scene file by its path from the root of the sources, as long as the test runs. The reader's
  * message ends a test whose file it refuses. */
@@ -15,6 +15,9 @@ void scenes_at(const case_type *, double value[], const char *values, ...)
 /* Its scene there, which the caller frees. */
 void scenes_read(scene *s, const char *path, const char *values, ...)
     __attribute__((format(printf, 3, 4)));
+/* What becomes of it, solved with the default options. */
+void scenes_ask(const char *path, const element_type *, int elements, answer *, const char *values,
+                ...) __attribute__((format(printf, 5, 6)));
 /* Index of what the file calls so. */
 int scenes_find(const scene *, scene_list, const char *name);
 /* "alpha", ...: as files have it. */
