@@ -107,6 +107,18 @@ void scenes_ask(const char *path, const element_type *e, int elements, answer *a
     scene_free(&s);
 }
 
+void scenes_solve(const char *path, const char *chosen, int elements, cell_result *r,
+                  const char *values, ...)
+{
+    cell_request request = cells_of(scenes_case(path), chosen, elements);
+    fault f = {""};
+    va_list list;
+    va_start(list, values);
+    parse(request.type, request.parameter, values, list);
+    va_end(list);
+    gsl_test(cell_run(&request, r, &f) != STATUS_OK, "%s solved: %s", chosen, f.text);
+}
+
 int scenes_find(const scene *s, scene_list list, const char *name)
 {
     for (int i = 0; i < scene_count(s, list); i++)

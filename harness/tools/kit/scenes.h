@@ -5,6 +5,7 @@
 
 #include "cases/scene/names.h"
 #include "harness/tools/kit/ask.h"
+#include "harness/tools/kit/cells.h"
 
 /* A scene file by its path from the root of the sources, as long as the test runs. The reader's
  * message ends a test whose file it refuses. */
@@ -18,6 +19,9 @@ void scenes_read(scene *s, const char *path, const char *values, ...)
 /* What becomes of it, solved with the default options. */
 void scenes_ask(const char *path, const element_type *, int elements, answer *, const char *values,
                 ...) __attribute__((format(printf, 5, 6)));
+/* Its cell; one that is not solved fails the test. formulation: "name:key=value,...". */
+void scenes_solve(const char *path, const char *formulation, int elements, cell_result *,
+                  const char *values, ...) __attribute__((format(printf, 5, 6)));
 /* Index of what the file calls so. */
 int scenes_find(const scene *, scene_list, const char *name);
 /* "alpha", ...: as files have it. */
