@@ -1,10 +1,15 @@
 /* The balance of energy is a verdict: what is allowed is, what is not ends a motion with one line;
  * what acts from outside is in it, whatever the kind, with every integrator. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
 
+#include "harness/formulations/formulation.h"
+#include "harness/formulations/parameters.h"
 #include "harness/time/account.h"
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 extern const case_type case_free_flight_space, case_elbow;
 
@@ -40,8 +45,8 @@ static void balanced(scene_scheme by, double step, double most)
         for (int adapts = 0; adapts < 2; adapts++) {
             cell_result r;
             double turned, off;
-            swung_solve(&r, "%s;integrator=%s;step=%.17g;tolerance=%g", kind[k].values,
-                        scenes_integrator[by], step, adapts ? 1e-6 : 0);
+            scenes_solve(SWUNG, "collocation", 1, &r, "%s;integrator=%s;step=%.17g;tolerance=%g",
+                         kind[k].values, scenes_integrator[by], step, adapts ? 1e-6 : 0);
             off = missing(&r.solve, &turned);
             gsl_test(!(off < (adapts ? fmax(most, 1e-4) : most)), "scheme %d, %s%s: %g of it", by,
                      kind[k].name, adapts ? ", adaptive" : "", off);

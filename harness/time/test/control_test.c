@@ -1,13 +1,17 @@
 /* How long steps are: halved where one fails and twice as long behind those that do not, at most
  * what was asked for; by estimates of errors where a tolerance says so. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 static void turn(scene_scheme by, double step, double tolerance, double spin, cell_result *r)
 {
-    swung_solve(r, "base=heavy;thrown=0;end=2;integrator=%s;step=%g;tolerance=%.17g;spin=%g",
-                scenes_integrator[by], step, tolerance, spin);
+    scenes_solve(SWUNG, "collocation", 1, r,
+                 "base=heavy;thrown=0;end=2;integrator=%s;step=%g;tolerance=%.17g;spin=%g",
+                 scenes_integrator[by], step, tolerance, spin);
 }
 
 /* A radian is the most of a step: of 3 rad/s a step of 0.5 s is halved whenever it is tried. */

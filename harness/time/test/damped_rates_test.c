@@ -1,11 +1,14 @@
 /* Rates of strains of a beam that has turned far: those that its strains have in time, also as
  * generalized-alpha carries them along; and what a step loses is their power. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 static double *strains_in(flying *f, double h)
 {

@@ -1,12 +1,15 @@
 /* Rates that a motion begins with: those of the field that is asked for, about its centre, at all
  * frames; angles of a sequence, whose axes are askew, take what is left beside a driven one. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 static const double driven_rate = 0.4, none = 1e-10;
 

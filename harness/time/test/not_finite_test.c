@@ -1,18 +1,21 @@
 /* A load that is no number for a moment ends a motion where it is so: no step is one whose state is
  * none. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 /* Steps of 1/512 s end inside. */
 static void stop(int scheme)
 {
     cell_result r;
     fault f = {""};
-    char values[64];
-    snprintf(values, sizeof values, "load=gap;integrator=%s;step=%.17g", scenes_integrator[scheme],
-             1 / 512.0);
-    const status outcome = swung_try(values, &r, &f);
+    cell_request request = cells_of(scenes_case(SWUNG), "collocation", 1);
+    scenes_at(request.type, request.parameter, "load=gap;integrator=%s;step=%.17g",
+              scenes_integrator[scheme], 1 / 512.0);
+    const status outcome = cell_run(&request, &r, &f);
     gsl_test(outcome != STATUS_NOT_CONVERGED, "scheme %d: status %d", scheme, outcome);
     gsl_test(r.solve.motions < 100, "scheme %d: %d records", scheme, r.solve.motions);
     for (int i = 0; i < r.solve.motions; i++) {

@@ -1,8 +1,11 @@
 /* Largest and least values of what a motion has where its steps end: a peak between stations is
  * found, and between steps with the order of the cubic; a window; a jump of what acts. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 /* One station at the end: all that rises and falls before is between stations. */
 int main(void)
@@ -13,8 +16,9 @@ int main(void)
         double value[RUNS][READ];
         for (int i = 0; i < RUNS; i++) {
             cell_result out;
-            swung_solve(&out, "read=peaks;end=2.5;integrator=radau;step=%g;load=%s", step[i],
-                        jumps ? "push" : "none");
+            scenes_solve(SWUNG, "collocation", 1, &out,
+                         "read=peaks;end=2.5;integrator=radau;step=%g;load=%s", step[i],
+                         jumps ? "push" : "none");
             for (int k = 0; k < READ; k++) {
                 value[i][k] = out.solve.quantity[k].value;
                 gsl_test(!isfinite(value[i][k]), "quantity %d with %g s", k, step[i]);

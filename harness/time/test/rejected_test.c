@@ -1,12 +1,15 @@
 /* A step that is rejected leaves no trace: not in the instant that it began from, to the bit, nor
  * in the steps that follow it, with inner unknowns, springs, damping and what is driven; nor in
  * what a motion passes through, its stations and its records. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
 #include "elements/math/pi.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 extern const element_type element_geometrically_exact, element_collocation;
 extern const case_type case_free_flight_space;
@@ -97,8 +100,9 @@ enum { STATIONS = 60, CROSSINGS = 4, PERIOD = CROSSINGS, MEAN, WAY, TIP };
 /* Watched at the base, whose way is known: 0.3 sin 5 t; and the tip at many stations. */
 static void watch(int by, double step, double tolerance, cell_result *out)
 {
-    swung_solve(out, "base=shaken;read=passed;stations=sixty;integrator=%s;step=%g;tolerance=%g",
-                scenes_integrator[by], step, tolerance);
+    scenes_solve(SWUNG, "collocation", 1, out,
+                 "base=shaken;read=passed;stations=sixty;integrator=%s;step=%g;tolerance=%g",
+                 scenes_integrator[by], step, tolerance);
 }
 
 static void near(int by, const char *what, double found, double expected)

@@ -1,9 +1,12 @@
 /* Motions that go on from each other are one motion, bit for bit; where the error of steps is
  * estimated too, but for the round-off of a factorisation that pivots anew. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
 
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 /* A load that jumps at 0.5 s: there steps end, whoever walks across. joint: of a rod at the tip. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
@@ -11,8 +14,8 @@ static void same_linked(const char *name, int scheme, double tolerance, int part
     cell_result one, more;
     cell_result *const in[] = {&one, &more};
     for (int i = 0; i < 2; i++)
-        swung_solve(
-            in[i],
+        scenes_solve(
+            SWUNG, "collocation", 1, in[i],
             "load=kick;read=balance;integrator=%s;step=%.17g;tolerance=%g;second=%s;parts=%d",
             scenes_integrator[scheme], 1 / 64.0, tolerance, joint ? "turns_and_slides" : "none",
             i == 0 ? 1 : parts);

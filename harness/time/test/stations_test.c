@@ -1,9 +1,12 @@
 /* Stations wherever they lie: inside steps as exact as at their ends, any number in one step, at
  * the begin too; and the motion does not notice them. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
 
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 /* Stations that are asked for, by the parameter. */
 enum { ODD, ENDS, BOTH, ASKED_KINDS };
@@ -14,8 +17,8 @@ enum { KINEMATIC = 5, STRAIN = 6, READINGS };
 
 static void solve(int scheme, double step, int asked, cell_result *out)
 {
-    swung_solve(out, "integrator=%s;step=%g;stations=%s", scenes_integrator[scheme], step,
-                asked_for[asked]);
+    scenes_solve(SWUNG, "collocation", 1, out, "integrator=%s;step=%g;stations=%s",
+                 scenes_integrator[scheme], step, asked_for[asked]);
 }
 
 /* Largest difference of the curves, each by the largest value of it. */

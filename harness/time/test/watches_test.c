@@ -1,11 +1,14 @@
 /* Largest and least values, crossings, periods and means of a motion that is known, a driven one,
  * to round-off; and of one that is not, with the order of the scheme and an estimate of what the
  * polynomial inside steps adds. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/time/test/swung.h"
+#include "harness/tools/kit/scenes.h"
+
+#define SWUNG "harness/time/test/swung.yaml"
 
 /* Of the base, 0.3 sin 5 t until 3 s. */
 static const struct {
@@ -32,8 +35,9 @@ enum { KNOWN = sizeof known / sizeof known[0] };
 static void exactly(int scheme, double step)
 {
     cell_result r;
-    swung_solve(&r, "base=shaken;thrown=0;read=known;end=3;integrator=%s;step=%g",
-                scenes_integrator[scheme], step);
+    scenes_solve(SWUNG, "collocation", 1, &r,
+                 "base=shaken;thrown=0;read=known;end=3;integrator=%s;step=%g",
+                 scenes_integrator[scheme], step);
     for (int i = 0; i < KNOWN; i++) {
         const quantity_result *q =
             &r.solve.quantity[scenes_find(&r.scene, SCENE_QUANTITIES, known[i].name)];
@@ -52,8 +56,8 @@ static void exactly(int scheme, double step)
 
 static void fly(int scheme, double step, int watched, cell_result *out)
 {
-    swung_solve(out, "end=2;read=%s;integrator=%s;step=%g", watched ? "crossings" : "way",
-                scenes_integrator[scheme], step);
+    scenes_solve(SWUNG, "collocation", 1, out, "end=2;read=%s;integrator=%s;step=%g",
+                 watched ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 
 /* Errors fall with the order of the scheme, estimates of what lies between steps as fast. */
