@@ -2,12 +2,14 @@
  * about z through its end, r = sin(k X)/(k cos(k L)), N = EA (cos(k X)/cos(k L) - 1), k^2 = m
  * w^2/EA, which for small strains is m w^2 (L^2 - X^2)/2. Order 2, at nodes and between them, as
  * the lumped masses. */
+#include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact, element_collocation;
+
+#define RODS "harness/time/test/rods.yaml"
 
 enum { PLACES = 3, MESHES = 4 };
 static const double length = 2, omega = 3, EA = 200, mass = 1.5, place[PLACES] = {0, 0.3, 0.5};
@@ -18,41 +20,14 @@ static double expected(int i)
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
-static void build(scene *s, scene_scheme scheme)
-{
-    static const double y_axis[] = {0, 1, 0}, none[2] = {0, 0}, one[2] = {0, 1}, at[1] = {1};
-    const section_spec spec = timed_profile(&(timed_section){
-        .EA = EA, .GA = 100, .GJ = 3, .EI = 5, .mass = mass, .polar = 4e-3, .rotary = 2e-3});
-    scene_init(s, "spun rod");
-    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
-    const int hub = scene_add_node(s, 0, 0, 0), tip = scene_add_node(s, length, 0, 0);
-    scene_add_member(s, hub, tip, scene_add_section(s, &spec), y_axis);
-    scene_hold(s, hub, SCENE_UX, SCENE_RY);
-    const int turn = scene_add_driver(s, "turn", 2, one, none);
-    scene_drive_piece(s, turn, 0, "3*t");
-    scene_drive(s, hub, SCENE_RZ, turn);
-    const int steady = scene_add_rotation(s, 1, at, 4, 0,
-                                          (scene_rotating_frame){.omega = {0, 0, omega}}),
-              motion = moving_add(s, scheme, 5e-4, 0.02);
-    s->analysis[motion].follows = steady;
-    for (int i = 0; i < PLACES; i++) {
-        char name[] = {'N', (char)('0' + i), 0};
-        scene_add_quantity(s, name, "N", motion, scene_internal_at(0, place[i], SCENE_N));
-    }
-    scene_add_quantity(s, "largest", "N", motion,
-                       scene_internal_along(0, SCENE_ALONG_MAX, SCENE_N));
-}
-
 /* order: least one between the two finest meshes; of 2 also the highest. */
 static void spin(const element_type *type, scene_scheme scheme, double order)
 {
     double error[MESHES][PLACES];
     for (int n = 0; n < MESHES; n++) {
-        scene s;
         answer a;
-        build(&s, scheme);
-        ask_scene(&s, type, NULL, 2 << n, &a);
-        scene_free(&s);
+        scenes_ask(RODS, type, 2 << n, &a, "of=spun;end=0.02;step=5e-4;integrator=%s",
+                   scenes_integrator[scheme]);
         for (int i = 0; i < PLACES; i++) {
             const char name[] = {'N', (char)('0' + i), 0};
             error[n][i] = fabs(answer_of(&a, name) / expected(i) - 1);
