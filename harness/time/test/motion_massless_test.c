@@ -8,13 +8,13 @@
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flying.h"
-#include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 
 extern const element_type element_geometrically_exact;
 
+#define RODS "harness/time/test/rods.yaml"
+
 enum { PLACES = 3 };
-static const double y_axis[3] = {0, 1, 0};
 
 static struct {
     double rotary, spin;
@@ -25,29 +25,11 @@ static struct {
  * Thrown: from rest, by a force and a moment that come and go. */
 static void build(scene *s, scene_scheme by, double step)
 {
-    static const double end = 1;
-    const section_spec spec = timed_profile(&(timed_section){
-        .EA = 1e4, .GA = 1e4, .GJ = 500, .EI = 500, .mass = 1, .polar = 20, .rotary = how.rotary});
-    scene_motion of = {.scheme = by,
-                       .alpha = scene_alpha_of_radius(0.9),
-                       .step = step,
-                       .start = {.spin = {how.spin, 0.6 * how.spin, 0.4 * how.spin}}};
-    scene_init(s, "oblique rod");
-    scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
-    const int profile = scene_add_section(s, &spec), A = scene_add_node(s, -3, 1, 4),
-              B = scene_add_node(s, 3, -1, -4);
-    scene_add_member(s, A, B, profile, y_axis);
-    if (how.joint) {
-        const int member = scene_add_member(s, B, scene_add_node(s, 4, 2, -5), profile, y_axis);
-        scene_release_end(s, member, 0, SCENE_RZ);
-    }
-    const int loads[] = {scene_add_load(s, SCENE_FORCE, B, 0.1, 0, 0),
-                         scene_add_load(s, SCENE_MOMENT, B, 0, 1, 0.5)};
-    for (int i = 0; i < 2; i++) {
-        scene_load_piece(s, loads[i], 1, how.thrown ? "1e4*t^3*(1 - t)^3" : "0");
-        scene_load_piece(s, loads[i], 0, "0");
-    }
-    scene_add_motion(s, SCENE_NONE, 1, &end, of);
+    scenes_read(s, RODS,
+                "of=oblique;end=1;integrator=%s;step=%.17g;spin=%g;rotary=%g;joint=%s;"
+                "comes_and_goes=%d",
+                scenes_integrator[by], step, how.spin, how.rotary, how.joint ? "hinge" : "stiff",
+                how.thrown);
 }
 
 /* Where B is after 0.8 s. */
