@@ -4,43 +4,14 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
-#include <stdio.h>
 
 #include "elements/math/pi.h"
-#include "harness/tools/kit/cells.h"
+#include "harness/tools/kit/scenes.h"
 
 enum { MODES = 10, RIGID = 6 };
 static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
                     density = 7300; /* m, m, m, Pa, kg/m^3 */
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
-
-static status build(const double value[], scene *s, fault *f)
-{
-    const double y_axis[3] = {0, 1, 0};
-    (void)value;
-    (void)f;
-    section_spec spec = section_spec_rectangle(young, young / 2.6, width, thickness);
-    spec.density = density;
-    scene_omit(s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA);
-    const int profile = scene_add_section(s, &spec);
-    scene_add_member(s, scene_add_node(s, 0, 0, 0), scene_add_node(s, length, 0, 0), profile,
-                     y_axis);
-    const int modal = scene_add_modal(s, SCENE_NONE);
-    for (int i = 0; i < MODES; i++) {
-        char name[SCENE_NAME];
-        snprintf(name, sizeof name, "frequency_%d", i);
-        scene_quantity *q = scene_add_quantity(s, name, "Hz", modal, scene_frequency(i, SCENE_ANY));
-        q->tolerance = 1e-3;
-    }
-    return STATUS_OK;
-}
-
-static const parameter_type parameter[] = {{0}};
-static const case_type free_beam = {.name = "free_beam",
-                                    .summary = "a case of the test",
-                                    .source = "none",
-                                    .parameters = {parameter},
-                                    .build = build};
 
 /* 0: bending about the weak axis, then about the strong one, then the second of each. */
 static double exact(int i)
@@ -51,10 +22,8 @@ static double exact(int i)
 
 static void frequencies(const char *name, int elements, double allowed)
 {
-    const cell_request request = cells_of(&free_beam, name, elements);
     cell_result r;
-    fault f = {""};
-    gsl_test(cell_run(&request, &r, &f) != STATUS_OK, "%s solved: %s", name, f.text);
+    scenes_solve("harness/analysis/test/bars.yaml", name, elements, &r, "bar=free");
     for (int i = 0; i < MODES && i < r.solve.quantities; i++) {
         const double value = r.solve.quantity[i].value;
         if (i < RIGID)
