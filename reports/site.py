@@ -63,8 +63,9 @@ class Site:
     a sweep, too: then there are no cases."""
 
     def __init__(self, results, truths, folder, bench=None, others=(), sweeps=()):
-        self.alone = stored.is_sweep(results)
-        self.sweeps = [stored.read(p) for p in ([results] if self.alone else []) + list(sweeps)]
+        self.alone = stored.is_alone(results)
+        own = [results] if stored.is_there(results) else []
+        self.sweeps = [stored.read(p) for p in own + list(sweeps)]
         if bench is None and not self.alone and experiments.holds(results, "bench"):
             bench = results
         self.about, self.cases = ({}, []) if self.alone else data.read_results(results, bench)

@@ -8,7 +8,7 @@
 #include "harness/study/sweep.h"
 
 typedef struct compare_request {
-    const char *output, *select, *threshold;
+    const char *output, *select, *threshold, *experiment;
     int hash; /* 1: of stored runs */
 } compare_request;
 
@@ -109,7 +109,8 @@ static status check_sweeps(const command_line *l, const results *before, const r
     if (l->argument[1] == NULL || before->swept == after->swept)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%.80s is a sweep and %.80s is none: give two sweeps, or two runs of verify",
+                     "%.80s is a sweep and %.80s is none: give two sweeps, or two runs of verify; "
+                     "of files that hold both, --experiment sweep",
                      before->swept ? l->argument[0] : l->argument[1],
                      before->swept ? l->argument[1] : l->argument[0]);
 }
@@ -123,9 +124,9 @@ static status read_runs(const command_line *l, const compare_request *r, compari
         TRY(comparison_limits_parse(r->threshold, limits, f));
     TRY(select_begin(r->select, &words, f));
     TRY(files_check(l, 0, NULL, f));
-    TRY(results_read_any(l->argument[0], before, f));
+    TRY(results_read_any(l->argument[0], r->experiment, before, f));
     if (l->argument[1] != NULL)
-        TRY(results_read_any(l->argument[1], after, f));
+        TRY(results_read_any(l->argument[1], r->experiment, after, f));
     TRY(check_sweeps(l, before, after, f));
     meet(r->select, before, &words);
     meet(r->select, after, &words);
@@ -138,9 +139,9 @@ static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};
     fault f = {""};
-    if (r->output != NULL || r->threshold != NULL || r->select != NULL)
-        return message_fail(STATUS_REFUSED, "--hash is of whole files: leave -o, -k and "
-                                            "--threshold away");
+    if (r->output != NULL || r->threshold != NULL || r->select != NULL || r->experiment != NULL)
+        return message_fail(STATUS_REFUSED, "--hash is of whole files: leave -o, -k, --threshold "
+                                            "and --experiment away");
     for (int i = 0; i < l->arguments; i++) {
         if (results_hash_of(l->argument[i], &h[i], &f) != STATUS_OK)
             return trouble(&f);
@@ -180,6 +181,11 @@ static const verb_option own[] = {
      "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
      "itself, of a value relative to its truth, of a count relative to itself",
      IN(threshold)},
+    {"experiment", 0, "NAME",
+     "of a file that several have written into: verify, bench or sweep (default: the first of "
+     "these "
+     "that is there)",
+     IN(experiment)},
     {"hash", 0, NULL, "one line for each run: a hash of its values, how many they are, its name",
      IN(hash)},
     {0}};
@@ -190,7 +196,7 @@ const verb verb_compare = {
     "two stored runs: what became worse or better",
     "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), cell by cell, or, "
     "where one is the short table that is kept of a run, series by series, with the limits of the "
-    "default points; a former run is never a truth. Two files of 'sweep -o' are compared point by "
+    "default points; a former run is never a truth. Two runs of 'sweep -o' are compared point by "
     "point, by the values of their parameters: errors, values, references (a line "
     "'.../reference'), statuses and costs (threshold work=); points, formulations and meshes that "
     "one of them has not are named. What one of them was not asked for (verify -k, -f, --scene) "

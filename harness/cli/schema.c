@@ -26,7 +26,8 @@ const char *const results_about[] = {
     "position, orientation (quaternion), force, moment, bimoment, nodes.",
     "points has a column for each parameter of the case besides. Keyed by point, formulation and "
     "elements.",
-    "Below /experiments/NAME stands what stress, motion, element-test, bench and converge have "
+    "Below /experiments/NAME stands what stress, motion, element-test, bench, converge and sweep "
+    "have "
     "left with -o, each with the attributes of the root for its own run: a later run of the same "
     "experiment replaces its group, verify what is outside of /experiments. bench and converge: "
     "declarations and cases/CASE, as the root has them. The tables of the others have the fields "

@@ -17,7 +17,6 @@
 #include "harness/experiments/ranges_identity.h"
 #include "harness/experiments/ranges_table.h"
 #include "harness/experiments/shard.h"
-#include "harness/records/kept.h"
 #include "harness/study/derive.h"
 
 /* What the command line asks for. */
@@ -113,9 +112,7 @@ static status prepare(sweep_options *r, const case_type *type, sweeping *s, faul
     if (strcmp(r->format, "json") == 0)
         return fault_set(f, STATUS_REFUSED, "sweep writes text, csv, and HDF5 with -o FILE");
     TRY(read_design(r, &q, f));
-    TRY(files_check(r->of.line, 1, own_tables_packed(&r->truths), f));
-    if (r->output != NULL)
-        TRY(kept_spare(r->output, f));
+    TRY(files_check_results(r->of.line, 1, own_tables_packed(&r->truths), f));
     if (r->of.scene == NULL) {
         TRY(case_input_truths(&r->of, &r->truths, &s->truths, f));
         q.truths = &s->truths;
@@ -326,7 +323,8 @@ const verb verb_sweep = {
     "there, else against the limit that the meshes of all formulations of the same physics go to; "
     "points where that is not known to half of the error are reported. A point that has no scene, "
     "a "
-    "cell that fails, is a result. -o FILE: all values as HDF5, and the worst points as scenes in "
+    "cell that fails, is a result. -o FILE: all values in a file of results, and the worst points "
+    "as scenes in "
     "FILE.worst; batches that are done are kept in FILE.batches until all are: the same command "
     "continues there. Exit status: 0 done, 2 refused, 4 file, disk or memory, 5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"

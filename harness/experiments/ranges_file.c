@@ -6,7 +6,7 @@
 
 #include "harness/experiments/ranges_file_impl.h"
 #include "harness/model/missing.h"
-#include "harness/study/checksum.h"
+#include "harness/records/kept.h"
 
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
@@ -82,8 +82,7 @@ static hid_t make_column(ranges_file *file, const column *c)
         H5Pset_fill_value(layout, H5T_NATIVE_INT, &c->missing);
     H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, (size_t)cache_bytes,
                        H5D_CHUNK_CACHE_W0_DEFAULT);
-    const hid_t set =
-        H5Dcreate2(file->record.file, c->name, c->type, space, H5P_DEFAULT, layout, access);
+    const hid_t set = H5Dcreate2(file->at, c->name, c->type, space, H5P_DEFAULT, layout, access);
     file->record.bad |= set < 0;
     put_unit(&file->record, set, c->unit);
     H5Pclose(access);
@@ -146,7 +145,7 @@ static void put_columns(ranges_file *file)
 static status failed(const ranges_file *file, fault *f)
 {
     return fault_set(f, STATUS_FAULT, "%.200s: the sweep could not be written (disk or memory)",
-                     file->to.to.path);
+                     file->path);
 }
 
 status ranges_file_open(const char *path, const ranges *r, const char *plan, ranges_file *out,
@@ -154,16 +153,13 @@ status ranges_file_open(const char *path, const ranges *r, const char *plan, ran
 {
     memset(out, 0, sizeof *out);
     out->of = r;
-    TRY(output_open_whole(path, &out->to, f));
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    out->record =
-        (record){.file = H5Fcreate(out->to.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-                 .scalar = H5Screate(H5S_SCALAR)};
+    out->path = path;
+    TRY(record_open_beside(&out->record, path, f));
+    out->at = kept_group(&out->record, KEPT_SWEEP);
     for (int i = 0; i < RANGES_FILE_COLUMNS; i++)
         out->column[i] = -1;
-    out->record.bad = out->record.file < 0 || out->record.scalar < 0;
     if (!out->record.bad)
-        ranges_file_request(&out->record, r, plan);
+        ranges_file_request(&out->record, out->at, r, plan);
     if (!out->record.bad)
         put_columns(out);
     if (!out->record.bad)
@@ -217,32 +213,18 @@ status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
     return file->record.bad ? failed(file, f) : STATUS_OK;
 }
 
-/* The last line behind what the library has written, and the file in its place. */
-static status seal(ranges_file *file, fault *f)
-{
-    char line[CHECKSUM_LENGTH + 1];
-    const status summed = checksum_of_file(file->to.temporary, line, f);
-    if (summed == STATUS_OK) {
-        fseek(file->to.stream, 0, SEEK_END);
-        fputs(line, file->to.stream); /* the stream remembers an error until it is closed */
-    }
-    return output_finish(&file->to, summed, f);
-}
-
 status ranges_file_close(ranges_file *file, const tally *t, const char *content, status written,
                          fault *f)
 {
     record *r = &file->record;
     if (written == STATUS_OK) {
-        record_text(r, r->file, "content", content);
-        ranges_file_worst(r, file->of, t);
+        record_text(r, file->at, "content", content);
+        ranges_file_worst(r, file->at, file->of, t);
     }
     for (int i = 0; i < RANGES_FILE_COLUMNS; i++)
         if (file->column[i] >= 0)
             r->bad |= H5Dclose(file->column[i]) < 0;
-    H5Sclose(r->scalar);
-    r->bad |= H5Fclose(r->file) < 0;
-    if (written == STATUS_OK && r->bad)
-        written = failed(file, f);
-    return written == STATUS_OK ? seal(file, f) : output_finish(&file->to, written, f);
+    H5Gclose(file->at);
+    return written == STATUS_OK ? kept_close(r, KEPT_SWEEP, file->path, f)
+                                : record_drop(r, written);
 }

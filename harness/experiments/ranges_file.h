@@ -1,21 +1,22 @@
-/* A sweep as HDF5, written batch by batch: never more than a batch of it is in memory. */
+/* A sweep as a group of a file of results, written batch by batch: never more than a batch of it is
+ * in memory. */
 #ifndef BEAMWORK_RANGES_FILE_H
 #define BEAMWORK_RANGES_FILE_H
 
 #include "harness/experiments/tally.h"
-#include "harness/records/output.h"
 #include "harness/records/record.h"
 
 enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 11 };
 
 typedef struct ranges_file {
     const ranges *of;
-    output to;
+    const char *path;
     record record;
+    hid_t at; /* its group */
     hid_t column[RANGES_FILE_COLUMNS];
 } ranges_file;
 
-/* plan: digits that say which sweep it is. */
+/* The path outlives it. plan: digits that say which sweep it is. */
 status ranges_file_open(const char *path, const ranges *r, const char *plan, ranges_file *out,
                         fault *f);
 /* Points from `first` on. */

@@ -1,8 +1,9 @@
 #include <string.h>
 
 #include "harness/experiments/ranges_file_impl.h"
-#include "harness/formulations/environment.h"
 #include "harness/formulations/parameters.h"
+#include "harness/records/kept.h"
+#include "harness/records/store.h"
 #include "harness/study/price.h"
 
 enum { TEXT = 64, LONG_TEXT = 128 };
@@ -28,7 +29,7 @@ static void insert_text(hid_t table, const char *name, size_t offset, size_t len
     H5Tclose(type);
 }
 
-static void put_axes(record *r, const ranges *of)
+static void put_axes(record *r, hid_t at, const ranges *of)
 {
     axis_row row[CASE_MAX_PARAMETERS];
     memset(row, 0, sizeof row);
@@ -48,20 +49,20 @@ static void put_axes(record *r, const ranges *of)
     insert_text(type, "kind", offsetof(axis_row, kind), sizeof row[0].kind);
     insert_text(type, "scale", offsetof(axis_row, scale), sizeof row[0].scale);
     H5Tinsert(type, "count", offsetof(axis_row, count), H5T_NATIVE_INT);
-    H5Dclose(record_table(r, r->file, "axes", type, of->design.axes, row));
+    H5Dclose(record_table(r, at, "axes", type, of->design.axes, row));
     H5Tclose(type);
 }
 
-static void put_quantities(record *r, const ranges *of)
+static void put_quantities(record *r, hid_t at, const ranges *of)
 {
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof of->quantity[0]);
     insert_text(type, "name", offsetof(ranges_quantity, name), sizeof of->quantity[0].name);
     insert_text(type, "unit", offsetof(ranges_quantity, unit), sizeof of->quantity[0].unit);
-    H5Dclose(record_table(r, r->file, "quantities", type, of->quantities, of->quantity));
+    H5Dclose(record_table(r, at, "quantities", type, of->quantities, of->quantity));
     H5Tclose(type);
 }
 
-static void put_formulations(record *r, const ranges *of)
+static void put_formulations(record *r, hid_t at, const ranges *of)
 {
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof of->formulation[0]);
     insert_text(type, "key", offsetof(formulation, key), sizeof of->formulation[0].key);
@@ -69,7 +70,7 @@ static void put_formulations(record *r, const ranges *of)
     H5Tpack(stored);
     const hsize_t size = (hsize_t)of->formulations;
     const hid_t space = H5Screate_simple(1, &size, NULL),
-                set = H5Dcreate2(r->file, "formulations", stored, space, H5P_DEFAULT, H5P_DEFAULT,
+                set = H5Dcreate2(at, "formulations", stored, space, H5P_DEFAULT, H5P_DEFAULT,
                                  H5P_DEFAULT);
     r->bad |= set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, of->formulation) < 0;
     H5Dclose(set);
@@ -78,39 +79,35 @@ static void put_formulations(record *r, const ranges *of)
     H5Tclose(type);
 }
 
-void ranges_file_request(record *r, const ranges *of, const char *plan)
+void ranges_file_request(record *r, hid_t at, const ranges *of, const char *plan)
 {
     const environment e = environment_now(1);
     const ranges_request *q = &of->request;
-    char program[2 * LONG_TEXT], fixed[PARAMETERS_TEXT], noise[TEXT];
+    char fixed[PARAMETERS_TEXT], noise[TEXT];
     const hsize_t meshes = (hsize_t)of->meshes;
-    snprintf(program, sizeof program, "beamwork %s (%s)", e.version, e.commit);
     parameters_text(q->type, of->base, fixed, sizeof fixed);
-    record_count(r, r->file, "beamwork_sweep", RANGES_FILE_VERSION);
-    record_text(r, r->file, q->file != NULL ? "scene" : "case",
+    store_environment(r, at, &e);
+    record_count(r, at, KEPT_SWEEP_MARK, RANGES_FILE_VERSION);
+    record_text(r, at, q->file != NULL ? "scene" : "case",
                 q->file != NULL ? scene_file_path(q->type) : q->type->name);
-    record_text(r, r->file, "program", program);
-    record_text(r, r->file, "plan", plan);
-    record_text(r, r->file, "parameters", fixed);
-    record_text(r, r->file, "design", design_name(of->design.kind));
+    record_text(r, at, "plan", plan);
+    record_text(r, at, "parameters", fixed);
+    record_text(r, at, "design", design_name(of->design.kind));
     if (of->design.kind == DESIGN_RANDOM)
-        record_count(r, r->file, "seed", (long)of->design.seed);
+        record_count(r, at, "seed", (long)of->design.seed);
     if (q->select != NULL)
-        record_text(r, r->file, "selection", q->select);
+        record_text(r, at, "selection", q->select);
     snprintf(noise, sizeof noise, "%.15g", price_noise);
-    record_text(r, r->file, "cost_noise", noise); /* ratios of costs below it tie */
-    record_count(r, r->file, "axes", of->design.axes);
-    const hid_t tolerance =
-        H5Acreate2(r->file, "tolerance", H5T_NATIVE_DOUBLE, r->scalar, H5P_DEFAULT, H5P_DEFAULT);
-    r->bad |= tolerance < 0 || H5Awrite(tolerance, H5T_NATIVE_DOUBLE, &q->tolerance) < 0;
-    H5Aclose(tolerance);
-    H5Dclose(record_array(r, r->file, "meshes", H5T_NATIVE_INT, 1, &meshes, of->mesh));
-    put_axes(r, of);
-    put_quantities(r, of);
-    put_formulations(r, of);
+    record_text(r, at, "cost_noise", noise); /* ratios of costs below it tie */
+    record_count(r, at, "axes", of->design.axes);
+    record_number(r, at, "tolerance", q->tolerance);
+    H5Dclose(record_array(r, at, "meshes", H5T_NATIVE_INT, 1, &meshes, of->mesh));
+    put_axes(r, at, of);
+    put_quantities(r, at, of);
+    put_formulations(r, at, of);
 }
 
-void ranges_file_worst(record *r, const ranges *of, const tally *t)
+void ranges_file_worst(record *r, hid_t at, const ranges *of, const tally *t)
 {
     worst_row row[RANGES_FORMULATIONS * TALLY_WORST];
     int count = 0;
@@ -136,6 +133,6 @@ void ranges_file_worst(record *r, const ranges *of, const tally *t)
     H5Tinsert(type, "error", offsetof(worst_row, error), H5T_NATIVE_DOUBLE);
     insert_text(type, "status", offsetof(worst_row, status), sizeof row[0].status);
     insert_text(type, "scene", offsetof(worst_row, scene), sizeof row[0].scene);
-    H5Dclose(record_table(r, r->file, "worst", type, count, row));
+    H5Dclose(record_table(r, at, "worst", type, count, row));
     H5Tclose(type);
 }

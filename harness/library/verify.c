@@ -9,6 +9,7 @@
 #include "harness/library/source.h"
 #include "harness/library/text.h"
 #include "harness/records/json.h"
+#include "harness/records/kept.h"
 #include "harness/records/output.h"
 #include "harness/records/store.h"
 #include "harness/study/plan.h"
@@ -70,8 +71,10 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
     }
     if (v->former_path != NULL)
         TRY(read_former(v, f));
-    if (v->results != NULL)
+    if (v->results != NULL) {
         TRY(output_try(v->results, OUTPUT_WHOLE_FILE, &where, f));
+        TRY(kept_check(v->results, f));
+    }
     return read_truths(v, f);
 }
 

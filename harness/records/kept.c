@@ -43,59 +43,75 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* *file: -1: nothing is there that is to be kept. */
-static status open_former(const char *path, hid_t *file, fault *f)
+/* Waits for so many tenths of a second; patience -1: for ever. 0: it is held; -1 and errno. */
+static int hold(int file, int kind, int patience)
+{
+    const int wait = patience < 0 ? 0 : LOCK_NB;
+    while (flock(file, kind | wait) != 0) {
+        if (errno != EINTR && (errno != EWOULDBLOCK || patience-- <= 0))
+            return -1;
+        usleep(100000);
+    }
+    return 0;
+}
+
+/* The HDF5 library locks what it writes, and reads nothing that is locked. */
+static status await_writer(const char *path, int patience, fault *f)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, patience),
+              why = errno;
+    close(file);
+    return held == 0 || why != EWOULDBLOCK
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "%.200s: another program writes there; close it in that program, or "
+                           "give another name",
+                           path);
+}
+
+static int is_ours(hid_t file)
 {
     char schema[64];
+    return H5Aexists(file, KEPT_SWEEP_MARK) > 0 ||
+           (table_reader_attribute_text(file, "schema", schema, sizeof schema) &&
+            strcmp(schema, SCHEMA_NAME) == 0);
+}
+
+/* *file: -1: nothing is there that is to be kept. */
+static status open_former(const char *path, int patience, hid_t *file, fault *f)
+{
     *file = -1;
     if (!is_hdf5(path))
         return STATUS_OK;
+    TRY(await_writer(path, patience, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     if (checksum_check(path, NULL) == STATUS_OK)
         *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (*file < 0)
-        return unfit(path, f);
-    if (table_reader_attribute_text(*file, "schema", schema, sizeof schema) &&
-        strcmp(schema, SCHEMA_NAME) == 0)
+    if (*file >= 0 && is_ours(*file))
         return STATUS_OK;
-    H5Fclose(*file);
+    if (*file >= 0)
+        H5Fclose(*file);
     *file = -1;
     return unfit(path, f);
 }
 
-status kept_check(const char *path, fault *f)
-{
-    hid_t file;
-    TRY(open_former(path, &file, f));
-    if (file >= 0)
-        H5Fclose(file);
-    return STATUS_OK;
-}
-
-status kept_spare(const char *path, fault *f)
-{
-    hid_t file;
-    if (open_former(path, &file, NULL) != STATUS_OK || file < 0)
-        return STATUS_OK;
-    H5Fclose(file);
-    return fault_set(f, STATUS_REFUSED,
-                     "%.200s holds results of verify or of other experiments, which would be "
-                     "replaced; give another name",
-                     path);
-}
+typedef struct target {
+    record *r;
+    hid_t at;
+} target;
 
 static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *unused, void *to)
 {
     (void)unused;
-    record *r = to;
+    const target *t = to;
     const hid_t old = H5Aopen(from, name, H5P_DEFAULT), type = H5Aget_type(old),
                 space = H5Aget_space(old);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     char *value = calloc((size_t)(count > 0 ? count : 0) + 1, H5Tget_size(type));
     const hid_t own = value != NULL && H5Aread(old, type, value) >= 0
-                          ? H5Acreate2(r->file, name, type, space, H5P_DEFAULT, H5P_DEFAULT)
+                          ? H5Acreate2(t->at, name, type, space, H5P_DEFAULT, H5P_DEFAULT)
                           : -1;
-    r->bad |= own < 0 || H5Awrite(own, type, value) < 0;
+    t->r->bad |= own < 0 || H5Awrite(own, type, value) < 0;
     free(value);
     H5Aclose(own);
     H5Sclose(space);
@@ -120,6 +136,13 @@ static void copy_links(record *r, hid_t from, hid_t to)
     }
 }
 
+static void copy_all(record *r, hid_t from, hid_t to)
+{
+    target t = {r, to};
+    copy_links(r, from, to);
+    r->bad |= H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_INC, NULL, copy_attribute, &t) < 0;
+}
+
 static void copy_groups(record *r, hid_t former)
 {
     if (H5Lexists(former, KEPT_GROUPS, H5P_DEFAULT) <= 0)
@@ -133,11 +156,15 @@ static void copy_groups(record *r, hid_t former)
 
 static void copy_former(record *r, const char *name, hid_t former)
 {
+    const int is_sweep = H5Aexists(former, KEPT_SWEEP_MARK) > 0;
     copy_groups(r, former);
-    if (name == NULL)
-        return;
-    copy_links(r, former, r->file);
-    r->bad |= H5Aiterate2(former, H5_INDEX_NAME, H5_ITER_INC, NULL, copy_attribute, r) < 0;
+    if (is_sweep && (name == NULL || strcmp(name, KEPT_SWEEP) != 0)) {
+        const hid_t to = kept_group(r, KEPT_SWEEP);
+        copy_all(r, former, to);
+        H5Gclose(to);
+    }
+    if (!is_sweep && name != NULL)
+        copy_all(r, former, r->file);
 }
 
 /* Of a file that verify has not written into yet. */
@@ -149,16 +176,36 @@ static void put_schema(record *r)
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
 }
 
-static status merge(record *r, const char *name, const char *path, fault *f)
+/* What was made in memory goes to the disk first: what others have left may be larger. */
+static status merge(record *r, const char *name, hid_t former, const char *path, fault *f)
+{
+    record all;
+    if (r->to.stream == NULL) {
+        const status opened = record_open_beside(&all, path, f);
+        if (opened != STATUS_OK)
+            return record_drop(r, opened);
+        all.bad = r->bad;
+        copy_all(&all, r->file, all.file);
+        record_drop(r, STATUS_OK);
+        *r = all;
+    }
+    copy_former(r, name, former);
+    return STATUS_OK;
+}
+
+static status close_merged(record *r, const char *name, const place *at, const char *path, fault *f)
 {
     hid_t former;
-    TRY(open_former(path, &former, f));
+    status outcome = open_former(at->path, -1, &former, f);
+    if (outcome != STATUS_OK)
+        return record_drop(r, outcome);
     if (former >= 0) {
-        copy_former(r, name, former);
+        outcome = merge(r, name, former, path, f);
         H5Fclose(former);
+        TRY(outcome);
     }
     put_schema(r);
-    return STATUS_OK;
+    return record_close(r, path, f);
 }
 
 /* Has whoever held it before taken it away? */
@@ -171,35 +218,72 @@ static int is_there(int lock, const char *name)
 
 /* The file beside is the lock, as the results themselves are replaced. One that a killed run has
  * left is no hindrance: the lock ends with its process. -1 and errno: none. */
-static int take_lock(const char *name)
+static int take_lock(const char *name, int patience)
 {
     for (;;) {
         const int lock = open(name, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (lock < 0)
             return -1;
-        while (flock(lock, LOCK_EX) != 0)
-            if (errno != EINTR) {
-                close(lock);
-                return -1;
-            }
+        if (hold(lock, LOCK_EX, patience) != 0) {
+            const int why = errno;
+            close(lock);
+            errno = why;
+            return -1;
+        }
         if (is_there(lock, name))
             return lock;
         close(lock);
     }
 }
 
+static status lock_beside(const place *at, int patience, char beside[PATH_MAX], int *lock, fault *f)
+{
+    const int length = snprintf(beside, PATH_MAX, "%s.lock", at->path);
+    *lock = length < PATH_MAX ? take_lock(beside, patience) : -1;
+    if (*lock >= 0)
+        return STATUS_OK;
+    if (length < PATH_MAX && errno == EWOULDBLOCK)
+        return fault_set(f, STATUS_REFUSED,
+                         "%.200s: another run holds %.200s; wait until it ends, or give another "
+                         "name",
+                         at->path, beside);
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be locked (%s)", at->path,
+                     strerror(length < PATH_MAX ? errno : ENAMETOOLONG));
+}
+
+static void unlock(const char *beside, int lock)
+{
+    unlink(beside);
+    close(lock);
+}
+
+status kept_check(const char *path, fault *f)
+{
+    enum { PATIENCE = 100 }; /* [0.1 s]: longer than it takes to write one */
+    char beside[PATH_MAX];
+    hid_t file;
+    place at;
+    int lock;
+    TRY(place_find(path, &at, f));
+    if (at.kind != PLACE_FREE && at.kind != PLACE_FILE)
+        return STATUS_OK;
+    TRY(lock_beside(&at, PATIENCE, beside, &lock, f));
+    const status outcome = open_former(at.path, PATIENCE, &file, f);
+    if (file >= 0)
+        H5Fclose(file);
+    unlock(beside, lock);
+    return outcome;
+}
+
 static status close_locked(record *r, const char *name, const place *at, const char *path, fault *f)
 {
     char beside[PATH_MAX];
-    const int length = snprintf(beside, sizeof beside, "%s.lock", at->path),
-              lock = length < PATH_MAX ? take_lock(beside) : -1;
-    if (lock < 0)
-        return record_drop(r, fault_set(f, STATUS_FAULT, "%.200s: cannot be locked (%s)", path,
-                                        strerror(length < PATH_MAX ? errno : ENAMETOOLONG)));
-    status outcome = merge(r, name, at->path, f);
-    outcome = outcome == STATUS_OK ? record_close(r, path, f) : record_drop(r, outcome);
-    unlink(beside);
-    close(lock);
+    int lock;
+    const status locked = lock_beside(at, -1, beside, &lock, f);
+    if (locked != STATUS_OK)
+        return record_drop(r, locked);
+    const status outcome = close_merged(r, name, at, path, f);
+    unlock(beside, lock);
     return outcome;
 }
 

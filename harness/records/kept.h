@@ -7,6 +7,10 @@
 #include "harness/records/record.h"
 
 #define KEPT_GROUPS "experiments"
+#define KEPT_SWEEP  "sweep"
+/* An attribute of the group of a sweep, or of the root of a file that a sweep had for itself: the
+ * group of such a file is made of it when others write there. */
+#define KEPT_SWEEP_MARK "beamwork_sweep"
 
 /* Where an experiment writes: its group; name NULL: the root. The caller closes it with
  * H5Gclose. */
@@ -14,9 +18,8 @@ hid_t kept_group(record *r, const char *name);
 /* As record_close, with all that the file at `path` holds of other experiments than `name`. On
  * FAULT the file is as it was. */
 status kept_close(record *r, const char *name, const char *path, fault *f);
-/* REFUSED: HDF5 is there that is damaged, or not of results, and would be lost. */
+/* Before the work. REFUSED: HDF5 is there that is damaged, or not of results, and would be lost, or
+ * another program does not let go of it; FAULT: it cannot be locked. */
 status kept_check(const char *path, fault *f);
-/* For a file of another kind that would take its place. REFUSED: a file of results is there. */
-status kept_spare(const char *path, fault *f);
 
 #endif

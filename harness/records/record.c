@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/records/output.h"
 #include "harness/study/checksum.h"
 
 enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
@@ -13,23 +12,38 @@ static void check(record *r, int good)
     r->bad |= !good;
 }
 
-status record_open(record *r, fault *f)
+/* Access to a file of HDF5: of the oldest format, as an image of the newer ones carries a wrong
+ * checksum of its head (HDF5 1.10). FAULT: nothing is held. */
+static status open_file(record *r, const char *name, hid_t access, fault *f)
 {
-    static unsigned number; /* files in memory that are open together have names of their own */
-    char name[40];
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    snprintf(name, sizeof name, "beamwork-%u", number++);
-    *r = (record){.file = -1, .scalar = H5Screate(H5S_SCALAR)};
-    /* The oldest format: an image of the newer ones carries a wrong checksum of its head
-     * (HDF5 1.10). */
-    if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
-        r->file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    H5Pclose(access);
+    r->scalar = H5Screate(H5S_SCALAR);
+    r->file = access >= 0 ? H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access) : -1;
     if (r->file >= 0 && r->scalar >= 0)
         return STATUS_OK;
     H5Sclose(r->scalar);
     return fault_set(f, STATUS_FAULT, "no memory for results");
+}
+
+status record_open(record *r, fault *f)
+{
+    static unsigned number; /* files in memory that are open together have names of their own */
+    char name[40];
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    snprintf(name, sizeof name, "beamwork-%u", number++);
+    *r = (record){.file = -1};
+    const int good = access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0;
+    const status outcome = open_file(r, name, good ? access : -1, f);
+    H5Pclose(access);
+    return outcome;
+}
+
+status record_open_beside(record *r, const char *path, fault *f)
+{
+    *r = (record){.file = -1};
+    TRY(output_open_whole(path, &r->to, f));
+    const status outcome = open_file(r, r->to.temporary, H5P_DEFAULT, f);
+    return outcome == STATUS_OK ? STATUS_OK : output_finish(&r->to, outcome, f);
 }
 
 static status write_bytes(const char *image, size_t size, const char *path, fault *f)
@@ -63,16 +77,37 @@ static status write_image(const record *r, const char *path, fault *f)
     return outcome;
 }
 
-status record_drop(record *r, status outcome)
+static int close_file(record *r)
 {
     H5Sclose(r->scalar);
-    H5Fclose(r->file);
-    return outcome;
+    return H5Fclose(r->file) >= 0;
+}
+
+status record_drop(record *r, status outcome)
+{
+    close_file(r);
+    return r->to.stream != NULL ? output_finish(&r->to, outcome, NULL) : outcome;
+}
+
+/* The last line behind what the library has written, and the file in its place. */
+static status close_on_disk(record *r, fault *f)
+{
+    char line[CHECKSUM_LENGTH + 1];
+    status outcome =
+        close_file(r) && !r->bad
+            ? checksum_of_file(r->to.temporary, line, f)
+            : fault_set(f, STATUS_FAULT,
+                        "%.200s: the results could not be written (disk or memory)", r->to.to.path);
+    if (outcome == STATUS_OK) {
+        fseek(r->to.stream, 0, SEEK_END);
+        fputs(line, r->to.stream); /* the stream remembers an error until it is closed */
+    }
+    return output_finish(&r->to, outcome, f);
 }
 
 status record_close(record *r, const char *path, fault *f)
 {
-    return record_drop(r, write_image(r, path, f));
+    return r->to.stream != NULL ? close_on_disk(r, f) : record_drop(r, write_image(r, path, f));
 }
 
 hid_t record_group(record *r, hid_t at, const char *name)

@@ -1,20 +1,23 @@
-/* Writing an HDF5 file that appears complete or not at all: it is made in memory, then written
- * beside and renamed. Every call is checked; after the first failure nothing more is tried and
- * record_close says so. */
+/* Writing an HDF5 file that appears complete or not at all: it is made in memory and then written
+ * beside, or made beside, and renamed. Every call is checked; after the first failure nothing more
+ * is tried and record_close says so. */
 #ifndef BEAMWORK_RECORD_H
 #define BEAMWORK_RECORD_H
 
 #include <hdf5.h>
 
-#include "elements/shared/status.h"
+#include "harness/records/output.h"
 
 typedef struct record {
     hid_t file, scalar; /* scalar: the shape of an attribute */
     int bad;
+    output to; /* of one that is made on disk; stream NULL: in memory */
 } record;
 
 status record_open(record *r, fault *f);
-/* Writes what was recorded to `path` (NULL: nothing) and frees it. */
+/* On disk, for what is larger than memory. REFUSED, FAULT: nothing can be written there. */
+status record_open_beside(record *r, const char *path, fault *f);
+/* Writes what was recorded to `path` (NULL: nothing; on disk: that of its opening) and frees it. */
 status record_close(record *r, const char *path, fault *f);
 /* Frees what was recorded; the outcome that led to it. */
 status record_drop(record *r, status outcome);

@@ -89,8 +89,9 @@ typedef struct results {
 /* HDF5 or table, told apart by the first bytes. FAULT: missing, truncated, foreign or damaged, or
  * a sweep. */
 status results_read(const char *path, results *out, fault *f);
-/* The same, of a sweep too, which has no series. */
-status results_read_any(const char *path, results *out, fault *f);
+/* The same of an experiment: "verify", "bench", or "sweep", which has no series; NULL: the first of
+ * these that is there. */
+status results_read_any(const char *path, const char *experiment, results *out, fault *f);
 void results_free(results *r);
 
 /* A zeroed one at the end, or NULL. */
@@ -117,7 +118,7 @@ int results_part_differ(const results *a, const results *b, const char *series);
 int results_part_is_fresh(const results_part *p, const char *series);
 void results_part_free(results_part *);
 
-status results_hdf5_read(const char *path, results *out, fault *f);
+status results_hdf5_read(const char *path, const char *experiment, results *out, fault *f);
 status results_table_read(const char *path, FILE *from, results *out, fault *f);
 void results_table_write(FILE *to, const results *r);
 

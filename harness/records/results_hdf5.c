@@ -9,6 +9,7 @@
 #include "harness/records/results_sweep.h"
 #include "harness/records/table_reader.h"
 #include "harness/study/checksum.h"
+#include "harness/study/handles.h"
 
 enum { NAME = 200 };
 
@@ -37,19 +38,9 @@ static status read_cases(const char *path, hid_t cases, results *out, fault *f)
     return STATUS_OK;
 }
 
-/* Those of verify, or, where it has left none, of bench. */
-static hid_t open_cases(hid_t file)
+static status read_tables(const char *path, hid_t at, results *out, fault *f)
 {
-    const char *of_bench = KEPT_GROUPS "/bench/cases";
-    const int own = H5Lexists(file, "cases", H5P_DEFAULT) > 0 ||
-                    H5Lexists(file, KEPT_GROUPS, H5P_DEFAULT) <= 0 ||
-                    H5Lexists(file, KEPT_GROUPS "/bench", H5P_DEFAULT) <= 0;
-    return H5Gopen2(file, own ? "cases" : of_bench, H5P_DEFAULT);
-}
-
-static status read_tables(const char *path, hid_t file, results *out, fault *f)
-{
-    const hid_t cases = open_cases(file);
+    const hid_t cases = H5Gopen2(at, "cases", H5P_DEFAULT);
     const status outcome =
         cases < 0 ? results_case_damaged(path, "", "cases", f) : read_cases(path, cases, out, f);
     out->whole = 1;
@@ -109,12 +100,12 @@ static status read_part(const char *path, hid_t file, results_part *out, fault *
     return read_fresh(path, file, out, f);
 }
 
-static status read_file(const char *path, hid_t file, results *out, fault *f)
+static status check_version(const char *path, hid_t file, fault *f)
 {
     char schema[64];
     long version = 0;
-    if (H5Aexists(file, "beamwork_sweep") > 0)
-        return results_sweep_read(path, file, out, f);
+    if (H5Aexists(file, KEPT_SWEEP_MARK) > 0)
+        return STATUS_OK;
     if (!table_reader_attribute_text(file, "schema", schema, sizeof schema) ||
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version))
@@ -122,16 +113,62 @@ static status read_file(const char *path, hid_t file, results *out, fault *f)
                          "%.120s: not a file of results; write one with 'beamwork verify -o' or "
                          "'beamwork sweep -o'",
                          path);
-    if (version < SCHEMA_OLDEST || version > SCHEMA_VERSION)
-        return fault_set(f, STATUS_FAULT,
-                         "%.120s: results of version %ld, this program reads %d to %d; run "
-                         "'beamwork verify -o' again",
-                         path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
-    TRY(read_part(path, file, &out->part, f));
-    return read_tables(path, file, out, f);
+    if (version >= SCHEMA_OLDEST && version <= SCHEMA_VERSION)
+        return STATUS_OK;
+    return fault_set(f, STATUS_FAULT,
+                     "%.120s: results of version %ld, this program reads %d to %d; run "
+                     "'beamwork verify -o' again",
+                     path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
 }
 
-status results_hdf5_read(const char *path, results *out, fault *f)
+/* Where an experiment of that name has left what is there; -1. The root is that of verify, or of a
+ * sweep that had the file for itself. */
+static hid_t open_group(hid_t file, const char *name)
+{
+    const int is_sweep = strcmp(name, KEPT_SWEEP) == 0, is_own = strcmp(name, "verify") == 0;
+    if (is_sweep && H5Aexists(file, KEPT_SWEEP_MARK) > 0)
+        return H5Gopen2(file, "/", H5P_DEFAULT);
+    if (is_own)
+        return H5Lexists(file, "cases", H5P_DEFAULT) > 0 ? H5Gopen2(file, "/", H5P_DEFAULT) : -1;
+    const hid_t all = H5Lexists(file, KEPT_GROUPS, H5P_DEFAULT) > 0
+                          ? H5Gopen2(file, KEPT_GROUPS, H5P_DEFAULT)
+                          : -1,
+                own = all >= 0 && H5Lexists(all, name, H5P_DEFAULT) > 0
+                          ? H5Gopen2(all, name, H5P_DEFAULT)
+                          : -1;
+    handles_close(1, &all);
+    return own;
+}
+
+static status read_group(const char *path, hid_t at, results *out, fault *f)
+{
+    if (H5Aexists(at, KEPT_SWEEP_MARK) > 0)
+        return results_sweep_read(path, at, out, f);
+    TRY(read_part(path, at, &out->part, f));
+    return read_tables(path, at, out, f);
+}
+
+static status read_file(const char *path, const char *experiment, hid_t file, results *out,
+                        fault *f)
+{
+    static const char *const of_cells[] = {"verify", "bench", KEPT_SWEEP};
+    hid_t at = -1;
+    TRY(check_version(path, file, f));
+    for (size_t i = 0; i < sizeof of_cells / sizeof *of_cells && at < 0; i++)
+        if (experiment == NULL || strcmp(experiment, of_cells[i]) == 0)
+            at = open_group(file, of_cells[i]);
+    if (at < 0)
+        return experiment == NULL ? results_case_damaged(path, "", "cases", f)
+                                  : fault_set(f, STATUS_FAULT,
+                                              "%.120s: nothing of '%.40s' is there that could be "
+                                              "compared; verify, bench and sweep leave such",
+                                              path, experiment);
+    const status outcome = read_group(path, at, out, f);
+    H5Gclose(at);
+    return outcome;
+}
+
+status results_hdf5_read(const char *path, const char *experiment, results *out, fault *f)
 {
     TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -139,7 +176,7 @@ status results_hdf5_read(const char *path, results *out, fault *f)
     if (file < 0)
         return fault_set(f, STATUS_FAULT,
                          "%.120s: cannot be read as HDF5; run 'beamwork verify -o' again", path);
-    const status outcome = read_file(path, file, out, f);
+    const status outcome = read_file(path, experiment, file, out, f);
     H5Fclose(file);
     return outcome;
 }

@@ -47,25 +47,27 @@ static int is_hdf5(FILE *from)
     return length == sizeof head && memcmp(head, signature, sizeof head) == 0;
 }
 
-static status read_sorted(const char *path, FILE *from, results *out, fault *f)
+static status read_sorted(const char *path, const char *experiment, FILE *from, results *out,
+                          fault *f)
 {
     const int whole = is_hdf5(from);
     if (!whole)
         line_skip_mark(from);
-    TRY(whole ? results_hdf5_read(path, out, f) : results_table_read(path, from, out, f));
+    TRY(whole ? results_hdf5_read(path, experiment, out, f)
+              : results_table_read(path, from, out, f));
     TRY(sort_cells(path, out, f));
     if (out->whole && !out->swept)
         TRY(results_series_summarise(out, f));
     return sort_series(path, out, f);
 }
 
-status results_read_any(const char *path, results *out, fault *f)
+status results_read_any(const char *path, const char *experiment, results *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     FILE *from = fopen(path, "rb");
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.120s: cannot be read (%s)", path, strerror(errno));
-    const status outcome = read_sorted(path, from, out, f);
+    const status outcome = read_sorted(path, experiment, from, out, f);
     fclose(from);
     if (outcome != STATUS_OK)
         results_free(out);
@@ -74,7 +76,7 @@ status results_read_any(const char *path, results *out, fault *f)
 
 status results_read(const char *path, results *out, fault *f)
 {
-    TRY(results_read_any(path, out, f));
+    TRY(results_read_any(path, NULL, out, f));
     if (!out->swept)
         return STATUS_OK;
     results_free(out);

@@ -1,4 +1,4 @@
-/* The file of a sweep as cells, each named by its point. Nothing is believed of it. */
+/* A sweep as cells, each named by its point. Nothing is believed of it. */
 #include "harness/records/results_sweep.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 #include "harness/formulations/assignment.h"
 #include "harness/formulations/select.h"
 #include "harness/numerics/memory.h"
+#include "harness/records/kept.h"
 #include "harness/records/table_reader.h"
 #include "harness/study/handles.h"
 
@@ -39,7 +40,7 @@ typedef enum sweep_column {
 
 typedef struct sweep_file {
     const char *path;
-    hid_t file;
+    hid_t at; /* its group, or its file */
     char name[NAME], fixed[PARAMETERS_TEXT], status[WORDS];
     int points, axes, quantities, formulations, meshes;
     name_row *axis, *quantity, *formulation;
@@ -73,7 +74,7 @@ static void free_file(sweep_file *s)
 
 static hid_t open_set(const sweep_file *s, const char *name)
 {
-    return H5Lexists(s->file, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->file, name, H5P_DEFAULT) : -1;
+    return H5Lexists(s->at, name, H5P_DEFAULT) > 0 ? H5Dopen2(s->at, name, H5P_DEFAULT) : -1;
 }
 
 /* All of an array of that shape, where an extent of 0 stands for the one that it has, at most
@@ -105,7 +106,7 @@ static int read_names(const sweep_file *s, const char *table, const char *column
 {
     const table_column columns[] = {{column, FIELD_TEXT, 0, sizeof(name_row)}};
     void *rows;
-    const int count = table_reader_rows(s->file, table, 1, columns, sizeof(name_row), &rows);
+    const int count = table_reader_rows(s->at, table, 1, columns, sizeof(name_row), &rows);
     *out = rows;
     return count > 0 && count <= MOST_LISTED ? count : 0;
 }
@@ -175,15 +176,15 @@ static const char *read_request(sweep_file *s, results *out)
 {
     char from[WORDS], select[WORDS];
     snprintf(s->name, sizeof s->name, "scene");
-    if (table_reader_attribute_text(s->file, "scene", from, sizeof from)) {
+    if (table_reader_attribute_text(s->at, "scene", from, sizeof from)) {
         const char *leaf = strrchr(from, '/') != NULL ? strrchr(from, '/') + 1 : from;
         snprintf(s->name, sizeof s->name, "%.*s", (int)strcspn(leaf, "."), leaf);
-    } else if (!table_reader_attribute_text(s->file, "case", s->name, sizeof s->name)) {
+    } else if (!table_reader_attribute_text(s->at, "case", s->name, sizeof s->name)) {
         return "case";
     }
-    if (!table_reader_attribute_text(s->file, "parameters", s->fixed, sizeof s->fixed))
+    if (!table_reader_attribute_text(s->at, "parameters", s->fixed, sizeof s->fixed))
         return "parameters";
-    if (!table_reader_attribute_text(s->file, "selection", select, sizeof select))
+    if (!table_reader_attribute_text(s->at, "selection", select, sizeof select))
         return NULL;
     out->part.select = select_matches(select, "") >= 0 ? strdup(select) : NULL;
     return out->part.select != NULL ? NULL : "selection";
@@ -235,14 +236,14 @@ static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
 }
 
 /* All parameters that the file knows. */
-static void point_text(const sweep_file *s, int place, char *out, size_t size)
+static void point_text(const sweep_file *s, int which, char *out, size_t size)
 {
     char word[MOST_WORDS][WORD];
     int count = fixed_words(s, word);
     size_t used = 0;
     for (int i = 0; i < s->axes && count < MOST_WORDS; i++) {
         char value[ASSIGNMENT_VALUE];
-        axis_value_text(s, i, number(s, POINT, (size_t)place * (size_t)s->axes + (size_t)i), value);
+        axis_value_text(s, i, number(s, POINT, (size_t)which * (size_t)s->axes + (size_t)i), value);
         snprintf(word[count++], WORD, "%s=%s", s->axis[i].name, value);
     }
     qsort(word, (size_t)count, sizeof *word, compare_words);
@@ -268,12 +269,12 @@ static result_cell *add_cell(const sweep_file *s, const char *text, const char *
 }
 
 /* What the errors are against: no mesh. */
-static int add_references(const sweep_file *s, int place, const char *text, results *out)
+static int add_references(const sweep_file *s, int which, const char *text, results *out)
 {
     result_cell *cell = add_cell(s, text, "reference", out);
     for (int i = 0; cell != NULL && i < s->quantities; i++)
         cell->value[i].value =
-            number(s, REFERENCE, (size_t)place * (size_t)s->quantities + (size_t)i);
+            number(s, REFERENCE, (size_t)which * (size_t)s->quantities + (size_t)i);
     if (cell != NULL)
         snprintf(cell->status, sizeof cell->status, "ok");
     return cell != NULL;
@@ -315,14 +316,14 @@ static status check_size(const sweep_file *s, fault *f)
         what, "compare sweeps of fewer points", f);
 }
 
-static status add_point(const sweep_file *s, int place, results *out, fault *f)
+static status add_point(const sweep_file *s, int which, results *out, fault *f)
 {
     char text[PARAMETERS_TEXT + NAME];
-    point_text(s, place, text, sizeof text);
-    int good = add_references(s, place, text, out);
+    point_text(s, which, text, sizeof text);
+    int good = add_references(s, which, text, out);
     for (int i = 0; i < s->formulations; i++)
         for (int k = 0; k < s->meshes && good; k++)
-            good = add_mesh(s, (size_t)place * (size_t)s->formulations + (size_t)i, k, text, out);
+            good = add_mesh(s, (size_t)which * (size_t)s->formulations + (size_t)i, k, text, out);
     return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the cells of a sweep");
 }
 
@@ -330,7 +331,7 @@ static status read_file(sweep_file *s, results *out, fault *f)
 {
     long version = 0;
     const char *bad = NULL;
-    table_reader_attribute_count(s->file, "beamwork_sweep", &version);
+    table_reader_attribute_count(s->at, KEPT_SWEEP_MARK, &version);
     if (version != VERSION)
         return fault_set(
             f, STATUS_FAULT,
@@ -348,9 +349,9 @@ static status read_file(sweep_file *s, results *out, fault *f)
     return STATUS_OK;
 }
 
-status results_sweep_read(const char *path, hid_t file, results *out, fault *f)
+status results_sweep_read(const char *path, hid_t at, results *out, fault *f)
 {
-    sweep_file s = {.path = path, .file = file};
+    sweep_file s = {.path = path, .at = at};
     const status outcome = read_file(&s, out, f);
     out->whole = out->swept = 1;
     free_file(&s);

@@ -8,6 +8,7 @@ import numpy as np
 from reports.data import Unreadable, text
 
 MARK, VERSION = "beamwork_sweep", 1
+GROUP = "experiments/sweep"  # of files of before: the root
 PIECE = 1_000_000  # values of one table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # how kinds of references begin that there are not
@@ -146,8 +147,9 @@ class Sweep:
         step = max(1, step)
         try:
             with h5py.File(self.path) as file:
+                group = home(file)
                 for first in range(0, self.points, step):
-                    yield first, [file[name][first:first + step] for name in names]
+                    yield first, [group[name][first:first + step] for name in names]
         except OSError as why:
             raise Unreadable(f"{self.path}: cannot be read ({why}); run 'beamwork sweep' again"
                              ) from why
@@ -157,13 +159,31 @@ class Sweep:
         return ", ".join(f"{a.name} = {a.value(v)}" for a, v in zip(self.axes, values))
 
 
-def is_sweep(path):
-    """Is it such a file? False for what cannot be read."""
+def home(file):
+    """Where a file has the tables of a sweep, or None."""
+    return file if MARK in file.attrs else file.get(GROUP)
+
+
+def is_there(path):
+    """Does the file hold a sweep? False for what cannot be read."""
     try:
         with h5py.File(path) as file:
-            return MARK in file.attrs
+            return home(file) is not None
     except OSError:
         return False
+
+
+def is_alone(path):
+    """A sweep, and nothing of verify?"""
+    if not is_there(path):
+        return False
+    with h5py.File(path) as file:
+        return "cases" not in file
+
+
+def program_of(told):
+    return text(told["program"]) if "program" in told else (
+        f"beamwork {text(told['program_version'])} ({text(told['commit'])})")
 
 
 def listed(value):
@@ -205,8 +225,9 @@ def worst_of(file):
 def read(path):
     """The Sweep of a file; Unreadable names what is wrong with it."""
     try:
-        with h5py.File(path) as file:
-            if MARK not in file.attrs:
+        with h5py.File(path) as whole:
+            file = home(whole)
+            if file is None:
                 raise Unreadable(f"{path}: not a sweep; 'beamwork sweep -o FILE' writes one")
             if file.attrs[MARK] != VERSION:
                 raise Unreadable(f"{path}: a sweep of version {file.attrs[MARK]}, the report reads "
@@ -215,7 +236,7 @@ def read(path):
             quantities = [Quantity(text(r["name"]), text(r["unit"]))
                           for r in file["quantities"][()]]
             found = Sweep(str(path), text(told["scene" if "scene" in told else "case"]),
-                          text(told.get("parameters", "")), text(told["program"]),
+                          text(told.get("parameters", "")), program_of(told),
                           float(told["tolerance"]), float(told.get("cost_noise", 1)),
                           axes_of(file), quantities,
                           [text(r["key"]) for r in file["formulations"][()]],

@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 
+from harness.records.test.stored import group_of
 from harness.tools.kit.program import ProgramTest, report, run
 from reports.sweep import gather, stored
 from reports.test import sweeps
@@ -23,7 +24,7 @@ class Genuine(ProgramTest):
         self.assertIn("ok", sweep.statuses)
         self.assertTrue(sweep.without)
         found = gather.of_sweep(sweep)
-        with sweeps.h5py.File(path) as file:
+        with group_of(path) as file:
             least, status = file["least"][()], file["status"][()]
         absent = np.isin(status, sweep.outcomes(stored.ABSENT)).any(axis=2)
         for f, key in enumerate(sweep.keys):

@@ -6,9 +6,9 @@ import subprocess
 import time
 import unittest
 
-import h5py
 import numpy as np
 
+from harness.records.test.stored import group_of
 from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
@@ -21,7 +21,7 @@ class Going(ProgramTest):
                              "collocation", "-n", "1,2,4", "-k", "k_drive", "-o",
                              self.folder / "leaf.h5")
         self.assertIn("3 points by a stored truth", done.stdout)
-        with h5py.File(self.folder / "leaf.h5") as file:
+        with group_of(self.folder / "leaf.h5") as file:
             self.assertEqual(file.attrs["scene"].decode(), str(LEAF))
 
     def test_interrupted_goes_on(self):
@@ -43,7 +43,7 @@ class Going(ProgramTest):
         self.assertGreater(len(kept), 0)
         self.answered(*words, path)
         self.answered(*words, whole)
-        with h5py.File(path) as one, h5py.File(whole) as other:
+        with group_of(path) as one, group_of(whole) as other:
             self.assertEqual(one.attrs["content"], other.attrs["content"])
             for name in ("value", "error", "least", "status", "cost", "reference"):
                 np.testing.assert_array_equal(one[name][()], other[name][()])
@@ -63,8 +63,8 @@ class Going(ProgramTest):
         self.assertRegex(done.stdout, r"\d+ of 1200 points are there")
         self.answered("merge", *into, "-o", self.folder / "m.h5")
         self.answered(*words, "-o", self.folder / "whole.h5")
-        with h5py.File(self.folder / "m.h5") as one, h5py.File(
-                self.folder / "whole.h5") as whole, h5py.File(
+        with group_of(self.folder / "m.h5") as one, group_of(
+                self.folder / "whole.h5") as whole, group_of(
                     self.folder / "m.partial.h5") as part:
             for name in ("plan", "content"):
                 self.assertEqual(one.attrs[name], whole.attrs[name])

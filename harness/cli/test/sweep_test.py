@@ -5,9 +5,9 @@ import itertools
 import json
 import unittest
 
-import h5py
 import numpy as np
 
+from harness.records.test.stored import group_of
 from harness.tools.kit.program import ROOT, ProgramTest, run
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
@@ -36,7 +36,7 @@ class Grid(ProgramTest):
         cls.path = cls.class_folder() / "column.h5"
         cls.done = run("sweep", *COLUMN, "-o", cls.path)
         assert cls.done.returncode == 0, cls.done.stderr
-        with h5py.File(cls.path) as file:
+        with group_of(cls.path) as file:
             cls.of = {name: file[name][()] for name in file}
             cls.told = dict(file.attrs)
             cls.kinds = file["reference_kind"].attrs["names"].decode().split("\n")
@@ -107,7 +107,7 @@ class Grid(ProgramTest):
         for jobs in (1, 3):
             path = self.folder / f"{jobs}.h5"
             self.answered("sweep", *COLUMN, "-j", jobs, "-o", path)
-            with h5py.File(path) as file:
+            with group_of(path) as file:
                 self.assertEqual(file.attrs["content"], self.told["content"])
                 self.assertEqual(file.attrs["plan"], self.told["plan"])
 
@@ -135,7 +135,7 @@ class References(ProgramTest):
     def kinds(self, *words):
         path = self.folder / "r.h5"
         done = self.answered("sweep", *words, "-o", path)
-        with h5py.File(path) as file:
+        with group_of(path) as file:
             names = file["reference_kind"].attrs["names"].decode().split("\n")
             return ([[names[k] for k in row] for row in file["reference_kind"][()]],
                     file["reference"][()], file["error"][()], done.stdout)
@@ -175,7 +175,7 @@ class References(ProgramTest):
                              "--set", "height=0.5", "-f", "beamw", "-n", "1,2", "-k",
                              "buckling_load", "-o", self.folder / "c.h5")
         self.assertIn("1 points have no scene, the first at section_data=printed", done.stdout)
-        with h5py.File(self.folder / "c.h5") as file:
+        with group_of(self.folder / "c.h5") as file:
             names = file["status"].attrs["names"].decode().split("\n")
             self.assertEqual([names[s] for s in file["status"][:, 0, 0]], ["ok", "no_scene"])
             self.assertEqual(file["points"].attrs["section_data"].decode(), "shear_flow\nprinted")
@@ -187,7 +187,7 @@ class Designs(ProgramTest):
     def points(self, *words):
         path = self.folder / "d.h5"
         self.answered("sweep", "elastica", *words, "-f", "beamw", "-n", "1", "-o", path)
-        with h5py.File(path) as file:
+        with group_of(path) as file:
             return file["points"][()], dict(file.attrs), [r["kind"] for r in file["axes"][()]]
 
     def test_sobol(self):

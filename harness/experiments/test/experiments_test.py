@@ -1,4 +1,5 @@
 """One file of results for all experiments, through the program: several at a time, old files, damage."""
+import fcntl
 import shutil
 import subprocess
 import unittest
@@ -16,6 +17,7 @@ ASKED = {
     "element-test": ("element-test", "sheet_third"),
     "bench": ("bench", "elastica", "-f", "collocation", "-n", "1,2"),
     "converge": ("converge", "elastica", "-f", "collocation", "-n", "1,2"),
+    "sweep": ("sweep", "warping_torsion", "--vary", "kL=1,2", "-f", "beamw", "-n", "2"),
 }  # yapf: disable
 SAME = "0 worse, 0 better, 0 changed, 0 gone, 0 new"
 SAYS = ("schema", "schema_version", "program_version", "commit", "clock")
@@ -66,7 +68,8 @@ class Experiments(ProgramTest):
             self.assertEqual(set(file["experiments"]), set(ASKED))
             for group in (file, *file["experiments"].values()):
                 self.assertLessEqual(set(SAYS), set(group.attrs), group.name)
-        self.assertEqual([p.name for p in self.stored.parent.iterdir()], ["results.h5"])
+        self.assertEqual(sorted(p.name for p in self.stored.parent.iterdir()),
+                         ["results.h5", "results.worst"])
 
     def test_replaced_whole(self):
         """By a run that leaves less; what others have left is the same to the byte."""
@@ -134,16 +137,43 @@ class Experiments(ProgramTest):
                 self.refused(2, "give another name", *words, "-o", path)
             self.assertEqual(path.read_bytes(), before)
 
-    def test_a_sweep_elsewhere(self):
-        """It has a file of its own: neither takes the place of the other."""
-        before = contents(self.path)
-        work = ("sweep", "warping_torsion", "--vary", "kL=1,2", "-f", "beamw", "-n", "2")
-        self.refused(2, "give another name", *work, "-o", self.path)
-        self.assertEqual(contents(self.path), before)
-        sweep = self.folder / "sweep.h5"
-        self.answered(*work, "-o", sweep)
-        self.refused(2, "give another name", *ASKED["stress"], "-o", sweep)
-        self.answered(*work, "-o", sweep)
+    def test_a_sweep_alone(self):
+        """That had a file for itself is compared, reported, replaced, and makes room for others."""
+        def old(file):
+            group = file["experiments/sweep"]
+            for name in group:
+                file.copy(group[name], name)
+            for name in set(file.attrs) - {"beamwork_sweep"}:
+                del file.attrs[name]
+            for name in set(group.attrs) - {"schema", "schema_version", "program_version", "commit"}:
+                file.attrs[name] = group.attrs[name]
+            file.attrs["program"] = "beamwork 0 (before)"
+            del file["experiments"]
+
+        new, path = self.folder / "new.h5", self.folder / "old.h5"
+        self.answered(*ASKED["sweep"], "-o", new)
+        altered(new, path, old)
+        self.assertIn(SAME, self.answered("compare", path, new).stdout)
+        self.assertIn(SAME, self.answered("compare", path, self.path, "--experiment", "sweep").stdout)
+        self.refused(2, "--experiment sweep", "compare", path, self.path)
+        done = report(path, self.folder / "site")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.answered(*ASKED["stress"], "-o", path)
+        self.assertIn(SAME, self.answered("compare", path, new, "--experiment", "sweep").stdout)
+        self.answered(*ASKED["sweep"], "-o", path)
+        self.assertEqual(set(contents(path)), {"verify", "stress", "sweep"})
+
+    def test_held(self):
+        """By another run, or by a program that writes there: noticed before the work."""
+        with open(f"{self.path}.lock", "w", encoding="ascii") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            self.refused(2, "another run holds", *ASKED["sweep"], "-o", self.path)
+        with open(self.path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            self.refused(2, "another program writes there", *VERIFY, "-o", self.path)
+        (self.folder / "results.h5.lock").unlink(missing_ok=True)
+        (self.folder / "results.h5.lock").mkdir()
+        self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)
 
     def test_text_still(self):
         """By the name of the file."""

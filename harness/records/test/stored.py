@@ -1,4 +1,5 @@
 """Stored runs for tests: made by verify, altered in one place, compared."""
+import contextlib
 import math
 import shutil
 
@@ -34,6 +35,13 @@ def altered(old, new, change):
         change(file)
     seal(new)
     return new
+
+
+@contextlib.contextmanager
+def group_of(path, name="sweep"):
+    """What an experiment has left."""
+    with h5py.File(path) as file:
+        yield file["experiments"][name]
 
 
 def replace(group, name, rows):

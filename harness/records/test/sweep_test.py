@@ -1,7 +1,6 @@
 """beamwork compare of two sweeps: points matched by their parameters, the thresholds and statuses of runs."""
-import h5py
-
-from harness.records.test.stored import altered, verify
+from harness.records.test import stored
+from harness.records.test.stored import group_of, verify
 from harness.tools.kit.program import ROOT, ProgramTest, run
 
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
@@ -13,6 +12,10 @@ def sweep(path, *what):
     done = run("sweep", *what, "-o", path)
     assert done.returncode == 0, done.stderr
     return path
+
+
+def altered(old, new, change):
+    return stored.altered(old, new, lambda file: change(file["experiments/sweep"]))
 
 
 class Sweeps(ProgramTest):
@@ -86,7 +89,7 @@ class Sweeps(ProgramTest):
         """Of another range, in another order, with a parameter fixed or varied, of numbers that round differently."""
         one = sweep(self.folder / "one.h5", "elastica", "--vary", "load=0.1..0.4/3", "-s", "axial=1e6", *OPTIONS)
         two = sweep(self.folder / "two.h5", "elastica", "--vary", "axial=1e7,1e6", "--vary", "load=0.3,0.2,0.7", *OPTIONS)
-        with h5py.File(one) as file:
+        with group_of(one) as file:
             self.assertNotIn(0.3, file["points"][()], "a number that rounds as in the list")
         lines, pairs = self.compared(1, two, old=one)
         self.assertTrue(pairs.startswith("12 cells in both: 0 worse, 0 better, 0 changed, 2 gone, 4 new"), (lines, pairs))
@@ -108,7 +111,7 @@ class Sweeps(ProgramTest):
     def test_quantities(self):
         """What the other was not asked for is not gone."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-k", "theta", *OPTIONS)
-        with h5py.File(self.old) as old, h5py.File(new) as file:
+        with group_of(self.old) as old, group_of(new) as file:
             self.assertEqual((len(old["quantities"]), len(file["quantities"])), (3, 1))
         self.compared(0, new)
         lines, _ = self.compared(1, altered(new, self.folder / "none.h5", lambda file: file.attrs.__delitem__("selection")))
