@@ -14,7 +14,6 @@ import h5py
 from reports.data import Unreadable, rows, text
 
 GROUPS = "experiments"
-NAMES = ("stress", "motion", "element-test", "bench", "converge", "sweep")  # verbs of beamwork
 
 
 def plain(value):

@@ -6,6 +6,7 @@ import os
 from dataclasses import dataclass
 
 from reports import experiments
+from reports.data import Unreadable
 
 PACES = "paces.json"
 KEPT = 1e-11  # of the largest energy: what does not drift by more keeps it
@@ -210,15 +211,24 @@ def check_of(row):
                  row["reason"])
 
 
+def compared_in(path):
+    """What paces.json has: (problems, left_out, checks), or None where there is none."""
+    try:
+        paces = load(path)
+        return None if paces is None else (
+            problems_of(paces),
+            {(row["case"], row["formulation"]): row["reason"] for row in paces["left_out"]},
+            [check_of(row) for row in paces["checks"]])
+    except (KeyError, TypeError, ValueError) as why:
+        raise Unreadable(f"{path}: damaged, or of an earlier version; run 'make lab L=paces', or "
+                         "remove it") from why
+
+
 def read(path):
     """The Record of a file of results and of paces.json beside it, or None where there is none."""
     found = experiments.read(path, "motion")
     if found is None:
         return None
     problems = problems_of(found)
-    paces = load(os.path.join(os.path.dirname(os.path.abspath(path)), PACES))
-    if paces is None:
-        return Record(problems, found["verdicts"], problems, {}, [], found)
-    return Record(problems, found["verdicts"], problems_of(paces),
-                  {(row["case"], row["formulation"]): row["reason"] for row in paces["left_out"]},
-                  [check_of(row) for row in paces["checks"]], found)
+    beside = os.path.join(os.path.dirname(os.path.abspath(path)), PACES)
+    return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)

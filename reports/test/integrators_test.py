@@ -5,6 +5,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, drawn
 from reports import integrators_page
+from reports.data import Unreadable
 from reports.integrators import answers, map as stability, stored, words
 from reports.test import motions
 from reports.test.browser_test import CHROMIUM, chromium, console
@@ -233,6 +234,14 @@ class Page(ProgramTest):
         self.assertIn("not possible: no inertia", table)
         self.assertIn("elbow, beamw_vlasov: does not offer shear", text)
         self.assertRegex(text, r"keeps energy to round-off: conserving, at [\d.]+ times the cost")
+
+    def test_an_old_paces(self):
+        """Of another form, or cut short: one line says what to run."""
+        motions.leave(self.folder / "results.h5", motions.record())
+        for text in ('{"cases": []}', "[1", "[]"):
+            (self.folder / "paces.json").write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(Unreadable, "run 'make lab L=paces', or remove it"):
+                stored.read(self.folder / "results.h5")
 
     def test_nothing_from_elsewhere(self):
         self.assertNotRegex(self.text, r'(src|href)="https?:')
