@@ -9,9 +9,32 @@
 #include "harness/cli/options.h"
 #include <stdio.h>
 
-extern const verb verb_list, verb_solve, verb_verify, verb_converge, verb_bench, verb_stress,
-    verb_compare, verb_truth, verb_schema, verb_scene, verb_import, verb_export, verb_explain,
-    verb_element_test, verb_merge, verb_sweep, verb_motion;
+/* In the order of help, below headings. A new verb is its file and a line here. */
+#define VERBS(HEADING, VERB)                                                                       \
+    HEADING(look)                                                                                  \
+    VERB(list)                                                                                     \
+    VERB(explain)                                                                                  \
+    HEADING(compute)                                                                               \
+    VERB(solve)                                                                                    \
+    VERB(converge)                                                                                 \
+    VERB(sweep)                                                                                    \
+    VERB(truth)                                                                                    \
+    VERB(scene)                                                                                    \
+    HEADING(judge_and_compare)                                                                     \
+    VERB(verify)                                                                                   \
+    VERB(bench)                                                                                    \
+    VERB(stress)                                                                                   \
+    VERB(motion)                                                                                   \
+    VERB(element_test)                                                                             \
+    VERB(merge)                                                                                    \
+    VERB(compare)                                                                                  \
+    HEADING(exchange)                                                                              \
+    VERB(export)                                                                                   \
+    VERB(import)                                                                                   \
+    VERB(schema)
+#define VERB_DECLARED(name) extern const verb verb_##name;
+#define NO_HEADING(name)
+VERBS(NO_HEADING, VERB_DECLARED)
 
 /* `beamwork VERB ...`, `beamwork help [VERB]`, --help, --version: the exit code. arguments[0] is
  * the program. */

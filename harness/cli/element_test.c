@@ -104,4 +104,5 @@ const verb verb_element_test = {
     shared,
     own,
     sizeof(element_test_request),
-    .answer = answer};
+    .answer = answer,
+    .experiment = &experiment_element_test};

@@ -340,7 +340,7 @@ static void write_record(FILE *to, results_record r)
     fprintf(to, ".El\n");
 }
 
-void manual_write_results(FILE *to)
+void manual_write_results(FILE *to, const verb *const *verbs)
 {
     static const roff_reference see[] = {
         {"beamwork", 1}, {"beamwork-schema", 1}, {"beamwork-verify", 1}};
@@ -353,8 +353,8 @@ void manual_write_results(FILE *to)
         roff_text(to, results_about[i]);
         fprintf(to, results_about[i + 1] != NULL ? ".Pp\n" : "");
     }
-    for (int i = 0; results_record_at(i).type != NULL; i++)
-        write_record(to, results_record_at(i));
+    for (int i = 0; results_record_at(verbs, i).type != NULL; i++)
+        write_record(to, results_record_at(verbs, i));
     fprintf(to, ".Sh EXAMPLES\nFrom Python:\n.Bd -literal\nimport h5py\n"
                 "rows = h5py.File(\\(dqresults.h5\\(dq)[\\(dqcases/elastica/quantities\\(dq][()]\n"
                 ".Ed\n");

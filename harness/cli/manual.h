@@ -26,8 +26,8 @@ typedef struct results_record {
     const record_type *type;
 } results_record;
 
-/* Number i, or a type of NULL behind the last one. */
-results_record results_record_at(int i);
+/* Number i, of the verbs too, or a type of NULL behind the last one. */
+results_record results_record_at(const verb *const *verbs, int i);
 extern const char *const results_about[]; /* paragraphs, ending with NULL */
 /* "text *", "int", ...; the unit as it is shown; what it is, with its words. */
 typedef struct results_field {
@@ -43,7 +43,7 @@ void manual_write_verb(FILE *to, const verb *v);
 /* beamwork-scene-file(5): what may stand in a scene file. */
 void manual_write_scene(FILE *to);
 /* beamwork-results(5): what a result file consists of. */
-void manual_write_results(FILE *to);
+void manual_write_results(FILE *to, const verb *const *verbs);
 
 /* Pages as mdoc(7): what a text means stands in macros, what it says in lines that no formatter
  * takes for one. */

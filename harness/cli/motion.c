@@ -126,4 +126,5 @@ const verb verb_motion = {
     shared,
     own,
     sizeof(motion_options),
-    .answer = answer};
+    .answer = answer,
+    .experiment = &experiment_motion};

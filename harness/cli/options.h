@@ -37,6 +37,7 @@ struct verb_option {
 };
 
 typedef struct verb verb;
+typedef struct experiment_type experiment_type; /* harness/experiments/experiment.h */
 
 typedef struct given_option {
     const verb_option *option;
@@ -78,6 +79,7 @@ struct verb {
     size_t request;
     int (*answer)(const command_line *, void *request); /* the exit code; NULL: a heading */
     void (*before)(char **arguments);                   /* before these are read; NULL: nothing */
+    const experiment_type *experiment; /* whose records it leaves in a group; NULL: none */
 };
 
 /* The i-th option of a verb, in the order of its help; NULL behind the last. at: where its group is

@@ -44,17 +44,18 @@ static const record_type *take(const record_type *const *list, int *i)
 }
 
 /* Of the experiments, one after the other. */
-static results_record of_experiment(int *i)
+static results_record of_experiment(const verb *const *verbs, int *i)
 {
     results_record r = {"", NULL};
-    for (int k = 0; experiments[k] != NULL && r.type == NULL; k++) {
-        r.type = take(experiments[k]->records, i);
-        snprintf(r.place, sizeof r.place, "/experiments/%s/", experiments[k]->name);
+    for (; *verbs != NULL && r.type == NULL; verbs++) {
+        const experiment_type *e = (*verbs)->experiment;
+        r.type = e != NULL ? take(e->records, i) : NULL;
+        snprintf(r.place, sizeof r.place, "/experiments/%s/", e != NULL ? e->name : "");
     }
     return r;
 }
 
-results_record results_record_at(int i)
+results_record results_record_at(const verb *const *verbs, int i)
 {
     static const record_type *const first[] = {&record_declaration, NULL}, *const of_solve[] = {
                                                                                &record_truth, NULL};
@@ -67,7 +68,7 @@ results_record results_record_at(int i)
         r.type = take(part[k].list, &i);
         snprintf(r.place, sizeof r.place, "%s", part[k].place);
     }
-    return r.type != NULL ? r : of_experiment(&i);
+    return r.type != NULL ? r : of_experiment(verbs, &i);
 }
 
 results_field results_field_of(const schema_field *f)
@@ -109,11 +110,11 @@ static void add_record(json_t *list, results_record r)
     json_array_append_new(list, one);
 }
 
-static status write_json(fault *f)
+static status write_json(const verb *const *verbs, fault *f)
 {
     json_t *records = json_array();
-    for (int i = 0; results_record_at(i).type != NULL; i++)
-        add_record(records, results_record_at(i));
+    for (int i = 0; results_record_at(verbs, i).type != NULL; i++)
+        add_record(records, results_record_at(verbs, i));
     return json_finish(json_pack("{s:s,s:i,s:o}", "schema", SCHEMA_NAME, "schema_version",
                                  SCHEMA_VERSION, "records", records),
                        stdout, f);
@@ -126,14 +127,14 @@ static int answer(const command_line *l, void *request)
     if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
     if (r->format[0] == 'j')
-        return message_exit(write_json(&f), &f);
+        return message_exit(write_json(l->verbs, &f), &f);
     if (r->format[0] == 'c')
         return message_fail(STATUS_REFUSED, "schema is written as text or json");
     printf("%s, version %d\n", SCHEMA_NAME, SCHEMA_VERSION);
     for (int i = 0; results_about[i] != NULL; i++)
         paragraph_write(stdout, 0, 0, results_about[i]);
-    for (int i = 0; results_record_at(i).type != NULL; i++)
-        show(results_record_at(i));
+    for (int i = 0; results_record_at(l->verbs, i).type != NULL; i++)
+        show(results_record_at(l->verbs, i));
     return EXIT_AS_EXPECTED; /* main flushes */
 }
 

@@ -62,4 +62,5 @@ const verb verb_stress = {
     shared,
     NULL,
     sizeof(stress_request),
-    .answer = answer};
+    .answer = answer,
+    .experiment = &experiment_stress};

@@ -12,19 +12,16 @@ static const verb look = {.name = "look"};
 static const verb compute = {.name = "compute"};
 static const verb judge_and_compare = {.name = "judge and compare"};
 static const verb exchange = {.name = "exchange"};
-static const verb *const verbs[] = {
-    &look,          &verb_list,    &verb_explain, &compute,     &verb_solve,
-    &verb_converge, &verb_sweep,   &verb_truth,   &verb_scene,  &judge_and_compare,
-    &verb_verify,   &verb_bench,   &verb_stress,  &verb_motion, &verb_element_test,
-    &verb_merge,    &verb_compare, &exchange,     &verb_export, &verb_import,
-    &verb_schema,   NULL};
-enum { VERBS = sizeof verbs / sizeof verbs[0] - 1 };
+#define HEADING_OF(name) &name,
+#define VERB_OF(name)    &verb_##name,
+static const verb *const verbs[] = {VERBS(HEADING_OF, VERB_OF) NULL};
+enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
 
 static const char *name_at(const void *context, int i)
 {
     int left = i;
     (void)context;
-    for (int k = 0; k < VERBS; k++)
+    for (int k = 0; k < COUNT; k++)
         if (verbs[k]->answer != NULL && left-- == 0)
             return verbs[k]->name;
     return left == 0 ? "help" : NULL;
@@ -84,7 +81,7 @@ static int help(void)
     printf("beamwork: %s.\n", about.summary);
     paragraph_write(stdout, 0, 0, about.question);
     printf("\nusage: beamwork VERB [OPTION...]     beamwork help VERB (or VERB -h): its options\n");
-    for (int i = 0; i < VERBS; i++)
+    for (int i = 0; i < COUNT; i++)
         if (verbs[i]->answer == NULL)
             printf("\n%s\n", verbs[i]->name);
         else
@@ -109,12 +106,17 @@ static int help_of(const char *name, void write(FILE *, const verb *))
     return EXIT_AS_EXPECTED;
 }
 
+static void write_results(FILE *to)
+{
+    manual_write_results(to, verbs);
+}
+
 /* Not a verb: a page about files. */
 static void (*file_page(const char *name))(FILE *)
 {
     if (strcmp(name, "beamwork-scene.5") == 0)
         return manual_write_scene;
-    return strcmp(name, "beamwork-results.5") == 0 ? manual_write_results : NULL;
+    return strcmp(name, "beamwork-results.5") == 0 ? write_results : NULL;
 }
 
 static int list_pages(void)
@@ -143,7 +145,7 @@ static int write_page(const char *name)
 static void complete_verb(const char *begun, int others)
 {
     const offer o = {stdout, begun, 0, begun};
-    for (int i = 0; i < VERBS; i++)
+    for (int i = 0; i < COUNT; i++)
         if (verbs[i]->answer != NULL)
             offer_text(&o, verbs[i]->name, verbs[i]->summary);
     if (others) {

@@ -2,9 +2,6 @@
 
 #include <string.h>
 
-#include "harness/experiments/certificate_record.h"
-#include "harness/experiments/extreme_run.h"
-#include "harness/experiments/integrators.h"
 #include "harness/records/csv_record.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
@@ -12,9 +9,6 @@
 #include "harness/records/output.h"
 #include "harness/records/record_rows.h"
 #include "harness/records/store.h"
-
-const experiment_type *const experiments[] = {&experiment_stress, &experiment_motion,
-                                              &experiment_element_test, NULL};
 
 static status gathered(const experiment_type *e, const record_type *type, const void *found,
                        subjects *out, fault *f)

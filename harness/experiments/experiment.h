@@ -34,9 +34,6 @@ typedef struct experiment_type {
     status (*write)(FILE *to, const char *format, const void *found, fault *f);
 } experiment_type;
 
-/* Those whose records stand in a group. */
-extern const experiment_type *const experiments[]; /* ends with NULL */
-
 typedef struct experiment_output {
     const char *results; /* file that its group goes into, where those of others stay; NULL: none */
     const char *text, *format; /* NULL: standard output; "text", "csv", "json" */
