@@ -19,7 +19,7 @@ ifdef WERROR
 WARNINGS += -Werror
 endif
 # -ffp-contract=off: the same sums with and without fused multiply-add.
-BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -fno-math-errno -ffp-contract=off -fPIC $(WARNINGS)
+BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -I$(BUILD) -fno-math-errno -ffp-contract=off -fPIC $(WARNINGS)
 
 FORMULATIONS := $(sort $(wildcard elements/*.c))
 CASES := $(sort $(wildcard cases/*.c cases/*.yaml))
@@ -32,6 +32,7 @@ KIT_SOURCES := $(sort $(filter-out %_test.c,$(wildcard elements/test/*.c harness
 PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py reports/test/*_test.py))) $(wildcard cases/*/test/*_test.py docs/test/*_test.py harness/*/test/*_test.py harness/*/*/test/*_test.py))
 
 REGISTRY := $(BUILD)/registry.c
+QUANTITIES := $(BUILD)/quantities.h
 PRICES := $(BUILD)/price_table.c
 EXPENSES := $(BUILD)/expense_table.c
 # Scene files among the cases are read while the program is built, and are C in it.
@@ -168,7 +169,7 @@ asan:
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PLAIN=-O0 PYTHON_TESTS="$(ASAN_PYTHON)" TEST_SOURCES="$(filter-out $(ASAN_WITHOUT:%=%.c),$(TEST_SOURCES))" test
 
 # One version, that both Debian 12 and 13 have (harness/tools/dependencies.sh): others lay out and find otherwise.
-tidy: needs-layout
+tidy: needs-layout $(QUANTITIES)
 	@printf '%s\0' $(LIBRARY_SOURCES) $(PROGRAM_SOURCES) | xargs -0 -n 20 -P "$$(nproc)" sh -c 'clang-tidy-19 --quiet --warnings-as-errors="*" "$$@" -- $(BASE_CFLAGS) $(DEP_CFLAGS) -DBEAMWORK_VERSION=\"\" -DBEAMWORK_RELEASED=\"\" -DBEAMWORK_COMMIT=\"\" -DBEAMWORK_CFLAGS=\"\" 2>/dev/null' tidy
 
 # Rewrites the C sources in the house's layout.
@@ -199,6 +200,12 @@ needs-docs needs-report needs-test needs-truths needs-layout:
 
 $(REGISTRY): FORCE
 	@harness/tools/registry.sh $@ $(FORMULATIONS) $(CASES)
+
+# A word for each kind of quantity: the names of the files.
+$(QUANTITIES): LIST = \#define QUANTITY_TYPES(each) $(patsubst cases/quantities/%.c,each(%),$(sort $(wildcard cases/quantities/*.c)))
+$(QUANTITIES): FORCE
+	@mkdir -p $(@D); echo '$(LIST)' | cmp -s - $@ || echo '$(LIST)' >$@
+$(BUILD)/cases/scene/quantity_type.o: $(QUANTITIES)
 
 $(PACK_CASE): $(BUILD)/harness/tools/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

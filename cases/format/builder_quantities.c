@@ -143,7 +143,7 @@ static void settle(const fields *what, const quantity_type *type, scene_quantity
         document_mistake(what->b->mistakes, document_find(what->map, "side"), 0,
                          "side: of a place of the member, at which a load acts; say which, with "
                          "'where', or take it away");
-    if (q->analysis >= 0 && !scene_gives(s->analysis[q->analysis].kind, type->kind))
+    if (q->analysis >= 0 && !scene_gives(s->analysis[q->analysis].kind, q))
         builder_no_quantity(what, type->key, q);
 }
 

@@ -256,9 +256,10 @@ static void read_map(const fields *f, const entry_field *k, void *entry)
     const fields below = fields_below(f, k->name);
     if (below.map == NULL)
         return;
-    const int first = k->type != NULL ? (int)k->type->kind : k->first;
-    if (k->size > 0)
-        memcpy((char *)entry + k->at, &first, sizeof first);
+    if (k->type != NULL)
+        quantity_type_begin(k->type, entry);
+    else if (k->size > 0)
+        memcpy((char *)entry + k->at, &k->first, sizeof k->first);
     fields_read(&below, entry_below(k), entry);
 }
 

@@ -26,10 +26,20 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(e->row), meaning_load(e->column), meaning_axis(e->column));
 }
 
+/* Of the node at which the load acts, both. */
+static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
+{
+    const scene_entry *what = &q->what.of.entry;
+    *out = (scene_component){scene_compliance_of(&s->analysis[q->analysis])->node,
+                             i == 0 ? what->row : what->column};
+    return i < 2;
+}
+
 const quantity_type quantity_compliance = {.key = "compliance",
                                            .summary = "entry of the matrix",
                                            .kind = SCENE_COMPLIANCE_ENTRY,
                                            .field = fields,
                                            .analyses = 1u << SCENE_COMPLIANCE,
                                            .unit = unit,
-                                           .meaning = meaning};
+                                           .meaning = meaning,
+                                           .turns = turns};

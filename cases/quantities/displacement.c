@@ -19,6 +19,19 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_coordinate(to, s, q->what.of.component.node, q->what.of.component.component);
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->component(state, q->what.of.component.node, q->what.of.component.component);
+}
+
+/* Its own turn. */
+static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
+{
+    (void)s;
+    *out = q->what.of.component;
+    return i < 1;
+}
+
 const quantity_type quantity_displacement = {.key = "displacement",
                                              .summary = "or rotation, of a node",
                                              .kind = SCENE_COORDINATE,
@@ -26,4 +39,6 @@ const quantity_type quantity_displacement = {.key = "displacement",
                                              .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,
                                              .passing = QUANTITY_CROSSINGS,
                                              .unit = unit,
-                                             .meaning = meaning};
+                                             .meaning = meaning,
+                                             .read = read,
+                                             .turns = turns};

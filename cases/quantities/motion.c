@@ -29,6 +29,11 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     fprintf(to, " is that of the motion %s", s->driver[d->condition_driver].name);
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->driver(state, q->what.of.driver);
+}
+
 const quantity_type quantity_motion = {.key = "motion",
                                        .summary = "value of an unknown motion",
                                        .kind = SCENE_DRIVER_VALUE,
@@ -36,4 +41,5 @@ const quantity_type quantity_motion = {.key = "motion",
                                        .analyses = QUANTITY_ALL_STATES,
                                        .passing = QUANTITY_CROSSINGS,
                                        .unit = unit,
-                                       .meaning = meaning};
+                                       .meaning = meaning,
+                                       .read = read};

@@ -23,6 +23,19 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(q->what.of.component.component));
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    return state->rate(state, q->what.of.component.node, q->what.of.component.component);
+}
+
+/* Its own turn. */
+static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
+{
+    (void)s;
+    *out = q->what.of.component;
+    return i < 1;
+}
+
 const quantity_type quantity_rate = {.key = "rate",
                                      .summary =
                                          "velocity of a node, or angular velocity in its own axes",
@@ -31,4 +44,6 @@ const quantity_type quantity_rate = {.key = "rate",
                                      .analyses = 1u << SCENE_MOTION,
                                      .passing = QUANTITY_CROSSINGS,
                                      .unit = unit,
-                                     .meaning = meaning};
+                                     .meaning = meaning,
+                                     .read = read,
+                                     .turns = turns};

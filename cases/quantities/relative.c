@@ -33,6 +33,22 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
                            q->name);
 }
 
+static double read(const scene_quantity *q, const quantity_state *state)
+{
+    const scene_relative *what = &q->what.of.relative;
+    return state->relative(state, what->from, what->node, what->component);
+}
+
+/* Its own, and all of the node in whose axes it is. */
+static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
+{
+    (void)s;
+    const scene_relative *what = &q->what.of.relative;
+    *out = i == 0 ? (scene_component){what->node, what->component}
+                  : (scene_component){what->from, SCENE_RX + i - 1};
+    return i < 4;
+}
+
 const quantity_type quantity_relative = {.key = "relative",
                                          .summary =
                                              "displacement or rotation as seen from another node",
@@ -42,4 +58,6 @@ const quantity_type quantity_relative = {.key = "relative",
                                          .passing = QUANTITY_CROSSINGS,
                                          .unit = unit,
                                          .meaning = meaning,
+                                         .read = read,
+                                         .turns = turns,
                                          .check = check};

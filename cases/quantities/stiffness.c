@@ -33,6 +33,15 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     return NULL;
 }
 
+/* Of the node at which the load acts, both. */
+static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
+{
+    const scene_entry *what = &q->what.of.entry;
+    *out = (scene_component){scene_compliance_of(&s->analysis[q->analysis])->node,
+                             i == 0 ? what->row : what->column};
+    return i < 2;
+}
+
 const quantity_type quantity_stiffness = {.key = "stiffness",
                                           .summary = "1/compliance, the other components free",
                                           .kind = SCENE_STIFFNESS_ENTRY,
@@ -40,4 +49,5 @@ const quantity_type quantity_stiffness = {.key = "stiffness",
                                           .analyses = 1u << SCENE_COMPLIANCE,
                                           .unit = unit,
                                           .meaning = meaning,
+                                          .turns = turns,
                                           .settle = settle};

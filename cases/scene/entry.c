@@ -120,9 +120,9 @@ int entry_word(const entry_field *k, const char *word)
 
 int entry_stands(const entry_field *k, const void *entry)
 {
-    const int first = k->type != NULL ? (int)k->type->kind : k->first;
-    return k->size == 0 || (whole_of(k, entry) == first &&
-                            (k->type == NULL || k->type->is == NULL || k->type->is(entry)));
+    if (k->type != NULL)
+        return quantity_type_is(k->type, entry);
+    return k->size == 0 || whole_of(k, entry) == k->first;
 }
 
 int entry_in_range(const entry_field *k, double value)

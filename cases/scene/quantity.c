@@ -5,6 +5,9 @@
 #include <string.h>
 
 #include "cases/scene/list.h"
+#include "cases/scene/quantity_type.h"
+
+extern const quantity_type quantity_orientation;
 
 scene_extract scene_coordinate(int node, int component)
 {
@@ -69,7 +72,9 @@ scene_extract scene_rate(int node, int component)
 
 scene_extract scene_orientation_entry(int node, int row, int column)
 {
-    return (scene_extract){SCENE_ORIENTATION, {.orientation = {node, row, column}}};
+    return (scene_extract){
+        SCENE_READING,
+        {.reading = {.type = &quantity_orientation, .node = {node}, .component = {row, column}}}};
 }
 
 scene_extract scene_balance_of(scene_balance what)
@@ -209,12 +214,6 @@ int scene_driver_of(const scene_quantity *q)
 {
     assert(q->what.kind == SCENE_DRIVER_VALUE);
     return q->what.of.driver;
-}
-
-const scene_orientation *scene_orientation_of(const scene_quantity *q)
-{
-    assert(q->what.kind == SCENE_ORIENTATION);
-    return &q->what.of.orientation;
 }
 
 const scene_relative *scene_relative_of(const scene_quantity *q)

@@ -22,9 +22,9 @@ typedef enum scene_quantity_kind {
     SCENE_INTERNAL,         /* resultant of the stresses on a section of a member */
     SCENE_STRESS,           /* largest of a section or a member */
     SCENE_RATE,             /* velocity of a node, or its angular velocity in its own axes */
-    SCENE_ORIENTATION,      /* entry of a node's rotation matrix */
     SCENE_BALANCE,          /* energy or momentum of a motion */
-    SCENE_RELATIVE          /* displacement or rotation of a node in the axes of another */
+    SCENE_RELATIVE,         /* displacement or rotation of a node in the axes of another */
+    SCENE_READING           /* what a file of cases/quantities reads of nodes, as it says itself */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -146,9 +146,12 @@ typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-typedef struct scene_orientation {
-    int node, row, column; /* 0 .. 2 */
-} scene_orientation;
+/* What a kind reads that has no struct of its own: as its table of keys says. */
+typedef struct scene_reading {
+    const struct quantity_type *type;
+    int node[4], component[4];
+    double number[4];
+} scene_reading;
 
 typedef struct scene_entry {
     int row, column; /* response, load: SCENE_UX .. SCENE_RZ */
@@ -185,9 +188,9 @@ typedef struct scene_extract {
         int driver;
         scene_internal internal;
         scene_stress stress;
-        scene_orientation orientation;
         scene_balance balance;
         scene_relative relative;
+        scene_reading reading;
     } of;
 } scene_extract;
 
@@ -204,6 +207,7 @@ scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
 scene_extract scene_driver_value(int driver);
 scene_extract scene_rate(int node, int component);
+/* Of its rotation matrix: 0 .. 2. */
 scene_extract scene_orientation_entry(int node, int row, int column);
 scene_extract scene_balance_of(scene_balance what);
 scene_extract scene_relative_to(int node, int component, int from);
@@ -274,7 +278,6 @@ const scene_critical_load *scene_critical_load_of(const scene_quantity *q);
 const scene_mode *scene_mode_of(const scene_quantity *q);
 const scene_point *scene_point_of(const scene_quantity *q);
 int scene_driver_of(const scene_quantity *q);
-const scene_orientation *scene_orientation_of(const scene_quantity *q);
 const scene_relative *scene_relative_of(const scene_quantity *q);
 scene_balance scene_balance_in(const scene_quantity *q);
 const scene_internal *scene_internal_of(const scene_quantity *q);
@@ -289,6 +292,6 @@ void scene_keep_quantities(scene *s, const scene *of);
 /* Of a response to a force or a moment, SCENE_UX to SCENE_RZ both. */
 const char *scene_compliance_unit(int row, int column);
 /* Can it be extracted from an analysis of this kind? */
-int scene_gives(scene_analysis_kind analysis, scene_quantity_kind kind);
+int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
 
 #endif

@@ -1,5 +1,6 @@
 /* A kind of quantity: all that is to be said of it, but for how a solution is asked for it
- * (harness/analysis).  One file each in cases/quantities, and a line here. */
+ * (harness/analysis) where it is more than a reading of nodes.  One file each in cases/quantities:
+ * the build finds it. */
 #ifndef BEAMWORK_SCENE_QUANTITY_TYPE_H
 #define BEAMWORK_SCENE_QUANTITY_TYPE_H
 
@@ -7,11 +8,18 @@
 
 #include "cases/scene/entry.h"
 
-#define QUANTITY_TYPES(each)                                                                       \
-    each(displacement) each(reaction) each(compliance) each(stiffness) each(critical_factor)       \
-        each(frequency) each(growth) each(factor_at) each(critical_point) each(motion)             \
-            each(internal) each(stress) each(rate) each(orientation) each(relative) each(energy)   \
-                each(momentum)
+/* What a kind reads of where nodes are and how they move, in one state of a structure. */
+typedef struct quantity_state {
+    /* displacement [m] or rotation-vector component [rad]; NAN: it has lost its direction */
+    double (*component)(const struct quantity_state *, int node, int component);
+    /* the same in the axes of another node */
+    double (*relative)(const struct quantity_state *, int from, int node, int component);
+    /* place [m], and rotation matrix by rows */
+    void (*frame)(const struct quantity_state *, int node, double place[3], double R[9]);
+    /* of a motion in time: velocity [m/s], or angular velocity in the node's own axes [rad/s] */
+    double (*rate)(const struct quantity_state *, int node, int component);
+    double (*driver)(const struct quantity_state *, int driver);
+} quantity_state;
 
 /* What is met between the stations of a motion. */
 typedef enum quantity_passing {
@@ -22,7 +30,7 @@ typedef enum quantity_passing {
 
 typedef struct quantity_type {
     const char *key, *summary;
-    scene_quantity_kind kind;
+    scene_quantity_kind kind; /* SCENE_READING of one that nothing outside its file names */
     const entry_field *field; /* of the map below the key */
     unsigned analyses;        /* 1 << kind of analysis: those that have it */
     quantity_passing passing;
@@ -34,15 +42,19 @@ typedef struct quantity_type {
     /* NULL of most: is it this one, of two of a kind; what follows from what is read of a file:
      * what is wrong with the key, or NULL; REFUSED: what the table does not say. */
     int (*is)(const scene_quantity *);
+    /* As extracted, without factor and offset, of what is read of nodes alone; and the components
+     * of turns that it needs, where nodes may turn by themselves: 1: *out is the one of index i, 0:
+     * there are no more. */
+    double (*read)(const scene_quantity *, const quantity_state *);
+    int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*settle)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);
 } quantity_type;
 
-#define QUANTITY_DECLARED(name) extern const quantity_type quantity_##name;
-QUANTITY_TYPES(QUANTITY_DECLARED)
-
-/* The type of a quantity. */
+/* The type of a quantity; is it this one; makes it one, to be filled. */
 const quantity_type *quantity_type_of(const scene_quantity *q);
+int quantity_type_is(const quantity_type *, const scene_quantity *q);
+void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
 /* Keys of most kinds: first, and last. */
 #define QUANTITY_ANALYSIS                                                                          \

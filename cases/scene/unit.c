@@ -129,8 +129,10 @@ static void scale_entries(scene *s, entry_base base, double times)
     }
     for (int i = 0; i < s->analyses; i++)
         entry_scale(entry_analysis, &s->analysis[i], base, times);
-    for (int i = 0; i < s->quantities; i++)
+    for (int i = 0; i < s->quantities; i++) {
+        entry_scale(entry_quantity, &s->quantity[i], base, times);
         scale_extract(s, &s->quantity[i], base, times);
+    }
 }
 
 /* Steps along the control coordinate are lengths, those of arc are not. */

@@ -170,7 +170,7 @@ status scene_validate_quantity(const scene *s, int i, fault *f)
         if (strcmp(s->quantity[k].name, q->name) == 0)
             return fault_set(f, STATUS_REFUSED, "quantity %s: two of that name; rename one",
                              q->name);
-    if (!scene_gives(s->analysis[q->analysis].kind, q->what.kind))
+    if (!scene_gives(s->analysis[q->analysis].kind, q))
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: an analysis of this kind does not have it; name another one",
                          q->name);

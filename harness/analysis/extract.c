@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
+#include "cases/scene/quantity_type.h"
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/extract_section.h"
@@ -46,28 +47,12 @@ static int is_turned(const scene *s, int node, int component, fault *f)
 /* Is it defined where nodes turn by themselves? */
 static int is_defined(const scene *s, const scene_quantity *q, fault *f)
 {
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-    case SCENE_RATE:
-        return is_turned(s, scene_component_of(q)->node, scene_component_of(q)->component, f);
-    case SCENE_RELATIVE:
-        return is_turned(s, scene_relative_of(q)->node, scene_relative_of(q)->component, f) &&
-               is_turned(s, scene_relative_of(q)->from, SCENE_RX, f) &&
-               is_turned(s, scene_relative_of(q)->from, SCENE_RY, f) &&
-               is_turned(s, scene_relative_of(q)->from, SCENE_RZ, f);
-    case SCENE_ORIENTATION:
-        return is_turned(s, scene_orientation_of(q)->node, SCENE_RX, f) &&
-               is_turned(s, scene_orientation_of(q)->node, SCENE_RY, f) &&
-               is_turned(s, scene_orientation_of(q)->node, SCENE_RZ, f);
-    case SCENE_COMPLIANCE_ENTRY:
-    case SCENE_STIFFNESS_ENTRY: {
-        const int node = scene_compliance_of(&s->analysis[q->analysis])->node;
-        return is_turned(s, node, scene_entry_of(q)->row, f) &&
-               is_turned(s, node, scene_entry_of(q)->column, f);
-    }
-    default:
-        return 1;
-    }
+    const quantity_type *type = quantity_type_of(q);
+    scene_component one;
+    for (int i = 0; type->turns != NULL && type->turns(s, q, i, &one); i++)
+        if (!is_turned(s, one.node, one.component, f))
+            return 0;
+    return 1;
 }
 
 /* Did it leave something, though it failed? */

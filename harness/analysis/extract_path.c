@@ -99,17 +99,11 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
 {
     const outcome_path *path = outcome_path_of(o);
     switch (q->what.kind) {
-    case SCENE_COORDINATE:
-        return followed(kinematics_component(c->model, path->state[i], scene_component_of(q)->node,
-                                             scene_component_of(q)->component),
-                        r);
     case SCENE_COMPLIANCE_ENTRY:
         return outcome_compliance_of(o)
             ->matrix[36 * i + 6 * scene_entry_of(q)->row + scene_entry_of(q)->column];
     case SCENE_STIFFNESS_ENTRY:
         return 1 / outcome_compliance_of(o)->matrix[36 * i + 7 * scene_entry_of(q)->row];
-    case SCENE_DRIVER_VALUE:
-        return kinematics_driver_value(c->model, path->state[i], scene_driver_of(q));
     case SCENE_FREQUENCY:
         return modes_at(o, i) != NULL ? frequency_of(c, q, modes_at(o, i), r) : NAN;
     case SCENE_GROWTH:
@@ -120,18 +114,14 @@ static double extracted(const analysis_context *c, const scene_quantity *q,
     case SCENE_INTERNAL:
     case SCENE_STRESS:
         return force_at(c, q, o, i, r);
-    case SCENE_RELATIVE:
-        return followed(reading_of(c->model, q, path->state[i], rate_at(o, i)), r);
-    case SCENE_RATE:
-    case SCENE_ORIENTATION:
-        return reading_of(c->model, q, path->state[i], rate_at(o, i));
     case SCENE_BALANCE:
         return outcome_motion_of(o)->instant[i].balance[scene_balance_in(q)];
     case SCENE_CRITICAL_FACTOR:
     case SCENE_CRITICAL_POINT:
-        break;
+        return NAN;
+    default: /* of nodes alone */
+        return followed(reading_of(c->model, q, path->state[i], rate_at(o, i)), r);
     }
-    return NAN;
 }
 
 static double at_station(const analysis_context *c, const scene_quantity *q,

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/scene/quantity_type.h"
 #include "elements/section/section.h"
 #include "harness/study/curve_error.h"
 #include "harness/study/verdict.h"
@@ -65,6 +66,14 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
+/* Places, turns and plain numbers; of rates and others nothing is known. */
+static double of_reading(const scene *s, const char *unit)
+{
+    if (strcmp(unit, "m") == 0)
+        return small_part * size_of(s);
+    return strcmp(unit, "rad") == 0 || strcmp(unit, "1") == 0 ? small_part : 0;
+}
+
 /* By what it is, in SI units. */
 static double physical_scale(const scene *s, const scene_quantity *q)
 {
@@ -81,8 +90,8 @@ static double physical_scale(const scene *s, const scene_quantity *q)
         return small_strain * youngs_of(s);
     case SCENE_COMPLIANCE_ENTRY:
         return of_compliance(s, scene_entry_of(q));
-    case SCENE_ORIENTATION:
-        return small_part;
+    case SCENE_READING:
+        return of_reading(s, quantity_type_of(q)->unit(s, q));
     default:
         return 0;
     }

@@ -11,7 +11,7 @@
 static int watches(const peaks *s, const scene_quantity *q)
 {
     return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
-           !reading_is_kinematic(q->what.kind);
+           !reading_is_kinematic(q);
 }
 
 static void begin(const peaks *s, peak *one, const scene_quantity *q)

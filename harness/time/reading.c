@@ -1,58 +1,80 @@
 #include "harness/time/reading.h"
 
-#include <math.h>
-
+#include "cases/scene/quantity_type.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/kinematics.h"
 #include "harness/time/forms.h"
 
-int reading_is_kinematic(scene_quantity_kind kind)
+/* A state as kinds of quantities read it; rate NULL: not of a motion. */
+typedef struct read_state {
+    quantity_state as;
+    const model *m;
+    const model_state *state;
+    const double *rate;
+} read_state;
+
+/* The interface is its first member. */
+static const read_state *of(const quantity_state *s)
 {
-    return kind == SCENE_COORDINATE || kind == SCENE_RATE || kind == SCENE_RELATIVE ||
-           kind == SCENE_ORIENTATION || kind == SCENE_DRIVER_VALUE;
+    return (const read_state *)s;
+}
+
+static double component_of(const quantity_state *s, int node, int component)
+{
+    return kinematics_component(of(s)->m, of(s)->state, node, component);
+}
+
+static double relative_of(const quantity_state *s, int from, int node, int component)
+{
+    return kinematics_relative(of(s)->m, of(s)->state, from, node, component);
+}
+
+static void frame_of(const quantity_state *s, int node, double place[3], double R[9])
+{
+    double turn[4];
+    kinematics_frame(of(s)->m, of(s)->state, node, place, turn);
+    rotation_matrix(turn, R);
 }
 
 /* Velocity of a node, which a body may carry, or angular velocity in the node's axes. */
-static double rate_of(const model *m, const model_state *s, const scene_component *what,
-                      const double rate[])
+static double rate_of(const quantity_state *s, int node, int component)
 {
-    const int moved_by = model_body(m, what->node);
+    const model *m = of(s)->m;
+    const int moved_by = model_body(m, node);
     frame_rates body;
-    forms_rates(m, s, moved_by, rate, NULL, &body);
-    if (what->component >= SCENE_RX) {
+    forms_rates(m, of(s)->state, moved_by, of(s)->rate, NULL, &body);
+    if (component >= SCENE_RX) {
         double own[3];
         mat3_transpose_mul_vec(body.R, body.w, own);
-        return own[what->component - SCENE_RX];
+        return own[component - SCENE_RX];
     }
     double rho[3], carried[3];
-    kinematics_offset(m, s, what->node, rho);
+    kinematics_offset(m, of(s)->state, node, rho);
     vec3_cross(body.w, rho, carried);
-    return body.v[what->component] + (moved_by == what->node ? 0 : carried[what->component]);
+    return body.v[component] + (moved_by == node ? 0 : carried[component]);
+}
+
+static double driver_of(const quantity_state *s, int driver)
+{
+    return kinematics_driver_value(of(s)->m, of(s)->state, driver);
+}
+
+int reading_is_kinematic(const scene_quantity *q)
+{
+    return quantity_type_of(q)->read != NULL;
 }
 
 double reading_of(const model *m, const scene_quantity *q, const model_state *s,
                   const double rate[])
 {
-    switch (q->what.kind) {
-    case SCENE_COORDINATE:
-        return kinematics_component(m, s, scene_component_of(q)->node,
-                                    scene_component_of(q)->component);
-    case SCENE_RATE:
-        return rate_of(m, s, scene_component_of(q), rate);
-    case SCENE_RELATIVE:
-        return kinematics_relative(m, s, scene_relative_of(q)->from, scene_relative_of(q)->node,
-                                   scene_relative_of(q)->component);
-    case SCENE_ORIENTATION: {
-        const scene_orientation *what = scene_orientation_of(q);
-        double place[3], turn[4], all[9];
-        kinematics_frame(m, s, what->node, place, turn);
-        rotation_matrix(turn, all);
-        return all[3 * what->row + what->column];
-    }
-    case SCENE_DRIVER_VALUE:
-        return kinematics_driver_value(m, s, scene_driver_of(q));
-    default:
-        return NAN;
-    }
+    const read_state state = {.as = {.component = component_of,
+                                     .relative = relative_of,
+                                     .frame = frame_of,
+                                     .rate = rate_of,
+                                     .driver = driver_of},
+                              .m = m,
+                              .state = s,
+                              .rate = rate};
+    return quantity_type_of(q)->read(q, &state.as);
 }

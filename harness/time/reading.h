@@ -4,8 +4,8 @@
 
 #include "harness/model/model.h"
 
-/* Is the kind read from places and rates alone? */
-int reading_is_kinematic(scene_quantity_kind);
+/* Is it read from places and rates alone? */
+int reading_is_kinematic(const scene_quantity *);
 /* As extracted, without factor and offset; kinematic kinds only. rate[free + driven] */
 double reading_of(const model *, const scene_quantity *, const model_state *, const double rate[]);
 

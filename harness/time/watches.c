@@ -36,7 +36,7 @@ status watches_alloc(watches *s, fault *f)
     for (int i = 0; i < what->quantities; i++)
         if (what->quantity[i].analysis == s->analysis &&
             scene_is_passed(&what->quantity[i], SCENE_MOTION) &&
-            reading_is_kinematic(what->quantity[i].what.kind))
+            reading_is_kinematic(&what->quantity[i]))
             begin(s, &s->one[s->count++], &what->quantity[i]);
     return STATUS_OK;
 }

@@ -11,7 +11,7 @@
 #include "harness/formulations/registry.h"
 #include "harness/study/plan.h"
 
-enum { MOST = 128, KEY = 400, KINDS = SCENE_RELATIVE + 1 };
+enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], asked;
 
 /* What a file says of quantity i: the extract, then the factor and the offset. */
@@ -138,7 +138,7 @@ static void check_words(void)
 /* What a motion is asked for. */
 static void check_motion(void)
 {
-    static const struct {
+    const struct {
         scene_extract what;
         scene_reduction reduction;
         const char *words;
@@ -150,8 +150,7 @@ static void check_motion(void)
          SCENE_AT,
          "angular velocity of node_1 (1, 0, 0) about its own y axis, 0.5 s after the start of the "
          "motion"},
-        {{SCENE_ORIENTATION, {.orientation = {1, 0, 2}}},
-         SCENE_MAX,
+        {scene_orientation_entry(1, 0, 2), SCENE_MAX,
          "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value along the motion"},
         {{SCENE_RELATIVE, {.relative = {1, SCENE_UY, 0}}},
          SCENE_MIN,
