@@ -1,6 +1,6 @@
 """The joint and the hexapod beside N sections 4.2 and 4.3: curves, relative times, growth, parts of an iteration, dense baseline.
 
-Times come from `make lab L=bench-mechanisms`, whose files lie beside the results."""
+Times come from `make lab L=bench-mechanisms`, whose files are in the folder of the results."""
 import functools
 import math
 import os

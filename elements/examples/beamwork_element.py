@@ -74,7 +74,7 @@ def sinc(x):
 
 
 def rotation_vector(T):
-    """Of rotation matrices [..., 3, 3], shorter than pi, also of complex steps."""
+    """Rotation vectors, shorter than pi, of rotation matrices [..., 3, 3]; works with complex steps."""
     axis = np.stack([T[..., 2, 1] - T[..., 1, 2], T[..., 0, 2] - T[..., 2, 0],
                      T[..., 1, 0] - T[..., 0, 1]], -1) / 2
     c, s = (np.trace(T, axis1=-2, axis2=-1) - 1) / 2, np.sqrt((axis * axis).sum(-1))

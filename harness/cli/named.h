@@ -40,7 +40,7 @@ typedef struct defaults {
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
 /* The same of -f alone. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);
-/* With the first of each, where there are any. */
+/* The first of each, if there are any. */
 solution_request defaults_request(const defaults *);
 
 #endif

@@ -37,7 +37,7 @@ typedef struct verify_request {
 
 enum { PICTURED_STATES = 5 };
 
-/* Is every limit shown? Where it was asked for, or somebody looks at something in particular. */
+/* Is every limit shown? With --verbose, or where cases or formulations were selected. */
 static int shows_limits(const verify_request *r, const overview *o)
 {
     return r->verbose || r->select != NULL || o->rows == 1;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a column stands in a row. */
+/* Offset of a column in a row. */
 typedef struct column {
     const schema_field *field;
     size_t offset, size;

@@ -32,7 +32,7 @@ WORDS = (
     (r"\bsurely\b", "significantly", 6),
     (r"\bbelieve[ds]?\b", "verified; checked", 14),
     (r"\bdoubt(s|ed)?\b", "uncertainty; not known to", 18),
-    (r"\b(nobody|somebody)\b", "by default; the user; no program", 68),
+    (r"\b(nobody|somebody)\b", "by default; the user; no program", 67),
     (r"\b(he|his|him)\b", "it, its", 4),
     (r"\bwho (is|are|can|has|was)\b", "which formulation", 14),
     (r"\b(is|are|what is) no (number|pass|case|name|grid)\b", "NaN or Inf; did not pass; unknown", 16),
