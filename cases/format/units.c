@@ -3,11 +3,37 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const known[] = {
-    "1",   "m",      "rad",     "N",         "N m",   "N/m",   "N m/rad", "N/rad",  "m/N",
-    "1/N", "rad/N",  "1/(N m)", "rad/(N m)", "Hz",    "1/s",   "s",       "rad/s",  "m/s",
-    "Pa",  "kg",     "kg/m",    "kg/m^3",    "1/m",   "m^2",   "m^3",     "m^4",    "m^5",
-    "m^6", "kg m^2", "N m^2",   "N m/m",     "N/m^2", "rad/m", "m/rad",   "N m^2/m"};
+/* Behind a word of the SI and its power; NULL: it is none. */
+static const char *word_end(const char *at)
+{
+    static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz"};
+    const size_t length = strcspn(at, " /^()");
+    for (size_t i = 0; i < sizeof si / sizeof si[0]; i++)
+        if (strlen(si[i]) == length && strncmp(si[i], at, length) == 0) {
+            at += length;
+            return at[0] == '^' && at[1] >= '2' && at[1] <= '9' ? at + 2 : at;
+        }
+    return NULL;
+}
+
+static const char *product_end(const char *at)
+{
+    at = word_end(at);
+    while (at != NULL && *at == ' ')
+        at = word_end(at + 1);
+    return at;
+}
+
+/* "N m", "kg/m^3", "rad/(N m)": behind the stroke one word, or several in parentheses. */
+static int is_si(const char *unit)
+{
+    const char *at = product_end(unit);
+    if (at == NULL || *at != '/')
+        return at != NULL && *at == '\0';
+    const int several = at[1] == '(';
+    at = several ? product_end(at + 2) : word_end(at + 1);
+    return at != NULL && strcmp(at, several ? ")" : "") == 0;
+}
 
 static const struct {
     const char *unit, *remedy;
@@ -21,6 +47,15 @@ static const struct {
                {"MN", "write 2 MN as 2e6 and unit: N"},
                {"kNm", "write 2 kNm as 2e3 and unit: N m"},
                {"Nm", "write unit: N m"},
+               {"m2", "write unit: m^2"},
+               {"m3", "write unit: m^3"},
+               {"m4", "write unit: m^4"},
+               {"kg/m3", "write unit: kg/m^3"},
+               {"N/m2", "write unit: Pa"},
+               {"kN m", "write 2 kN m as 2e3 and unit: N m"},
+               {"kJ", "write 2 kJ as 2e3 and unit: J"},
+               {"kW", "write 2 kW as 2e3 and unit: W"},
+               {"deg/s", "write 45 deg/s as 45*deg and unit: rad/s"},
                {"N mm", "write 2 N mm as 2e-3 and unit: N m"},
                {"N/mm", "write 2 N/mm as 2e3 and unit: N/m"},
                {"kN/m", "write 2 kN/m as 2e3 and unit: N/m"},
@@ -39,9 +74,8 @@ static const struct {
 
 void units_check(const document_node *unit, mistakes *m)
 {
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (strcmp(known[i], unit->text) == 0)
-            return;
+    if (is_si(unit->text))
+        return;
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++)
         if (strcmp(foreign[i].unit, unit->text) == 0) {
             document_mistake(m, unit, 0, "unit '%s': all values are SI; %s", unit->text,

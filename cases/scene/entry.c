@@ -206,13 +206,14 @@ status entry_check(const scene *s, const entry_field *table, const void *entry, 
     return STATUS_OK;
 }
 
-/* Of a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J = N m; others have neither. */
+/* Of a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J = N m, W = N m/s; others have neither. */
 static int base_power(const char *word, size_t size, entry_base base)
 {
     static const struct {
         const char *word;
         int power[2];
-    } all[] = {{"m", {1, 0}}, {"N", {0, 1}}, {"kg", {-1, 1}}, {"Pa", {-2, 1}}, {"J", {1, 1}}};
+    } all[] = {{"m", {1, 0}},   {"N", {0, 1}}, {"kg", {-1, 1}},
+               {"Pa", {-2, 1}}, {"J", {1, 1}}, {"W", {1, 1}}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (strlen(all[i].word) == size && strncmp(all[i].word, word, size) == 0)
             return all[i].power[base];

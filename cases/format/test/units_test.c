@@ -31,6 +31,10 @@ static const struct {
                {"kN", "N", 1e3},
                {"MN", "N", 1e6},
                {"kNm", "N m", 1e3},
+               {"kN m", "N m", 1e3},
+               {"kJ", "J", 1e3},
+               {"kW", "W", 1e3},
+               {"deg/s", "rad/s", PI / 180},
                {"N mm", "N m", 1e-3},
                {"N/mm", "N/m", 1e3},
                {"kN/m", "N/m", 1e3},
@@ -71,9 +75,26 @@ static void remedy_of(const char *unit, const char *si, double factor)
     gsl_test(said(si, &m)[0] != '\0', "%s is taken: %s", si, said(si, &m));
 }
 
+static void check_si(void)
+{
+    static const char *const taken[] = {"1",     "J",        "W",     "N/rad",   "N m/rad",
+                                        "m/s^2", "kg m^2/s", "rad/s", "rad/s^2", "rad/(N m)",
+                                        "N s/m", "kg/m^3",   "J/m",   "N m^2/m", "1/(N m)",
+                                        "m^6",   "N/m^2",    "1/s",   "m/N"},
+                             *const none[] = {"N m/",  "/m",   "m^",   "m^1", "N/m/m", "1/(N m",
+                                              "N  m",  "m)",   "J s ", "j",   "1/()",  "m^22",
+                                              "N/m m", "kN s", "mN/m", "(m)"};
+    mistakes m;
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
+        gsl_test(said(taken[i], &m)[0] != '\0', "%s: %s", taken[i], said(taken[i], &m));
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        gsl_test(said(none[i], &m)[0] == '\0', "'%s' is refused", none[i]);
+}
+
 int main(void)
 {
     mistakes m;
+    check_si();
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++)
         remedy_of(foreign[i].unit, foreign[i].si, foreign[i].factor);
     gsl_test(strstr(said("Nm", &m), "write unit: N m") == NULL, "Nm");
