@@ -2,10 +2,12 @@
 #ifndef BEAMWORK_VERIFICATION_WORK_H
 #define BEAMWORK_VERIFICATION_WORK_H
 
-#include "harness/cli/sweep_work.h"
+#include "harness/cli/spread.h"
+#include "harness/study/truths.h"
 
-/* Runs a planned sweep, or takes what was run; the cells that measure noise belong to the batch of
- * their series. */
+/* Computes a shard of a planned sweep, or takes the cells of --from: what is missing of --partial
+ * is taken out and counted as unfinished. A batch is consecutive series, with the cells that
+ * measure their noise. */
 status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);
 
