@@ -261,8 +261,8 @@ class Gate(ProgramTest):
         with tempfile.TemporaryDirectory() as site:
             self.assertEqual(report(files["h5"], site).returncode, 0)
             page = (pathlib.Path(site) / "index.html").read_text(encoding="utf-8")
-            free = [each.name for each in pathlib.Path(site).rglob("*.html")
-                    if "without effect on the exit status" in each.read_text(encoding="utf-8")]
+            free = [each.name for each in pathlib.Path(site).rglob("*.html") if
+                    each.name != "glossary.html" and "without effect on the exit status" in each.read_text(encoding="utf-8")]
         self.assertEqual(free, [])
         self.assertRegex(page, r"Outcome\.</strong> <span" + (">PASS:" if outcome == "pass" else r' class="wrong">FAIL:'))
 

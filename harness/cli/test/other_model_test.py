@@ -120,7 +120,8 @@ class OtherModel(ProgramTest):
         self.assertEqual({(r["t"], r["not_modelled"]) for r in rows
                           if r["formulation"] == "beamw_vlasov"}, {("0.0005", ""), ("0.1", "shear")})
         with h5py.File(self.folder / "s.h5") as file:
-            lacks, bits = file["not_modelled"][()], file["not_modelled"].attrs["bits"].decode()
+            stored = file["experiments/sweep/not_modelled"]
+            lacks, bits = stored[()], stored.attrs["bits"].decode()
         self.assertEqual([[bool(x) for x in row] for row in lacks], [[False, False], [True, False]])
         self.assertEqual(bits.split("\n")[int(lacks[1, 0]).bit_length() - 1], "shear")
 

@@ -105,7 +105,7 @@ class Import(ProgramTest):
                               (("MBDyn 1.7.3, 3-node ", "beamw "),
                                "is a formulation of this program"), (("# program", "# progrm"),
                                                                      "did you mean 'program'"),
-                              (("# case", "# axes: x=y y=y z=z\n# case"), "no signed permutation"),
+                              (("# case", "# axes: x=y y=y z=z\n# case"), "not a signed permutation"),
                               (("# case", "# convention: symmetrised\n# case"),
                                "the moments of the case are spatial")):
             self.assertIn(words, self.read(HEAD.replace(*change) + COLUMNS + ROWS, 2).stderr)
