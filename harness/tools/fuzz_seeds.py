@@ -10,6 +10,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from harness.tools.kit.scenes import bad_scenes  # noqa: E402  pylint: disable=wrong-import-position
+
 IMPORTS = ROOT / "harness" / "exchange"
 WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5",
          "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default", "\1not not a b",
@@ -65,9 +68,10 @@ def runs(program, scratch):
 
 def scenes():
     """Scenes that are read, and those with a planted mistake."""
-    for folder in ("cases/examples", "cases/format/test/bad"):
-        for path in sorted((ROOT / folder).glob("*.yaml")):
-            yield path.read_bytes()
+    for path in sorted((ROOT / "cases/examples").glob("*.yaml")):
+        yield path.read_bytes()
+    for _, text in bad_scenes():
+        yield text.encode()
 
 
 def library():

@@ -5,9 +5,8 @@ import unittest
 
 from cases.format.test.scene_case import EXAMPLES, SceneCase, values
 from harness.tools.kit.program import ROOT, run
-from harness.tools.kit.scenes import LEAF
+from harness.tools.kit.scenes import LEAF, bad_scenes
 
-BAD = ROOT / "cases/format/test/bad"
 GOOD = ROOT / "cases/format/test/good"
 # A part of the motion of twelve joints: all of it takes as long as many other cases together.
 PART = {"hexapod_motion": ("--set", "time=0.05")}
@@ -17,10 +16,11 @@ class SceneTest(SceneCase):
 
     def test_bad_files(self):
         """Each planted mistake is told at its place, with its remedy, and nothing else is."""
-        files = sorted(BAD.glob("*.yaml"))
-        self.assertGreaterEqual(len(files), 40)
-        for path in files:
-            expected = re.findall(r"^# expect (.*)$", path.read_text(encoding="utf-8"), re.M)
+        self.assertGreaterEqual(len(bad_scenes()), 160)
+        for name, text in bad_scenes():
+            path = self.folder / f"{name}.yaml"
+            path.write_text(text, encoding="utf-8")
+            expected = re.findall(r"^# expect (.*)$", text, re.M)
             self.assertTrue(expected, path)
             done = run("solve", "--scene", path, "-f", "beamw", "-n", 1)
             told = [line.removeprefix(f"{path}:") for line in done.stderr.splitlines()]
@@ -28,7 +28,8 @@ class SceneTest(SceneCase):
 
     def test_mistakes_for_editors(self):
         """--format json gives the same mistakes as numbers and text."""
-        path = BAD / "several_mistakes.yaml"
+        path = self.folder / "several_mistakes.yaml"
+        path.write_text(dict(bad_scenes())[path.stem], encoding="utf-8")
         done = self.answered("scene", "--scene", path, "--format", "json", code=2)
         told = json.loads(done.stdout)
         self.assertEqual([(m["line"], m["column"]) for m in told["mistakes"]], [(15, 55), (19, 49),

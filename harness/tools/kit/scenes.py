@@ -1,4 +1,6 @@
 """Scenes that several tests write."""
+import pathlib
+import re
 
 # Ten lines are enough: a leaf spring clamped at one end, loaded at the other.
 LEAF = """\
@@ -13,3 +15,11 @@ members:
 loads:
   push: {force: [0, 1, 0], on: tip}
 """
+
+
+def bad_scenes():
+    """[(name, text)] of scenes with one mistake each, that end in the lines expected of it."""
+    folder = pathlib.Path(__file__).parents[3] / "cases/format/test/bad"
+    files = (path.read_bytes().decode() for path in sorted(folder.glob("*.txt")))
+    return [tuple(piece.split("\n", 1)) for text in files
+            for piece in re.split(r"^=== ", text, flags=re.M)[1:]]
