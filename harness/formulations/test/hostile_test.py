@@ -133,7 +133,7 @@ class Evaluated(Speaker):
         done = run("solve", "elastica", "-f", "speaker", "-n", "2", "--element", element)
         self.assertEqual(done.returncode, 1, done)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertIn("no number", done.stderr)
+        self.assertIn("NaN or Inf", done.stderr)
 
     def test_refuses_a_state(self):
         self.one_line(["too far"], "answer(b'too far', 3); continue")

@@ -145,7 +145,7 @@ class Mistakes(OctaveTest):
                   ("c = cos(angle / 2);", "c = cos(angle / 2) + 1i;"))
 
     def test_no_number(self):
-        self.told(1, ["no number"], ("c = cos(", "c = NaN * cos("))
+        self.told(1, ["NaN or Inf"], ("c = cos(", "c = NaN * cos("))
 
     def test_unknown_word(self):
         self.told(2, ["'limitz' of its first line"], ("'limits'", "'limitz'"))
