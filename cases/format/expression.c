@@ -90,7 +90,7 @@ static double literal(parser *p)
 }
 
 /* Arguments of a function behind its "(", and the ")". */
-static double call(parser *p, const function *f, int from)
+static double call(parser *p, const expression_function *f, int from)
 {
     double value = 0;
     int count = 0;
@@ -155,7 +155,7 @@ static double named(parser *p)
     memcpy(name, p->text + from, kept);
     name[kept] = '\0';
     p->at += length;
-    const function *f = functions_find(p->text + from, length);
+    const expression_function *f = functions_find(p->text + from, length);
     const scope *known = scope_find(p->names, p->text + from, (size_t)length);
     if (f != NULL && f->arguments == 0)
         return f->value;

@@ -20,28 +20,28 @@ struct formula {
     instruction step[MOST];
 };
 
-typedef struct reader {
+typedef struct formula_reader {
     const char *text;
     int at, depth; /* depth: of the stack; nested: of parentheses */
     int nested;
     formula *to;
     formula_mistake *mistake;
-} reader;
+} formula_reader;
 
-static status wrong(const reader *r, const char *what)
+static status wrong(const formula_reader *r, const char *what)
 {
     r->mistake->at = r->at;
     r->mistake->what = what;
     return STATUS_REFUSED;
 }
 
-static void skip_blanks(reader *r)
+static void skip_blanks(formula_reader *r)
 {
     while (isspace((unsigned char)r->text[r->at]))
         r->at++;
 }
 
-static int takes(reader *r, char sign)
+static int takes(formula_reader *r, char sign)
 {
     skip_blanks(r);
     if (r->text[r->at] != sign)
@@ -52,7 +52,7 @@ static int takes(reader *r, char sign)
 
 /* What no t enters is one number: its derivatives are zero, also where those of a function are not
  * finite. 1: done. */
-static int is_constant(reader *r, jet_operation what, int grows)
+static int is_constant(formula_reader *r, jet_operation what, int grows)
 {
     const int values = grows < 0 ? 2 : 1, first = r->to->count - values;
     if (grows > 0 || first < 0)
@@ -67,7 +67,7 @@ static int is_constant(reader *r, jet_operation what, int grows)
 }
 
 /* grows: values more on the stack. */
-static status emit(reader *r, jet_operation what, double number, int grows)
+static status emit(formula_reader *r, jet_operation what, double number, int grows)
 {
     const instruction *last = r->to->count > 0 ? &r->to->step[r->to->count - 1] : NULL;
     if (what == JET_DIVIDE && last != NULL && last->what == JET_NUMBER && last->number == 0)
@@ -85,17 +85,17 @@ static status emit(reader *r, jet_operation what, double number, int grows)
     return r->depth < DEEPEST ? STATUS_OK : wrong(r, "too deeply nested");
 }
 
-static status read_sum(reader *r);
+static status read_sum(formula_reader *r);
 
 /* The step last written is one number: its value; else NULL, t enters. */
-static const double *constant_from(const reader *r, int first)
+static const double *constant_from(const formula_reader *r, int first)
 {
     const instruction *step = &r->to->step[first];
     return r->to->count == first + 1 && step->what == JET_NUMBER ? &step->number : NULL;
 }
 
 /* Of numbers, behind "(": all are taken together as they are read. */
-static status read_arguments(reader *r, const function *f, int word)
+static status read_arguments(formula_reader *r, const expression_function *f, int word)
 {
     int count = 0;
     do {
@@ -122,7 +122,7 @@ static status read_arguments(reader *r, const function *f, int word)
     return STATUS_OK;
 }
 
-static status read_function(reader *r, const function *f, int word)
+static status read_function(formula_reader *r, const expression_function *f, int word)
 {
     if (!takes(r, '('))
         return wrong(r, "a function needs its argument in parentheses");
@@ -135,13 +135,13 @@ static status read_function(reader *r, const function *f, int word)
                              : wrong(r, "what stands before it has no finite value; correct it");
 }
 
-static status read_word(reader *r)
+static status read_word(formula_reader *r)
 {
     const int first = r->at;
     int length = 0;
     while (isalnum((unsigned char)r->text[first + length]) || r->text[first + length] == '_')
         length++;
-    const function *f = functions_find(r->text + first, length);
+    const expression_function *f = functions_find(r->text + first, length);
     const int is_time = length == 1 && r->text[first] == 't';
     if (f == NULL && !is_time)
         return wrong(r,
@@ -153,7 +153,7 @@ static status read_word(reader *r)
 }
 
 /* Decimal. */
-static status read_number(reader *r)
+static status read_number(formula_reader *r)
 {
     const char *from = r->text + r->at;
     char *end;
@@ -169,7 +169,7 @@ static status read_number(reader *r)
     return emit(r, JET_NUMBER, number, 1);
 }
 
-static status read_atom(reader *r)
+static status read_atom(formula_reader *r)
 {
     skip_blanks(r);
     const char *from = r->text + r->at;
@@ -184,9 +184,9 @@ static status read_atom(reader *r)
     return wrong(r, *from == 0 ? "it ends where a value is due" : "a value is due");
 }
 
-static status read_signed(reader *r);
+static status read_signed(formula_reader *r);
 
-static status read_power(reader *r)
+static status read_power(formula_reader *r)
 {
     TRY(read_atom(r));
     if (!takes(r, '^'))
@@ -196,7 +196,7 @@ static status read_power(reader *r)
 }
 
 /* A sign binds weaker than ^. */
-static status read_signed(reader *r)
+static status read_signed(formula_reader *r)
 {
     if (++r->nested > DEEPEST)
         return wrong(r, "too deeply nested");
@@ -206,7 +206,7 @@ static status read_signed(reader *r)
     return minus ? emit(r, JET_NEGATE, 0, 0) : STATUS_OK;
 }
 
-static status read_product(reader *r)
+static status read_product(formula_reader *r)
 {
     TRY(read_signed(r));
     for (;;) {
@@ -218,7 +218,7 @@ static status read_product(reader *r)
     }
 }
 
-static status read_sum(reader *r)
+static status read_sum(formula_reader *r)
 {
     TRY(read_product(r));
     for (;;) {
@@ -230,7 +230,7 @@ static status read_sum(reader *r)
     }
 }
 
-static status read_all(reader *r)
+static status read_all(formula_reader *r)
 {
     TRY(read_sum(r));
     skip_blanks(r);
@@ -243,7 +243,7 @@ status formula_parse(const char *text, formula **out, formula_mistake *mistake)
     *mistake = (formula_mistake){0, "out of memory for a function of time"};
     if (*out == NULL)
         return STATUS_FAULT;
-    reader r = {.text = text, .to = *out, .mistake = mistake};
+    formula_reader r = {.text = text, .to = *out, .mistake = mistake};
     const status outcome = read_all(&r);
     if (outcome != STATUS_OK) {
         formula_free(*out);

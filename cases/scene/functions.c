@@ -18,7 +18,7 @@ static double modulo(double x, double y)
     return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
 }
 
-static const function all[] = {
+static const expression_function all[] = {
     {.name = "pi", .value = PI},
     {.name = "deg", .value = PI / 180},
     {.name = "abs", .arguments = 1, .of_one = fabs, .kinked = 1},
@@ -45,7 +45,7 @@ static const function all[] = {
 };
 enum { FUNCTIONS = sizeof all / sizeof all[0] };
 
-const function *functions_find(const char *name, int length)
+const expression_function *functions_find(const char *name, int length)
 {
     for (int i = 0; i < FUNCTIONS; i++)
         if (strlen(all[i].name) == (size_t)length && memcmp(all[i].name, name, (size_t)length) == 0)

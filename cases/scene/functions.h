@@ -4,7 +4,7 @@
 
 #include "cases/scene/jet.h"
 
-typedef struct function {
+typedef struct expression_function {
     const char *name;
     int arguments; /* 0: a constant; -1: two or more */
     double value;  /* of a constant */
@@ -12,10 +12,10 @@ typedef struct function {
     double (*of_two)(double, double); /* of more: taken again and again */
     int kinked;                       /* 1: it has kinks or jumps */
     jet_operation in_time; /* JET_NUMBER: none, of what changes in time it cannot be taken */
-} function;
+} expression_function;
 
 /* The function or constant with that name of `length` bytes, or NULL. */
-const function *functions_find(const char *name, int length);
+const expression_function *functions_find(const char *name, int length);
 /* The i-th name, or NULL behind the last. */
 const char *functions_name(int i);
 

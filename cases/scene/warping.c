@@ -138,17 +138,17 @@ static int runs_on(const scene *s, member_end first, member_end second)
 
 /* Of each node: how many ends are at it, the sum of their numbers, and whether it is part of a
  * body, or of one that members or springs reach at other nodes too. */
-typedef struct place {
+typedef struct warping_place {
     int ends, tied;
     long sum;
-} place;
+} warping_place;
 
 static int number_of(member_end e)
 {
     return 2 * e.member + e.end;
 }
 
-static void tie(const scene *s, place *all, int node)
+static void tie(const scene *s, warping_place *all, int node)
 {
     const int body = node >= 0 && node < s->nodes ? s->node[node].attached : SCENE_NONE;
     if (body < 0 || body >= s->nodes)
@@ -157,7 +157,7 @@ static void tie(const scene *s, place *all, int node)
     all[body].tied = 1;
 }
 
-static void find_places(const scene *s, place *all)
+static void find_places(const scene *s, warping_place *all)
 {
     for (int i = 0; i < 2 * s->members; i++) {
         const int node = i % 2 == 0 ? s->member[i / 2].p : s->member[i / 2].q;
@@ -183,7 +183,7 @@ static int unused_name(const scene *s)
     return name;
 }
 
-static void resolve(scene *s, const place *all)
+static void resolve(scene *s, const warping_place *all)
 {
     int name = unused_name(s);
     for (int i = 0; i < 2 * s->members; i++) {
@@ -208,7 +208,7 @@ static void resolve(scene *s, const place *all)
 
 void scene_warping_by_supports(scene *s)
 {
-    place *all = calloc((size_t)s->nodes + 1, sizeof *all);
+    warping_place *all = calloc((size_t)s->nodes + 1, sizeof *all);
     if (all == NULL) {
         s->out_of_memory = 1;
         return;

@@ -6,7 +6,7 @@
 #include "cases/scene/scene.h"
 #include "elements/test/ended.h"
 
-typedef void reader(const void *analysis_or_quantity);
+typedef void kinds_reader(const void *analysis_or_quantity);
 
 static void read_walk(const void *a)
 {
@@ -89,7 +89,7 @@ int main(void)
 {
     static const struct {
         const char *name;
-        reader *read;
+        kinds_reader *read;
         unsigned analyses, quantities; /* kinds that have it; 0: it is not asked of them */
     } row[] = {
         {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION, 0},

@@ -21,10 +21,10 @@ extern const element_type element_collocation;
 enum { N = 14, STRAINS = 8, POINTS = ELEMENT_ALONG_POINTS, INNER = 24, MEMORY = 24 * 9 };
 static const double l0 = 0.8;
 
-typedef struct subject {
+typedef struct along_subject {
     element_data *data;
     double curvature[3];
-} subject;
+} along_subject;
 
 /* Walls without an axis of symmetry; sections by their matrices. */
 static section section_of(int matrices)
@@ -49,7 +49,7 @@ static section section_of(int matrices)
     return sections_computed(&spec);
 }
 
-static subject subject_of(int stages, int matrices, const double curvature[3])
+static along_subject subject_of(int stages, int matrices, const double curvature[3])
 {
     const section c = section_of(matrices);
     const double option[ELEMENT_MAX_OPTIONS] = {stages - 3};
@@ -63,7 +63,7 @@ static subject subject_of(int stages, int matrices, const double curvature[3])
                                .options = option,
                                .type = &element_collocation};
     fault f = {""};
-    subject s = {malloc(element_collocation.data_size(&request)), {0}};
+    along_subject s = {malloc(element_collocation.data_size(&request)), {0}};
     memcpy(request.curvature, curvature, sizeof s.curvature);
     memcpy(s.curvature, curvature, sizeof s.curvature);
     gsl_test(element_collocation.prepare(&request, s.data, &f), "%d stages: %s", stages, f.text);
@@ -71,7 +71,7 @@ static subject subject_of(int stages, int matrices, const double curvature[3])
 }
 
 /* At rest, the middle's axes those of space. */
-static void rest_nodes(const subject *s, node_state x[2])
+static void rest_nodes(const along_subject *s, node_state x[2])
 {
     const double along[3] = {1, 0, 0};
     double rotation[3];
@@ -88,8 +88,8 @@ static void rest_nodes(const subject *s, node_state x[2])
 }
 
 /* Forces, and K where it is wanted, of the element with its load. */
-static void forces_at(const subject *s, const node_state x[], const double q[], double forces[N],
-                      double K[N * N])
+static void forces_at(const along_subject *s, const node_state x[], const double q[],
+                      double forces[N], double K[N * N])
 {
     double e[STRAINS], J[STRAINS * N], sigma[STRAINS], C[STRAINS * STRAINS], memory[MEMORY],
         mixed[3 * STRAINS], H[N * N], inner[INNER], none[STRAINS] = {0}, work[STRAINS * N],
@@ -147,7 +147,7 @@ static void load_of(double size, int across, double q[3 * POINTS])
     }
 }
 
-static void state_of(const subject *s, double size, node_state x[2])
+static void state_of(const along_subject *s, double size, node_state x[2])
 {
     double d[N];
     rest_nodes(s, x);
@@ -168,7 +168,7 @@ static void state_of(const subject *s, double size, node_state x[2])
 
 static void tangent(int stages, int matrices, const double curvature[3])
 {
-    const subject s = subject_of(stages, matrices, curvature);
+    const along_subject s = subject_of(stages, matrices, curvature);
     const double step = 1e-4;
     double q[3 * POINTS], F[N], K[N * N], asymmetry, worst = 0;
     node_state x[2], moved[2];
@@ -203,7 +203,7 @@ static void tangent(int stages, int matrices, const double curvature[3])
 static void rate(int stages)
 {
     static const double curved[3] = {0.4, -0.7, 0.9};
-    const subject s = subject_of(stages, 0, curved);
+    const along_subject s = subject_of(stages, 0, curved);
     const element_data *data = s.data;
     double q[3 * POINTS], dq[3 * POINTS], F[2][N],
         own[N] = {0}, e[STRAINS], inner[INNER], sigma[STRAINS], memory[MEMORY],
@@ -253,7 +253,7 @@ static void rate(int stages)
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
-    const subject s = subject_of(stages, 0, curvature);
+    const along_subject s = subject_of(stages, 0, curvature);
     double q[3 * POINTS], F[N], at[RULE], weight[RULE], sum = 0, size = 0;
     load_of(20, 1, q);
     quadrature_points(RULE, at, weight);
@@ -288,7 +288,7 @@ static void closed_path(int stages, const double curvature[3])
  * are those of q. */
 static void resultants(int stages, const double curvature[3])
 {
-    const subject s = subject_of(stages, 0, curvature);
+    const along_subject s = subject_of(stages, 0, curvature);
     double q[3 * POINTS], F[N], point[POINTS], weight[POINTS], Q[3] = {0};
     node_state x[2];
     load_of(20, 1, q);
@@ -305,7 +305,7 @@ static void resultants(int stages, const double curvature[3])
 
 /* Moment of the load and of what it needs at the nodes, about the first one, in the undeformed
  * geometry. */
-static double moment_left(const subject *s, const double q[], const double F[],
+static double moment_left(const along_subject *s, const double q[], const double F[],
                           const node_state x[])
 {
     const double along[3] = {1, 0, 0},
@@ -329,7 +329,7 @@ static double moment_left(const subject *s, const double q[], const double F[],
  * the stresses, which is all of it where they make hardly any strains. */
 static void linear(int stages, int matrices, const double curvature[3], int across)
 {
-    const subject s = subject_of(stages, matrices, curvature);
+    const along_subject s = subject_of(stages, matrices, curvature);
     const element_data *data = s.data;
     double q[3 * POINTS], F[2][N], K[2][N * N], sigma[STRAINS], G[STRAINS * STRAINS],
         mixed[3 * STRAINS], H[N * N], J[STRAINS * N],
@@ -383,7 +383,7 @@ enum { MANY = 6 }; /* more than go together */
 /* Many at once give what each gives alone, to the bit, and nothing behind the last is written. */
 static void many(int stages, const double curvature[3])
 {
-    const subject s = subject_of(stages, 0, curvature);
+    const along_subject s = subject_of(stages, 0, curvature);
     const element_data *data[MANY];
     double q[3 * POINTS], e[MANY][STRAINS], inner[MANY][INNER], sigma[2][MANY][STRAINS],
         C[2][MANY][STRAINS * STRAINS], memory[2][MANY][MEMORY], mixed[2][MANY][3 * STRAINS],

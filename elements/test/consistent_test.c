@@ -6,7 +6,7 @@
 extern const element_type element_beamw, element_beamw_consistent, element_sheet_second_consistent;
 
 /* ebar_k = e_k + 1/2 e^T Q_k e, Q_k being the geometric stiffness of a unit stress. */
-static void modified(const subject *s, const node_state x[2], double ebar[STRAINS])
+static void modified(const pair_subject *s, const node_state x[2], double ebar[STRAINS])
 {
     double e[STRAINS];
     s->type->strain(data_of(s), x, &(strain_output){.e = e});
@@ -49,8 +49,8 @@ static void state(double l0, double small, int planar, node_state x[2])
 
 /* The difference of two elements' strains falls by eight when the state is halved: equal to second
  * order. */
-static void equal_to_second_order(const char *what, const subject *a, const subject *b, double l0,
-                                  int planar, int strains)
+static void equal_to_second_order(const char *what, const pair_subject *a, const pair_subject *b,
+                                  double l0, int planar, int strains)
 {
     for (int k = 0; k < strains; k++) {
         double difference[2], largest = 0;
@@ -76,7 +76,7 @@ static void same_element(void)
 {
     const double l0 = 0.1;
     const section c = sheet();
-    subject consistent, other;
+    pair_subject consistent, other;
     const unsigned uniform = FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_TRAPEZE,
                    warped = uniform | FEATURE_WARPING;
     start(&consistent, &element_beamw_consistent, &c, l0, uniform);
@@ -102,7 +102,7 @@ static void uniform_strains(double size)
     const double l0 = 1.7, gamma[3] = {0.11 * size, -0.23 * size, 0.31 * size},
                  psi[3] = {0.5 * size, -0.9 * size, 0.7 * size};
     const section c = sheet();
-    subject s;
+    pair_subject s;
     start(&s, &element_beamw_consistent, &c, l0, FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING);
     /* r = int exp(x psi~) (e_x + gamma) l0 dx, closed form of the exponential's integral */
     const double U[3] = {l0 * (1 + gamma[0]), l0 * gamma[1], l0 * gamma[2]}, t = vec3_norm(psi);
@@ -139,7 +139,7 @@ static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
     const section c = sheet();
-    subject s;
+    pair_subject s;
     start(&s, &element_beamw_consistent, &c, l0,
           FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_TRAPEZE);
     double d[N] = {0}, e[STRAINS], energy;
@@ -164,7 +164,7 @@ static void derivatives(double size)
                                     -0.4, 0.7, -0.3, 1.2, -0.9, 1.4, 0.2};
     const double l0 = 1.7;
     const section c = sheet();
-    subject of;
+    pair_subject of;
     double d[N];
     node_state x[2];
     start(&of, &element_beamw_consistent, &c, l0,
@@ -192,7 +192,7 @@ static void inside_follows(void)
             double e[STRAINS], energy[2];
             state(l0, halved ? 0.005 : 0.01, 0, x);
             for (int following = 0; following < 2; following++) {
-                subject s;
+                pair_subject s;
                 start_with(&s, &element_beamw_consistent, &c, l0, features, "inside", following);
                 s.type->strain(data_of(&s), x, &(strain_output){.e = e});
                 gsl_test(s.type->stress(data_of(&s), e, NULL,
@@ -215,7 +215,7 @@ static void inside_compressed(void)
     const double l0 = 2, h = 1e-7 * l0;
     const section c = sheet();
     double C[STRAINS * STRAINS], sigma[3][STRAINS], energy[3], Cv[STRAINS], work = 0;
-    subject s;
+    pair_subject s;
     start(&s, &element_beamw_consistent, &c, l0,
           FEATURE_SHEAR | FEATURE_HARINGX | FEATURE_WARPING | FEATURE_TRAPEZE);
     for (int side = -1; side <= 1; side++) {

@@ -15,22 +15,22 @@
 
 enum { N = 14, STRAINS = 8 };
 
-typedef struct subject {
+typedef struct pair_subject {
     const element_type *type;
     union {
         double align;
         unsigned char bytes[1 << 15];
     } store;
-} subject;
+} pair_subject;
 
-static inline const element_data *data_of(const subject *s)
+static inline const element_data *data_of(const pair_subject *s)
 {
     return (const element_data *)s->store.bytes;
 }
 
 /* One option of all has another value than its default. */
-static inline void start_with(subject *s, const element_type *type, const section *c, double l0,
-                              unsigned features, const char *option, double value)
+static inline void start_with(pair_subject *s, const element_type *type, const section *c,
+                              double l0, unsigned features, const char *option, double value)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
     for (int i = 0; i < parameter_count(type->options); i++)
@@ -46,7 +46,7 @@ static inline void start_with(subject *s, const element_type *type, const sectio
              "%s: prepared", type->name);
 }
 
-static inline void start(subject *s, const element_type *type, const section *c, double l0,
+static inline void start(pair_subject *s, const element_type *type, const section *c, double l0,
                          unsigned features)
 {
     start_with(s, type, c, l0, features, "", 0);

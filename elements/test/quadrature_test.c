@@ -13,13 +13,13 @@
 
 enum { MOST = QUADRATURE_MAX_POINTS, THREADS = 8 };
 
-typedef struct rule {
+typedef struct quadrature_rule {
     double x[MOST], w[MOST];
-} rule;
+} quadrature_rule;
 
 /* How far points and weights are from Newton's correction and from 2/((1 - z^2) P'^2), in long
  * double. */
-static void against_polynomial(int n, const rule *r)
+static void against_polynomial(int n, const quadrature_rule *r)
 {
     double apart = 0;
     for (int i = 0; i < n; i++) {
@@ -40,7 +40,7 @@ static void against_polynomial(int n, const rule *r)
     gsl_test(!(apart <= 2 * DBL_EPSILON), "%d points: %.1e from the polynomial's", n, apart);
 }
 
-static void monomials(int n, const rule *r)
+static void monomials(int n, const quadrature_rule *r)
 {
     double worst = 0;
     for (int degree = 0; degree < 2 * n; degree++) {
@@ -56,7 +56,7 @@ static void monomials(int n, const rule *r)
 
 static void *ask(void *out)
 {
-    rule *r = out;
+    quadrature_rule *r = out;
     quadrature_points(16, r->x, r->w);
     return NULL;
 }
@@ -64,7 +64,7 @@ static void *ask(void *out)
 /* Nobody has asked before. */
 static void at_once(void)
 {
-    static rule r[THREADS + 1], forked;
+    static quadrature_rule r[THREADS + 1], forked;
     pthread_t thread[THREADS];
     int started = 0, apart = 0, ends[2], ended = -1;
     while (started < THREADS && pthread_create(&thread[started], NULL, ask, &r[started]) == 0)
@@ -90,7 +90,7 @@ static void at_once(void)
 
 int main(void)
 {
-    rule r;
+    quadrature_rule r;
     at_once();
     for (int n = 1; n <= QUADRATURE_MAX_POINTS; n++)
         if (quadrature_is_tabulated(n)) {

@@ -19,7 +19,7 @@ static section unsymmetric(void)
 /* K [14 x 14] of a straight element at rest. */
 static void linear_stiffness(const section *c, double l0, beamw_twist_kind torsion, double K[N * N])
 {
-    subject s;
+    pair_subject s;
     const double none[N] = {0}, e[STRAINS] = {0};
     double J[STRAINS * N], S[STRAINS * STRAINS], work[STRAINS * N];
     node_state x[2];
@@ -89,7 +89,7 @@ static void hyperbolic_twist(void)
 static double third_order(const section *c, double l0, beamw_twist_kind torsion, unsigned features,
                           const double d[N])
 {
-    subject s;
+    pair_subject s;
     const double none[N] = {0}, zero[STRAINS] = {0};
     double J[STRAINS * N], S[STRAINS * STRAINS], e[STRAINS], sigma[STRAINS], G[STRAINS * STRAINS],
         H[N * N], energy = 0;

@@ -54,7 +54,7 @@ static void reaction_of(const analysis_context *c, const scene_compliance *what,
 /* From the tangent about the node; columns of C that nothing asks for, and with them K, are not
  * numbers. */
 static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
-                          tangent *t, unsigned wanted, station_matrices *out, fault *f)
+                          node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
     movable motions;
     tangent_movable(c->model, t, &motions);
@@ -74,7 +74,7 @@ static status matrices_of(analysis_context *c, const scene_compliance *what, dou
 }
 
 static status compliance_at(analysis_context *c, const scene_compliance *what, const model_state *s,
-                            tangent *t, unsigned wanted, station_matrices *out, fault *f)
+                            node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
     double reaction[6];
     reaction_of(c, what, s, reaction);
@@ -82,7 +82,7 @@ static status compliance_at(analysis_context *c, const scene_compliance *what, c
     return matrices_of(c, what, reaction, t, wanted, out, f);
 }
 
-status compliance_take(analysis_context *c, int analysis, const newton *n, tangent *t,
+status compliance_take(analysis_context *c, int analysis, const newton_run *n, node_tangent *t,
                        station_matrices *out, fault *f)
 {
     const scene_compliance *what = scene_compliance_of(&c->scene->analysis[analysis]);
@@ -116,7 +116,7 @@ static status matrices_alloc(solve_result *r, const scene_compliance *what, int 
 }
 
 /* The state without loads: undeformed, but for strains that members have by themselves. */
-static status unloaded(analysis_context *c, newton *n, const model_state **state, fault *f)
+static status unloaded(analysis_context *c, newton_run *n, const model_state **state, fault *f)
 {
     step_record unused = {0};
     *state = kinematics_rest(c->model);
@@ -128,7 +128,7 @@ static status unloaded(analysis_context *c, newton *n, const model_state **state
 }
 
 /* With what compliance_analysis frees; at the stations that the path has reached. */
-static status solve(analysis_context *c, int analysis, tangent *t, newton *n,
+static status solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
                     outcome_compliance *out, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
@@ -166,8 +166,8 @@ static status solve(analysis_context *c, int analysis, tangent *t, newton *n,
 
 status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    tangent t = {0};
-    newton n = {0};
+    node_tangent t = {0};
+    newton_run n = {0};
     analysis_context unloaded = context_unloaded(c);
     const int alone = c->scene->analysis[analysis].follows == SCENE_NONE;
     const status result = solve(alone ? &unloaded : c, analysis, &t, &n, &o->left.compliance, f);

@@ -8,7 +8,7 @@
 
 typedef struct follower {
     int analysis;
-    tangent tangent;
+    node_tangent tangent;
 } follower;
 
 struct compliance_walk {
@@ -23,7 +23,7 @@ static int follows(const analysis_context *c, int analysis, int path)
     return a->kind == SCENE_COMPLIANCE && a->follows == path && context_runs(c, analysis);
 }
 
-static status add(newton *n, int analysis, compliance_walk *w, fault *f)
+static status add(newton_run *n, int analysis, compliance_walk *w, fault *f)
 {
     analysis_context *c = n->c;
     outcome_compliance *o = &c->outcomes[analysis].left.compliance;
@@ -38,7 +38,7 @@ static status add(newton *n, int analysis, compliance_walk *w, fault *f)
                             : STATUS_OK;
 }
 
-status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *f)
+status compliance_walk_begin(newton_run *n, int path, compliance_walk **out, fault *f)
 {
     const scene *s = n->c->scene;
     int count = 0;
@@ -58,7 +58,7 @@ status compliance_walk_begin(newton *n, int path, compliance_walk **out, fault *
     return STATUS_OK;
 }
 
-status compliance_walk_take(compliance_walk *w, const newton *n, int station, fault *f)
+status compliance_walk_take(compliance_walk *w, const newton_run *n, int station, fault *f)
 {
     analysis_context *c = n->c;
     /* the states of many elements are not kept for later */

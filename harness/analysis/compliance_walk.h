@@ -9,10 +9,10 @@
 typedef struct compliance_walk compliance_walk;
 
 /* Of all analyses that follow `path`; *out NULL: there are none. */
-status compliance_walk_begin(newton *, int path, compliance_walk **out, fault *);
+status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
 /* Newton has reached the station; what cannot be had now is left to the analysis itself. w NULL:
  * nothing follows. FAULT: out of memory. */
-status compliance_walk_take(compliance_walk *w, const newton *, int station, fault *);
+status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
 #endif

@@ -44,7 +44,7 @@ typedef struct continuation {
     int analysis, room; /* room: for points in the outcome */
     int asks_critical;  /* 1: a quantity asks for critical points */
     int keeps_states;   /* 1: the outcome keeps the state of every point */
-    newton n;           /* n.backup: state at the start of the step */
+    newton_run n;       /* n.backup: state at the start of the step */
     flutter_judge judge;
     model_state *end; /* of the step, while a critical point inside it is looked for */
     double *weight;   /* [free + driven] the metric */

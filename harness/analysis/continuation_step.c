@@ -115,7 +115,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
                       fault *f)
 {
     continuation *p = of;
-    newton *n = &p->n;
+    newton_run *n = &p->n;
     (void)iteration;
     TRY(directions(p, record, f));
     const double change = change_of(p, p->goal, p->response);

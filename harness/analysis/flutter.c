@@ -9,7 +9,7 @@
 #include "harness/newton/rotating_frame.h"
 #include "harness/time/damping.h"
 
-status flutter_system_alloc(const newton *n, flutter_system *s, fault *f)
+status flutter_system_alloc(const newton_run *n, flutter_system *s, fault *f)
 {
     memset(s, 0, sizeof *s);
     TRY(sparse_alloc_like(&n->K, &s->M, f));
@@ -31,7 +31,7 @@ void flutter_system_free(flutter_system *s)
     sparse_free_values(&s->C);
 }
 
-status flutter_motions(const newton *n, flutter_system *s, int wanted, int estimate,
+status flutter_motions(const newton_run *n, flutter_system *s, int wanted, int estimate,
                        unsymmetric_result *r, fault *f)
 {
     const unsymmetric_problem p = {.K = &n->K,

@@ -17,10 +17,10 @@ typedef struct flutter_system {
                      double values stay real: only what diverges has a meaning */
 } flutter_system;
 
-status flutter_system_alloc(const newton *, flutter_system *, fault *);
+status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
 void flutter_system_free(flutter_system *);
 /* The least `wanted` motions about the state. */
-status flutter_motions(const newton *, flutter_system *, int wanted, int estimate,
+status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
                        unsymmetric_result *, fault *);
 /* Frequencies, modes and errors become those of an outcome; what has no digits is NAN there. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
@@ -41,7 +41,7 @@ typedef struct flutter_point {
     double *mode;
 } flutter_point;
 /* From the present path to `target`: static_walk. */
-typedef status flutter_walk(newton *, double target, double *increment, fault *);
-status flutter_search(newton *, double size, flutter_walk *, flutter_point *, fault *);
+typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
+status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
 #endif

@@ -8,7 +8,7 @@
 /* Of one analysis; all zero at first. */
 typedef struct flutter_judge {
     int begun;
-    newton n; /* with a tangent of all coordinates, which that of a path need not have */
+    newton_run n; /* with a tangent of all coordinates, which that of a path need not have */
     flutter_system of;
 } flutter_judge;
 

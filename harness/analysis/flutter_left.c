@@ -14,7 +14,7 @@ enum {
 static const double rounding = 1e-6;
 
 typedef struct metric_inverse {
-    factor *K;
+    matrix_factor *K;
     int n;
     const double *weight;
 } metric_inverse;
@@ -50,7 +50,7 @@ static void take(const arnoldi_result *r, left_of_axis *out)
         out->mu[i] = 1 / r->theta[i];
 }
 
-status left_count(factor *K, int n, const double weight[], left_of_axis *out, fault *f)
+status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *out, fault *f)
 {
     metric_inverse of = {K, n, weight};
     memset(out, 0, sizeof *out);

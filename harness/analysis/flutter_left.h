@@ -20,6 +20,6 @@ typedef struct left_of_axis {
 } left_of_axis;
 
 /* K factored, [n]; weight [n] of the metric. */
-status left_count(factor *K, int n, const double weight[], left_of_axis *, fault *);
+status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *, fault *);
 
 #endif

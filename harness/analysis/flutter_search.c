@@ -34,7 +34,7 @@ typedef struct station {
 } station;
 
 typedef struct search {
-    newton *n;
+    newton_run *n;
     flutter_walk *walk;
     flutter_system of;
     model_state *kept; /* of the last stable station */
@@ -73,7 +73,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
  * what is not more than rounding does not grow. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
-    newton *n = s->n;
+    newton_run *n = s->n;
     step_record unused = {0};
     unsymmetric_result r = {0};
     double increment = path - kinematics_state_path(s->kept);
@@ -311,7 +311,7 @@ static status close_in(search *s, flutter_point *out, fault *f)
 
 static status run(search *s, flutter_point *out, fault *f)
 {
-    newton *n = s->n;
+    newton_run *n = s->n;
     step_record unused = {0};
     TRY(kinematics_state_alloc(n->c->model, &s->kept, f));
     kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);
@@ -329,7 +329,8 @@ static status run(search *s, flutter_point *out, fault *f)
     return close_in(s, out, f);
 }
 
-status flutter_search(newton *n, double size, flutter_walk *walk_to, flutter_point *out, fault *f)
+status flutter_search(newton_run *n, double size, flutter_walk *walk_to, flutter_point *out,
+                      fault *f)
 {
     search s = {.n = n, .walk = walk_to, .size = size};
     memset(out, 0, sizeof *out);

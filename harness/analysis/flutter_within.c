@@ -23,7 +23,7 @@ static status look(flutter_judge *j, int *unstable, fault *f)
 }
 
 /* *reached 0: Newton does not converge. */
-static status go_to(newton *n, double path, int *reached, fault *f)
+static status go_to(newton_run *n, double path, int *reached, fault *f)
 {
     step_record record = {0};
     fault why = {""};

@@ -54,7 +54,7 @@ static status followed_state(const analysis_context *c, int analysis, const mode
 }
 
 /* Newton at the followed state: its K in n->K, factored, which need not be symmetric. */
-static status start(analysis_context *c, int analysis, const char *what, newton *n, fault *f)
+static status start(analysis_context *c, int analysis, const char *what, newton_run *n, fault *f)
 {
     const model_state *state = NULL;
     step_record unused = {0};
@@ -78,7 +78,7 @@ static int asks_for_growth(const analysis_context *c, int analysis)
 }
 
 /* Without a symmetric, definite tangent: motions that may grow. */
-static status unsymmetric_frequencies(analysis_context *c, int analysis, newton *n,
+static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_run *n,
                                       outcome_spectrum *out, fault *f)
 {
     flutter_system of;
@@ -106,8 +106,8 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton 
 }
 
 /* With what loaded_modal frees. */
-static status frequencies(analysis_context *c, int analysis, newton *n, sparse *M, eigen_result *e,
-                          outcome_spectrum *out, fault *f)
+static status frequencies(analysis_context *c, int analysis, newton_run *n, sparse *M,
+                          eigen_result *e, outcome_spectrum *out, fault *f)
 {
     const sparse *pattern;
     TRY(start(c, analysis, "frequencies", n, f));
@@ -131,7 +131,7 @@ static status frequencies(analysis_context *c, int analysis, newton *n, sparse *
 
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    newton n;
+    newton_run n;
     sparse M = {0};
     eigen_result e = {0};
     const status result = frequencies(c, analysis, &n, &M, &e, &o->left.spectrum, f);
@@ -148,8 +148,8 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
 }
 
 /* Stable states on the way, the last ones first. */
-typedef struct search {
-    newton n;
+typedef struct loaded_search {
+    newton_run n;
     predictor guess; /* of the next state, from the stable ones since the last that was not */
     model_state *stable;
     sparse scale; /* diagonal of the first K */
@@ -166,10 +166,10 @@ typedef struct search {
     double rate;      /* distance of the last stable states over that of their paths */
     int lost;         /* 1: the path does not go on from the last stable state to the one tried */
     eigen_result found;
-} search;
+} loaded_search;
 
 /* A state beyond a critical point: the search begins at path 0. */
-static status begin_at_rest(newton *n, fault *f)
+static status begin_at_rest(newton_run *n, fault *f)
 {
     step_record unused = {0};
     kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);
@@ -195,7 +195,7 @@ static int loads_wanted(const analysis_context *c, int analysis)
     return wanted;
 }
 
-static status search_alloc(analysis_context *c, int analysis, search *s, fault *f)
+static status search_alloc(analysis_context *c, int analysis, loaded_search *s, fault *f)
 {
     s->wanted = loads_wanted(c, analysis);
     s->size = fabs(kinematics_state_path(s->n.state));
@@ -220,7 +220,7 @@ static status search_alloc(analysis_context *c, int analysis, search *s, fault *
     return STATUS_OK;
 }
 
-static void search_free(search *s)
+static void search_free(loaded_search *s)
 {
     newton_free(&s->n);
     predictor_free(&s->guess);
@@ -230,7 +230,7 @@ static void search_free(search *s)
 }
 
 /* Newton's present state, whose K is factored, is the last stable one: its sigma. */
-static status take_state(search *s, fault *f)
+static status take_state(loaded_search *s, fault *f)
 {
     const eigen_problem p = {
         .K = &s->n.K, .A = &s->scale, .K_factor = s->n.factor, .sign = 1, .largest = s->wanted};
@@ -253,7 +253,7 @@ static status take_state(search *s, fault *f)
 }
 
 /* Equilibrium at `path`, and the tangent there, factored. */
-static status tangent_at_path(search *s, double path, fault *f)
+static status tangent_at_path(loaded_search *s, double path, fault *f)
 {
     step_record unused = {0};
     double increment = path - s->p[0];
@@ -264,14 +264,14 @@ static status tangent_at_path(search *s, double path, fault *f)
 }
 
 /* How fast the structure moves from the kept state to Newton's. */
-static double rate_to(const search *s, double path)
+static double rate_to(const loaded_search *s, double path)
 {
     return metric_distance(s->n.c->model, s->stable, s->n.state, NULL) / (path - s->p[0]);
 }
 
 /* The structure at `path`; *stable: it was stable there and has been taken. Beyond a limit point
  * there is no state near by: Newton fails, or finds one far away, which may be stable. */
-static status go_to(search *s, double path, int *stable, fault *f)
+static status go_to(loaded_search *s, double path, int *stable, fault *f)
 {
     const status outcome = tangent_at_path(s, path, f);
     *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
@@ -297,7 +297,7 @@ static status go_to(search *s, double path, int *stable, fault *f)
 
 /* Where sigma vanishes, from the inverse interpolation p(sigma); INFINITY while it does not
  * fall. */
-static double extrapolate(const search *s)
+static double extrapolate(const loaded_search *s)
 {
     const double *p = s->p, *g = s->sigma;
     if (s->points < 2 || !(g[0] < g[1]))
@@ -312,9 +312,9 @@ static double extrapolate(const search *s)
 
 /* How far the first critical point is by (K, -dK): K at the beginning, dK what it changes in a
  * step. A has the pattern of K. */
-static status predict(search *s, double step, sparse *A, fault *f)
+static status predict(loaded_search *s, double step, sparse *A, fault *f)
 {
-    newton *n = &s->n;
+    newton_run *n = &s->n;
     step_record unused = {0};
     eigen_result found = {0};
     s->predicted = INFINITY;
@@ -343,7 +343,7 @@ static status predict(search *s, double step, sparse *A, fault *f)
 }
 
 /* Scale-free: the second step is small beside what the first one has predicted. */
-static status predict_twice(search *s, fault *f)
+static status predict_twice(loaded_search *s, fault *f)
 {
     const double small = 1e-3;
     sparse A = {0};
@@ -360,14 +360,14 @@ static status predict_twice(search *s, fault *f)
 
 /* Is sigma as small as the way that is left makes it, in proportion or, at a limit point, by its
  * root? Else what lies behind is another equilibrium. */
-static int falls_to_zero(const search *s)
+static int falls_to_zero(const loaded_search *s)
 {
     const double noise = 2e-3, steep = 5;
     const double part = fabs((s->estimate - s->p[0]) / (s->estimate - s->begin));
     return s->sigma[0] <= s->shift * (noise + steep * sqrt(part));
 }
 
-static status find_critical(search *s, fault *f)
+static status find_critical(loaded_search *s, fault *f)
 {
     int stable = 0;
     TRY(predict_twice(s, f));
@@ -414,7 +414,7 @@ static status find_critical(search *s, fault *f)
 }
 
 /* How many eigenvalues are negative at `path`, walked to from the kept state, which it becomes. */
-static status count_at(search *s, double path, int *negative, fault *f)
+static status count_at(loaded_search *s, double path, int *negative, fault *f)
 {
     s->p[0] = kinematics_state_path(s->stable);
     TRY(tangent_at_path(s, path, f));
@@ -425,7 +425,7 @@ static status count_at(search *s, double path, int *negative, fault *f)
 
 /* Loads behind the first one, by the inertia on the way: value[] of those that are wanted, up to a
  * thousand times the first. *count: how many there are. */
-static status find_more(search *s, double value[], int *count, fault *f)
+static status find_more(loaded_search *s, double value[], int *count, fault *f)
 {
     const double apart = 1e-9;
     double low = s->estimate + 2 * closest * fabs(s->estimate - s->begin);
@@ -467,7 +467,7 @@ static status find_more(search *s, double value[], int *count, fault *f)
 }
 
 /* The first load with its mode; others, which are counted, have none. */
-static status hand_over(search *s, outcome_side *out, fault *f)
+static status hand_over(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
     double *mode = calloc(wanted * n + 1, sizeof *mode), *value = calloc(wanted, sizeof *value),
@@ -498,7 +498,7 @@ static status hand_over(search *s, outcome_side *out, fault *f)
 
 /* The largest N l^2/(pi^2 E I) of an element under thrust N in Newton's state, I the least of its
  * section's: above 1 it buckles by itself, and what diverges may be that alone. */
-static double thrust_of_elements(const newton *n)
+static double thrust_of_elements(const newton_run *n)
 {
     const model *m = n->c->model;
     const internal_state at = {.s = n->state, .path = kinematics_state_path(n->state)};
@@ -517,7 +517,7 @@ static double thrust_of_elements(const newton *n)
 }
 
 /* Without a mass flutter is not looked for, and a divergence may be one of the mesh. */
-static status judge_massless(const newton *n, const flutter_point *first, fault *f)
+static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
     return most < 1 ? STATUS_OK
@@ -529,7 +529,7 @@ static status judge_massless(const newton *n, const flutter_point *first, fault 
 }
 
 /* Where the loads have no potential: the first load, and what it is. */
-static status find_without_potential(analysis_context *c, search *s, outcome_spectrum *found,
+static status find_without_potential(analysis_context *c, loaded_search *s, outcome_spectrum *found,
                                      fault *f)
 {
     flutter_point first;
@@ -565,7 +565,8 @@ static status find_without_potential(analysis_context *c, search *s, outcome_spe
 }
 
 /* With what loaded_buckling frees. */
-static status run(analysis_context *c, int analysis, search *s, outcome_spectrum *out, fault *f)
+static status run(analysis_context *c, int analysis, loaded_search *s, outcome_spectrum *out,
+                  fault *f)
 {
     TRY(start(c, analysis, "critical loads", &s->n, f));
     TRY(search_alloc(c, analysis, s, f));
@@ -583,7 +584,7 @@ static status run(analysis_context *c, int analysis, search *s, outcome_spectrum
 
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    search s = {.unstable = INFINITY, .estimate = INFINITY};
+    loaded_search s = {.unstable = INFINITY, .estimate = INFINITY};
     outcome_side *back = &o->left.spectrum.negative;
     snprintf(back->reason, sizeof back->reason,
              "about a state loads are followed along its path only; let them act the other way");

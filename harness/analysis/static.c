@@ -21,7 +21,7 @@ enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 /* Whether what a step led to is stable, where pivots do not tell. *found: path within the step at
  * which stability is another than at its ends, or INFINITY; last_resort: the step cannot be
  * shorter. */
-static status judge_step(newton *n, flutter_judge *judge, int last_resort, step_record *record,
+static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
                          double *found, fault *f)
 {
     *found = INFINITY;
@@ -35,7 +35,7 @@ static status judge_step(newton *n, flutter_judge *judge, int last_resort, step_
 }
 
 /* The step is walked again in shorter ones. */
-static void take_back(newton *n, const step_record *record)
+static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
     kinematics_state_copy(n->c->model, n->backup, n->state);
@@ -44,7 +44,8 @@ static void take_back(newton *n, const step_record *record)
     n->c->run->counters.rejected_steps++;
 }
 
-static status walk_to(newton *n, double target, flutter_judge *judge, double *increment, fault *f)
+static status walk_to(newton_run *n, double target, flutter_judge *judge, double *increment,
+                      fault *f)
 {
     counters *count = &n->c->run->counters;
     const double least = *increment / (1 << MAX_HALVINGS);
@@ -96,14 +97,14 @@ static status walk_to(newton *n, double target, flutter_judge *judge, double *in
     return STATUS_OK;
 }
 
-status static_walk(newton *n, double target, double *increment, fault *f)
+status static_walk(newton_run *n, double target, double *increment, fault *f)
 {
     return walk_to(n, target, NULL, increment, f);
 }
 
 /* Iterations from the undeformed state, for their time; nothing moves, so that the next one is the
  * same. */
-static status sample(newton *n, double path, fault *f)
+static status sample(newton_run *n, double path, fault *f)
 {
     step_record record = {.path = path};
     for (int i = 0; i < n->c->options->sample; i++)
@@ -112,7 +113,7 @@ static status sample(newton *n, double path, fault *f)
 }
 
 /* Steps to every station, whose states are kept: none is shorter than before without need. */
-static status walk(newton *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
+static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
     analysis_context *c = n->c;
@@ -135,7 +136,7 @@ static status walk(newton *n, int analysis, flutter_judge *judge, compliance_wal
 }
 
 /* With what static_analysis frees. */
-static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
+static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
                     flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
     const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
@@ -151,7 +152,7 @@ static status solve(analysis_context *c, int analysis, newton *n, predictor *t,
 
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
-    newton n;
+    newton_run n;
     predictor t = {0};
     compliance_walk *on_the_way = NULL;
     flutter_judge judge = {0};

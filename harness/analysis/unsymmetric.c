@@ -9,7 +9,7 @@
 #include "harness/analysis/arnoldi.h"
 
 /* Coordinates are measured by the roots of the diagonal of K, rates times `second`. */
-typedef struct solver {
+typedef struct unsymmetric_solver {
     const unsymmetric_problem *p;
     unsymmetric_result *out;
     int n, massive; /* coordinates, and those with a mass */
@@ -18,7 +18,7 @@ typedef struct solver {
     double *x, *y;  /* [n] work */
     double second;  /* [s] */
     arnoldi_result right, left;
-} solver;
+} unsymmetric_solver;
 
 void unsymmetric_free(unsymmetric_result *r)
 {
@@ -28,7 +28,7 @@ void unsymmetric_free(unsymmetric_result *r)
     memset(r, 0, sizeof *r);
 }
 
-static void solve(const solver *s, int transposed, double x[])
+static void solve(const unsymmetric_solver *s, int transposed, double x[])
 {
     if (transposed)
         factor_solve_transposed(s->p->K_factor, x);
@@ -40,7 +40,7 @@ static void solve(const solver *s, int transposed, double x[])
 /* y = K^-1 M x */
 static void apply_undamped(void *context, const double in[], double out[])
 {
-    const solver *s = context;
+    const unsymmetric_solver *s = context;
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] / s->scale[i];
     sparse_mul(s->p->M, s->x, s->y);
@@ -52,7 +52,7 @@ static void apply_undamped(void *context, const double in[], double out[])
 /* y = M K^-T x */
 static void apply_undamped_transposed(void *context, const double in[], double out[])
 {
-    const solver *s = context;
+    const unsymmetric_solver *s = context;
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] * s->scale[i];
     solve(s, 1, s->x);
@@ -64,7 +64,7 @@ static void apply_undamped_transposed(void *context, const double in[], double o
 /* [-K^-1 C, -K^-1 M; 1, 0] of [x; v] */
 static void apply_damped(void *context, const double in[], double out[])
 {
-    const solver *s = context;
+    const unsymmetric_solver *s = context;
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] / s->scale[i];
     sparse_mul(s->p->C, s->x, s->y);
@@ -83,7 +83,7 @@ static void apply_damped(void *context, const double in[], double out[])
 
 static void apply_damped_transposed(void *context, const double in[], double out[])
 {
-    const solver *s = context;
+    const unsymmetric_solver *s = context;
     for (int i = 0; i < s->n; i++)
         s->x[i] = in[i] * s->scale[i];
     solve(s, 1, s->x);
@@ -105,7 +105,7 @@ static double diagonal(const sparse *a, int j)
     return 0;
 }
 
-static void measure(solver *s)
+static void measure(unsymmetric_solver *s)
 {
     double largest = 0;
     for (int i = 0; i < s->n; i++)
@@ -119,7 +119,7 @@ static void measure(solver *s)
 }
 
 /* The longest time that the undamped structure has, about. */
-static void find_second(solver *s, double from[], double to[])
+static void find_second(unsymmetric_solver *s, double from[], double to[])
 {
     double size = 0;
     for (int i = 0; i < s->n; i++)
@@ -137,7 +137,7 @@ static void find_second(solver *s, double from[], double to[])
     s->second = size > 0 ? sqrt(size) : 1;
 }
 
-static status pairs(solver *s, int transposed, arnoldi_result *out, fault *f)
+static status pairs(unsymmetric_solver *s, int transposed, arnoldi_result *out, fault *f)
 {
     const int damped = s->p->C != NULL, wanted = (damped ? 2 : 1) * s->p->wanted;
     arnoldi_problem a = {.n = s->n + (damped ? s->massive : 0), .wanted = wanted, .context = s};
@@ -162,15 +162,15 @@ static void multiply(const sparse *A, int absolute, const double complex x[], do
         }
 }
 
-static double complex root(const solver *s, double complex theta)
+static double complex root(const unsymmetric_solver *s, double complex theta)
 {
     return s->p->C != NULL ? 1 / theta : csqrt(-1 / theta);
 }
 
 /* Work of the estimates, [n] each. */
-typedef struct estimate {
+typedef struct growth_estimate {
     double complex *x, *w, *y, *left; /* left: [left.count x n] */
-} estimate;
+} growth_estimate;
 
 static void size_of(int n, const double complex x[], double complex y[])
 {
@@ -187,8 +187,8 @@ static double complex product(int n, const double complex a[], const double comp
 }
 
 /* w^T (2 s M + C) x, or of absolute values. */
-static double slope(const solver *s, int absolute, double complex at, const double complex w[],
-                    const estimate *e)
+static double slope(const unsymmetric_solver *s, int absolute, double complex at,
+                    const double complex w[], const growth_estimate *e)
 {
     multiply(s->p->M, absolute, e->x, e->y);
     double complex sum = 2 * (absolute ? cabs(at) : at) * product(s->n, w, e->y);
@@ -200,7 +200,7 @@ static double slope(const solver *s, int absolute, double complex at, const doub
 
 /* Rounding of the entries of K changes s by w^T dK x/(w^T (2 s M + C) x); where values meet, by the
  * root of what it does to their difference. */
-static double error_of(const solver *s, int i, const estimate *e)
+static double error_of(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const int n = s->n;
     const double complex theta = s->right.theta[i], at = root(s, theta);
@@ -225,7 +225,7 @@ static double error_of(const solver *s, int i, const estimate *e)
 }
 
 /* Left vectors w of K: K^-T times those of the operator. */
-static status left_vectors(solver *s, estimate *e, fault *f)
+static status left_vectors(unsymmetric_solver *s, growth_estimate *e, fault *f)
 {
     const size_t n = (size_t)s->n;
     TRY(pairs(s, 1, &s->left, f));
@@ -251,7 +251,7 @@ static status left_vectors(solver *s, estimate *e, fault *f)
 
 /* The phase that makes the real part as large as it can be; of the second of two conjugates its
  * imaginary part. */
-static void take_mode(const solver *s, int i, int second, double mode[])
+static void take_mode(const unsymmetric_solver *s, int i, int second, double mode[])
 {
     const size_t size = s->p->C != NULL ? (size_t)(s->n + s->massive) : (size_t)s->n;
     const double complex *v = s->right.mode + (size_t)i * size;
@@ -265,7 +265,7 @@ static void take_mode(const solver *s, int i, int second, double mode[])
     }
 }
 
-static void take(solver *s, int i, double error)
+static void take(unsymmetric_solver *s, int i, double error)
 {
     unsymmetric_result *r = s->out;
     const double complex theta = s->right.theta[i], at = root(s, theta);
@@ -285,11 +285,11 @@ static void take(solver *s, int i, double error)
     r->count++;
 }
 
-static status hand_over(solver *s, fault *f)
+static status hand_over(unsymmetric_solver *s, fault *f)
 {
     unsymmetric_result *r = s->out;
     const size_t count = (size_t)s->right.count;
-    estimate e = {0};
+    growth_estimate e = {0};
     r->frequency = calloc(3 * count + 1, sizeof *r->frequency);
     r->error = calloc(count + 1, sizeof *r->error);
     r->mode = calloc(count * (size_t)s->n + 1, sizeof *r->mode);
@@ -307,7 +307,7 @@ static status hand_over(solver *s, fault *f)
 status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fault *f)
 {
     const size_t n = (size_t)p->K->n;
-    solver s = {.p = p, .out = r, .n = p->K->n, .second = 1};
+    unsymmetric_solver s = {.p = p, .out = r, .n = p->K->n, .second = 1};
     memset(r, 0, sizeof *r);
     r->n = s.n;
     s.scale = calloc(5 * n + 1, sizeof *s.scale);

@@ -10,7 +10,7 @@
 
 typedef struct unsymmetric_problem {
     const sparse *K, *M, *C; /* same pattern; C NULL: nothing is damped */
-    factor *K_factor;        /* factor_numeric done */
+    matrix_factor *K_factor; /* factor_numeric done */
     int wanted;              /* least motions */
     int estimate;            /* 1: errors are wanted: twice the work */
 } unsymmetric_problem;

@@ -21,7 +21,7 @@ static int trouble(const fault *f)
     return TROUBLE;
 }
 
-static status write_table(const char *path, const results *r, fault *f)
+static status write_table(const char *path, const stored_results *r, fault *f)
 {
     output file;
     TRY(output_open(path, &file, f));
@@ -46,7 +46,7 @@ static void print_sums(const comparison *c)
 }
 
 /* A line for each count of series that are in one of the two only and are no change. */
-static void print_left(const command_line *l, const results *run[2], const comparison *c)
+static void print_left(const command_line *l, const stored_results *run[2], const comparison *c)
 {
     const char *const path[] = {l->argument[0], l->argument[1]};
     for (int i = 0; i < 2; i++) {
@@ -72,7 +72,7 @@ static void print_partial(const comparison *c)
                c->partial, c->partial == 1 ? "is" : "are");
 }
 
-static void meet(const char *selection, const results *r, select_words *words)
+static void meet(const char *selection, const stored_results *r, select_words *words)
 {
     for (int i = 0; i < r->cells; i++)
         select_meet(selection, r->cell[i].name, words);
@@ -80,13 +80,13 @@ static void meet(const char *selection, const results *r, select_words *words)
         select_meet(selection, r->series[i].name, words);
 }
 
-static int compare(const command_line *l, const compare_request *r, const results *before,
-                   const results *after, const comparison_limits *limits, fault *f)
+static int compare(const command_line *l, const compare_request *r, const stored_results *before,
+                   const stored_results *after, const comparison_limits *limits, fault *f)
 {
     comparison c;
     comparison_run(stdout, before, after, limits, r->select, &c);
     print_sums(&c);
-    print_left(l, (const results *[]){before, after}, &c);
+    print_left(l, (const stored_results *[]){before, after}, &c);
     print_partial(&c);
     if (output_flush(f) != STATUS_OK)
         return trouble(f);
@@ -98,8 +98,8 @@ static int compare(const command_line *l, const compare_request *r, const result
 }
 
 /* A sweep is compared with a sweep. */
-static status check_sweeps(const command_line *l, const results *before, const results *after,
-                           fault *f)
+static status check_sweeps(const command_line *l, const stored_results *before,
+                           const stored_results *after, fault *f)
 {
     if (l->argument[1] == NULL && before->swept)
         return fault_set(f, STATUS_REFUSED,
@@ -117,7 +117,7 @@ static status check_sweeps(const command_line *l, const results *before, const r
 
 /* What is compared, or written; cli_compare frees it. */
 static status read_runs(const command_line *l, const compare_request *r, comparison_limits *limits,
-                        results *before, results *after, fault *f)
+                        stored_results *before, stored_results *after, fault *f)
 {
     select_words words;
     if (r->threshold != NULL)
@@ -156,7 +156,7 @@ static int answer(const command_line *l, void *request)
 {
     const compare_request *r = request;
     comparison_limits limits = comparison_limits_default;
-    results before = {0}, after = {0};
+    stored_results before = {0}, after = {0};
     fault f = {""};
     if (r->hash && l->arguments > 0)
         return print_hashes(l, r);

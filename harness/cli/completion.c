@@ -161,7 +161,7 @@ static void names_words(const offer *o, const char *said)
 enum { SAID = 400 };
 
 /* What the words before the cursor say. */
-typedef struct reading {
+typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* the option whose value the word at the cursor is; or NULL */
     int only_arguments;      /* behind "--" */
@@ -169,15 +169,15 @@ typedef struct reading {
     int arguments;           /* so many */
     const char *scene;       /* value of --scene */
     char said[SAID];         /* arguments, with a blank behind each */
-} reading;
+} completion_reading;
 
-static void keep_value(reading *r, const verb_option *o, const char *value)
+static void keep_value(completion_reading *r, const verb_option *o, const char *value)
 {
     if (o != NULL && strcmp(o->name, "scene") == 0)
         r->scene = value;
 }
 
-static void read_option(reading *r, const char *word)
+static void read_option(completion_reading *r, const char *word)
 {
     const char *value;
     int begun;
@@ -188,7 +188,7 @@ static void read_option(reading *r, const char *word)
         r->open = o;
 }
 
-static void read_argument(reading *r, const char *word)
+static void read_argument(completion_reading *r, const char *word)
 {
     const size_t used = strlen(r->said);
     r->last = word;
@@ -196,7 +196,7 @@ static void read_argument(reading *r, const char *word)
     snprintf(r->said + used, sizeof r->said - used, "%s ", word);
 }
 
-static void read_word(reading *r, const char *word)
+static void read_word(completion_reading *r, const char *word)
 {
     if (r->open != NULL) {
         keep_value(r, r->open, word);
@@ -211,7 +211,7 @@ static void read_word(reading *r, const char *word)
 }
 
 /* A term of several words may stand in several arguments, and in one. */
-static void offer_words(const offer *o, const reading *r)
+static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
     const int here = (int)(word.begun - o->begun);
@@ -221,7 +221,7 @@ static void offer_words(const offer *o, const reading *r)
 }
 
 /* Upper case: what it is called; else the word itself, of "exec:COMMAND" up to the colon. */
-static void offer_part(const offer *o, const reading *r, const char *part)
+static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];
     if (strcmp(part, "CASE") == 0)
@@ -242,7 +242,7 @@ static void offer_part(const offer *o, const reading *r, const char *part)
 }
 
 /* "[cases|formulations|CASE]", "FILE...", "text|json|csv". */
-static void offer_kinds(const offer *o, const reading *r, const char *kinds)
+static void offer_kinds(const offer *o, const completion_reading *r, const char *kinds)
 {
     static const char between[] = "[]|. ";
     char part[40];
@@ -263,7 +263,7 @@ static void offer_selection(const offer *o)
 }
 
 /* Of the case or scene file that the line names. */
-static void offer_parameters(const offer *o, const reading *r,
+static void offer_parameters(const offer *o, const completion_reading *r,
                              void names(const offer *, const case_type *))
 {
     scene_file *file = NULL;
@@ -275,7 +275,7 @@ static void offer_parameters(const offer *o, const reading *r,
     scene_file_free(file);
 }
 
-static void offer_value(const offer *o, const reading *r, const verb_option *option)
+static void offer_value(const offer *o, const completion_reading *r, const verb_option *option)
 {
     const char *name = option->name;
     const int other = strcmp(name, "against") == 0;
@@ -293,7 +293,7 @@ static void offer_value(const offer *o, const reading *r, const verb_option *opt
         offer_kinds(o, r, option->argument);
 }
 
-static void offer_options(const offer *o, const reading *r)
+static void offer_options(const offer *o, const completion_reading *r)
 {
     const verb_option *one;
     char text[80];
@@ -305,7 +305,7 @@ static void offer_options(const offer *o, const reading *r)
 }
 
 /* "-hf" or "--formulation=", and behind it the beginning of a value. */
-static void offer_begun_option(FILE *to, const reading *r, const char *word)
+static void offer_begun_option(FILE *to, const completion_reading *r, const char *word)
 {
     const offer whole = {to, word, 0, word};
     const char *value;
@@ -324,7 +324,7 @@ void completion_write(FILE *to, const verb *v, int count, char *const *word)
 {
     const char *begun = word[count - 1];
     const offer whole = {to, begun, 0, begun};
-    reading r = {.verb = v};
+    completion_reading r = {.verb = v};
     for (int i = 0; i + 1 < count; i++)
         read_word(&r, word[i]);
     if (r.open != NULL)

@@ -39,7 +39,7 @@ typedef struct bout {
     meeting at;
     int measured;
     contestant one[2];
-    against answer;
+    contest_clock answer;
 } bout;
 
 /* Not again where a former level has met on the same meshes. */
@@ -74,7 +74,7 @@ static void put(char out[NAMED], const bout *m, int i)
 static void show_meeting(const duel *d, double level, const bout *m)
 {
     char line[LINE], winner[NAMED], loser[NAMED];
-    const against *v = &m->answer;
+    const contest_clock *v = &m->answer;
     const int b_wins = v->outcome == AGAINST_FASTER;
     const double low = b_wins ? 1 / v->high : v->low, high = b_wins ? 1 / v->low : v->high;
     const int at = printf("at %g %%: ", 100 * level);
@@ -268,8 +268,8 @@ static status against_error(bench_options *r, const case_type *type, fault *f)
     return outcome;
 }
 
-static void show_pair(const bench_options *r, const point *p, const contestant *a,
-                      const contestant *b, const against *v)
+static void show_pair(const bench_options *r, const sweep_point *p, const contestant *a,
+                      const contestant *b, const contest_clock *v)
 {
     if (r->format[0] != 'j') {
         table_omitted(stdout, p);
@@ -284,9 +284,9 @@ static void show_pair(const bench_options *r, const point *p, const contestant *
 }
 
 /* What both are asked for. Its scene is freed by who built it. */
-static point point_of(const bench_options *r, const case_type *type, const scene *s)
+static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
-    point p = {.type = type, .scene = *s, .status = STATUS_OK};
+    sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};
     memcpy(p.parameter, r->of.parameter, sizeof p.parameter);
     return p;
 }
@@ -296,12 +296,12 @@ static point point_of(const bench_options *r, const case_type *type, const scene
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
-    against answer;
+    contest_clock answer;
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     contestant_elsewhere(&a, r, "/proc/self/exe");
     contestant_elsewhere(&b, r, r->against);
     TRY(contestant_compete(&a, &b, &answer, f));
-    const point p = point_of(r, type, s);
+    const sweep_point p = point_of(r, type, s);
     show_pair(r, &p, &a, &b, &answer);
     return STATUS_OK;
 }
@@ -311,14 +311,14 @@ static status compete(const bench_options *r, const case_type *type, scene *s, f
 {
     contestant a, b;
     formulation other;
-    against answer;
+    contest_clock answer;
     TRY(formulation_parse(r->against, &other, f));
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     contestant_here(&a, r, s, &r->chosen.formulation[0], r->meshes.elements[0]);
     contestant_here(&b, r, s, &other, r->meshes.elements[r->meshes.count - 1]);
     b.plant = 0.01 * r->plant;
     TRY(contestant_compete(&a, &b, &answer, f));
-    const point p = point_of(r, type, s);
+    const sweep_point p = point_of(r, type, s);
     show_pair(r, &p, &a, &b, &answer);
     return STATUS_OK;
 }

@@ -48,11 +48,11 @@ void contestant_here(contestant *, const bench_options *r, const scene *s,
 /* The one cell of the request, by another program. It points to itself: it is not copied. */
 void contestant_elsewhere(contestant *, const bench_options *r, const char *program);
 /* In alternation, on one processor, for a few seconds; counts what the cells count. */
-status contestant_compete(contestant *a, contestant *b, against *out, fault *f);
+status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f);
 /* Both times, which is faster, and how their work differs; the same as JSON, which the caller owns.
  */
-void contestant_show(const contestant *a, const contestant *b, const against *v);
-json_t *contestant_json(const contestant *a, const contestant *b, const against *v);
+void contestant_show(const contestant *a, const contestant *b, const contest_clock *v);
+json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v);
 /* A line for each of them whose times rank nothing, and why. */
 void contestant_unranked(const contestant *a, const contestant *b);
 

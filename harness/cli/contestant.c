@@ -165,7 +165,7 @@ void contestant_elsewhere(contestant *c, const bench_options *r, const char *pro
     snprintf(c->name, sizeof c->name, "%.500s, n = %s", program, c->elements);
 }
 
-status contestant_compete(contestant *a, contestant *b, against *out, fault *f)
+status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f)
 {
     set_counted(a);
     set_counted(b);
@@ -213,7 +213,7 @@ static const char *unranked(const contestant *a, const contestant *b)
     return why[0] != '\0' ? why : reach_unranked(b->request.formulation);
 }
 
-static const char *outcome_of(const contestant *a, const contestant *b, const against *v)
+static const char *outcome_of(const contestant *a, const contestant *b, const contest_clock *v)
 {
     return unranked(a, b)[0] != '\0' ? "unranked" : against_name(v->outcome);
 }
@@ -244,7 +244,7 @@ static void show_lacking(char letter, const contestant *c)
         printf("%c: %s not modelled\n", letter, words);
 }
 
-void contestant_show(const contestant *a, const contestant *b, const against *v)
+void contestant_show(const contestant *a, const contestant *b, const contest_clock *v)
 {
     show_one('A', a, v->a);
     show_one('B', b, v->b);
@@ -258,7 +258,7 @@ void contestant_show(const contestant *a, const contestant *b, const against *v)
     show_work(a, b);
 }
 
-json_t *contestant_json(const contestant *a, const contestant *b, const against *v)
+json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v)
 {
     json_t *counts = json_array();
     for (int i = 0; i < a->counts; i++)

@@ -16,13 +16,13 @@ enum { OUTPUTS = 7 }; /* of one verb, each once */
 typedef struct named_place {
     char option[40];
     const char *path;
-    place where;
+    file_place where;
 } named_place;
 
 static status check_input(const void *context, const char *input, fault *f)
 {
     const named_place *out = context;
-    place in;
+    file_place in;
     if (input != NULL && input[0] != '\0' && place_find(input, &in, NULL) == STATUS_OK &&
         place_same(&in, &out->where))
         return fault_set(f, STATUS_REFUSED,

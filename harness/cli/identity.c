@@ -144,7 +144,7 @@ void identity_add_sweep(digest *plan, const sweep *s)
 {
     add_count(plan, s->points);
     for (int i = 0; i < s->points; i++) {
-        const point *p = &s->point[i];
+        const sweep_point *p = &s->point[i];
         digest_add_text(plan, p->type->name);
         digest_add_text(plan, p->text);
         for (int k = 0; k < parameters_count(p->type); k++)
@@ -165,7 +165,7 @@ void identity_add_sweep(digest *plan, const sweep *s)
     }
 }
 
-void identity_set(identity_texts *texts, const digest *plan, work *w)
+void identity_set(identity_texts *texts, const digest *plan, shard_work *w)
 {
     digest_text(plan, texts->plan);
     w->build = texts->build;

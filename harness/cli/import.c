@@ -64,7 +64,7 @@ static void tell(const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
-        const point *p = &s->point[one->point];
+        const sweep_point *p = &s->point[one->point];
         printf("%s%s%s: %s, %d values, %d %s%s%s\n", p->type->name, p->text[0] != '\0' ? "; " : "",
                p->text, one->formulation.key, one->imported->rows, one->meshes,
                one->meshes == 1 ? "mesh" : "meshes",

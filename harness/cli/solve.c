@@ -34,16 +34,16 @@ typedef struct solve_request {
 } solve_request;
 
 /* One solution from what is asked for to what is known of it. */
-typedef struct work {
+typedef struct solve_work {
     solution_request what;
     solution_choice why;
     char note[DEFAULTS_NOTE];
     restart from;
     sweep s;
     truths t;
-} work;
+} solve_work;
 
-static void work_free(work *w)
+static void work_free(solve_work *w)
 {
     sweep_free(&w->s);
     truths_free(&w->t);
@@ -217,7 +217,7 @@ static status check_matrices(const solve_request *r, const scene *s, fault *f)
 }
 
 /* What is needed before the solution; answer frees it. */
-static status prepare(solve_request *r, const case_type *type, work *w, fault *f)
+static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
         return fault_set(f, STATUS_REFUSED, "--error chooses the mesh: remove it, or %s",
@@ -250,7 +250,7 @@ static status write_ends(const solve_request *r, const solution_request *what, c
     return STATUS_OK;
 }
 
-static status write_all(const solve_request *r, const work *w, fault *f)
+static status write_all(const solve_request *r, const solve_work *w, fault *f)
 {
     TRY(write_out(r, w->note, &w->s, &w->t, f));
     TRY(write_ends(r, &w->what, &w->s, f));
@@ -272,7 +272,7 @@ static int tell_missing(status solved, const cell_result *cell, const fault *f)
 }
 
 /* Solved in this process. */
-static int solve_and_write(const solve_request *r, work *w)
+static int solve_and_write(const solve_request *r, solve_work *w)
 {
     fault f = {""}, unwritten = {""};
     const scene *s = &w->s.point[0].scene;
@@ -303,7 +303,7 @@ static int answer(const command_line *l, void *request)
         return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
         return message_fail(STATUS_REFUSED, "--shapes: into which file? Give -o FILE");
-    work w = {.from = {.ends = 0}};
+    solve_work w = {.from = {.ends = 0}};
     const status ready = prepare(r, type, &w, &f);
     const int code = ready == STATUS_OK ? solve_and_write(r, &w) : message_fail(ready, f.text);
     work_free(&w);

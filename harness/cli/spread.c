@@ -53,7 +53,7 @@ static int tell_shard(const shard_options *r, const shard_request *q, const shar
     return EXIT_AS_EXPECTED;
 }
 
-static status compute(const shard_options *r, const work *w, spread_end *out, fault *f)
+static status compute(const shard_options *r, const shard_work *w, spread_end *out, fault *f)
 {
     shard_request q = {.count = 1,
                        .into = r->into,
@@ -86,7 +86,8 @@ environment spread_environment(const spread_end *end, int threads)
     return e;
 }
 
-static status take(const shard_options *r, const work *w, const stock *s, spread_end *out, fault *f)
+static status take(const shard_options *r, const shard_work *w, const stock *s, spread_end *out,
+                   fault *f)
 {
     char missing[600];
     stock_missing(s, w, missing, sizeof missing);
@@ -105,7 +106,7 @@ static status take(const shard_options *r, const work *w, const stock *s, spread
     return merge_take(w, s, f);
 }
 
-static status merge(const shard_options *r, const work *w, spread_end *out, fault *f)
+static status merge(const shard_options *r, const shard_work *w, spread_end *out, fault *f)
 {
     stock s = {0};
     out->batches = w->batches;
@@ -119,7 +120,7 @@ static status merge(const shard_options *r, const work *w, spread_end *out, faul
     return outcome;
 }
 
-status spread_work(const shard_options *r, const work *w, spread_end *out, fault *f)
+status spread_work(const shard_options *r, const shard_work *w, spread_end *out, fault *f)
 {
     return r->from.count > 0 ? merge(r, w, out, f) : compute(r, w, out, f);
 }

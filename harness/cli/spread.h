@@ -29,7 +29,7 @@ extern const option_group options_shards; /* all but jobs and quiet */
 /* 1: --into, --shard or --from were given. REFUSED: what does not go together. */
 status spread_asked(const shard_options *, int *asked, fault *f);
 /* Computes the shard and says what became of it, or takes the batches. */
-status spread_work(const shard_options *, const work *w, spread_end *out, fault *f);
+status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
 /* What a result was made with: here, or where the batches were computed. */
 environment spread_environment(const spread_end *, int threads);
 void spread_free(spread_end *);
@@ -48,7 +48,7 @@ status identity_make(const command_line *, identity_texts *out, digest *plan, fa
 /* Points, formulations and meshes. */
 void identity_add_sweep(digest *plan, const sweep *s);
 /* Into a work that the texts outlive; no more is added to the plan. */
-void identity_set(identity_texts *texts, const digest *plan, work *w);
+void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
 
 #endif

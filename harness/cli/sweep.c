@@ -37,7 +37,7 @@ typedef struct sweep_options {
 
 /* A sweep and what it needs while it runs. */
 typedef struct sweeping {
-    ranges ranges;
+    parameter_ranges ranges;
     ranges_work work;
     truths truths;
     ranges_output output;
@@ -45,7 +45,7 @@ typedef struct sweeping {
     char script[PATH_MAX];  /* of --derive */
     char partial[PATH_MAX]; /* output of --partial */
     identity_texts texts;
-    work all;
+    shard_work all;
     int asked;      /* 1: as a shard, or from batches */
     spread_end end; /* how that was */
     int lost;       /* batches that are not there: exit status 5 */
@@ -71,7 +71,7 @@ static status read_design(const sweep_options *r, ranges_request *q, fault *f)
 }
 
 /* Nothing that varies is set. */
-static status check_set(const sweep_options *r, const ranges *s, fault *f)
+static status check_set(const sweep_options *r, const parameter_ranges *s, fault *f)
 {
     for (int i = 0; i < r->of.set.count; i++)
         for (int k = 0; k < s->design.axes; k++) {

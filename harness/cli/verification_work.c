@@ -23,7 +23,7 @@ typedef struct cut {
     double *each; /* [items] what it costs */
     int *first;   /* [batches + 1] item that the batch begins with */
     double *cost; /* [batches] */
-    work w;
+    shard_work w;
 } cut;
 
 static void add_item(cut *c, int index, double cost)
@@ -154,7 +154,7 @@ status verification_work_run(const shard_options *r, const sweep_request *reques
     cut c = {.request = request, .t = t, .s = s};
     *out = (spread_end){.ended = 0};
     c.s->shapes = request->shapes;
-    c.w = (work){.verb = "verify", .context = &c, .run = compute, .take = take};
+    c.w = (shard_work){.verb = "verify", .context = &c, .run = compute, .take = take};
     const status outcome = spread(&c, r, &texts, out, f);
     identity_free(&texts);
     free(c.begin);

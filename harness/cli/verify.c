@@ -118,8 +118,8 @@ typedef struct trial {
     judgement judgement;
     overview overview;
     verification_files files;
-    results former; /* that this run may not be worse than */
-    spread_end end; /* of shards, or of batches that are merged */
+    stored_results former; /* that this run may not be worse than */
+    spread_end end;        /* of shards, or of batches that are merged */
 } trial;
 
 static status add_all_beside(const verify_request *r, sweep *s, fault *f)
@@ -134,7 +134,7 @@ static void tell_supports(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
         for (int i = 0; i < s->seriess; i++) {
-            const point *p = &s->point[s->series[i].point];
+            const sweep_point *p = &s->point[s->series[i].point];
             if (p->type != scene_file_case(own->file[k]) || s->series[i].missing[0] != '\0')
                 continue;
             case_input_tell_units(own->file[k], p->parameter);

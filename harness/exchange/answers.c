@@ -11,15 +11,15 @@ enum { COMPONENTS = 6, TRANSLATIONS = 3 };
 #define CONTROLS "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 #define PRINTS   "*NODE PRINT,NSET=BODIES,FREQUENCY=1000\nU,RF\n*END STEP\n"
 
-typedef struct writer {
+typedef struct answers_writer {
     const scene *s;
     const body_numbers *bodies;
     FILE *to;
     int steps; /* written so far */
-} writer;
+} answers_writer;
 
 /* Loads on the same coordinate are one card. */
-static void write_structure_loads(const writer *w, double path)
+static void write_structure_loads(const answers_writer *w, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
     for (int node = 0; node < w->s->nodes; node++)
@@ -37,7 +37,7 @@ static void write_structure_loads(const writer *w, double path)
 }
 
 /* increments: first try for the step; 0: linear. */
-static void write_state(writer *w, double path, int increments)
+static void write_state(answers_writer *w, double path, int increments)
 {
     if (increments > 0)
         fprintf(w->to, "*STEP,NLGEOM,INC=1000\n*STATIC,SOLVER=SPOOLES\n%.6g,1.,1e-5,1.\n" CONTROLS,
@@ -52,7 +52,7 @@ static void write_state(writer *w, double path, int increments)
 
 /* A unit load on a component of the compliance's node, about the undeformed structure or the state
  * before. */
-static void write_unit_load(writer *w, const scene_analysis *a, int component)
+static void write_unit_load(answers_writer *w, const scene_analysis *a, int component)
 {
     const scene_compliance *c = scene_compliance_of(a);
     fputs(a->follows == SCENE_NONE ? "*STEP\n" : "*STEP,PERTURBATION\n", w->to);
@@ -69,7 +69,8 @@ typedef struct printed {
     int node, component, reciprocal;
 } printed;
 
-static void write_answer(const writer *w, const scene_quantity *q, const printed *p, double point)
+static void write_answer(const answers_writer *w, const scene_quantity *q, const printed *p,
+                         double point)
 {
     fprintf(w->to, "**Q %s|%s|%s|%d|%d|%d|%d|%.17g|%.17g|", q->name, q->unit, p->what, w->steps,
             body_node(w->bodies, p->node, p->component), body_direction(p->component),
@@ -79,7 +80,7 @@ static void write_answer(const writer *w, const scene_quantity *q, const printed
     fputc('\n', w->to);
 }
 
-static void answer_component(const writer *w, const scene_quantity *q, double point)
+static void answer_component(const answers_writer *w, const scene_quantity *q, double point)
 {
     const scene_component *c = scene_component_of(q);
     const printed p = {.what = q->what.kind == SCENE_REACTION ? "forces" : "displacements",
@@ -88,7 +89,7 @@ static void answer_component(const writer *w, const scene_quantity *q, double po
     write_answer(w, q, &p, point);
 }
 
-static void answer_entry(writer *w, const scene_quantity *q, double point)
+static void answer_entry(answers_writer *w, const scene_quantity *q, double point)
 {
     const scene_analysis *a = &w->s->analysis[q->analysis];
     const scene_entry *e = scene_entry_of(q);
@@ -105,7 +106,7 @@ static int is_entry(const scene_quantity *q)
     return q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY;
 }
 
-static void write_undeformed(writer *w)
+static void write_undeformed(answers_writer *w)
 {
     for (int i = 0; i < w->s->analyses; i++) {
         const int linear = w->s->analysis[i].kind == SCENE_LINEAR;
@@ -121,7 +122,7 @@ static void write_undeformed(writer *w)
     }
 }
 
-static void write_point(writer *w, int analysis, double point)
+static void write_point(answers_writer *w, int analysis, double point)
 {
     const int increments = scene_walk_of(&w->s->analysis[analysis])->steps_between;
     write_state(w, point, increments);
@@ -137,7 +138,7 @@ static void write_point(writer *w, int analysis, double point)
 
 status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f)
 {
-    writer w = {.s = s, .bodies = bodies, .to = to};
+    answers_writer w = {.s = s, .bodies = bodies, .to = to};
     const int path = carried_static(s);
     path_points points;
     write_undeformed(&w);

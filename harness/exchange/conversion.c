@@ -9,14 +9,14 @@
 enum { DIMENSIONS = 3 }; /* m, kg, s */
 
 /* A unit as a factor times powers of m, kg, s. */
-typedef struct measure {
+typedef struct unit_measure {
     double factor;
     int power[DIMENSIONS];
-} measure;
+} unit_measure;
 
 typedef struct symbol {
     const char *name;
-    measure is;
+    unit_measure is;
 } symbol;
 
 static const symbol known[] = {
@@ -58,7 +58,7 @@ static const symbol known[] = {
     {"rpm", {PI / 30, {0, 0, -1}}},
 };
 
-static int find_symbol(const char *name, size_t length, measure *out)
+static int find_symbol(const char *name, size_t length, unit_measure *out)
 {
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (strlen(known[i].name) == length && strncmp(known[i].name, name, length) == 0) {
@@ -68,7 +68,7 @@ static int find_symbol(const char *name, size_t length, measure *out)
     return 0;
 }
 
-static void multiply(measure *a, const measure *b, int power)
+static void multiply(unit_measure *a, const unit_measure *b, int power)
 {
     a->factor *= pow(b->factor, power);
     for (int i = 0; i < DIMENSIONS; i++)
@@ -91,10 +91,10 @@ static int read_sign(char c, int *side, int *depth)
 }
 
 /* 1: the text is a unit. */
-static int read_unit(const char *text, measure *out)
+static int read_unit(const char *text, unit_measure *out)
 {
     int side = 1, depth = 0, symbols = 0;
-    *out = (measure){1, {0}};
+    *out = (unit_measure){1, {0}};
     while (*text != '\0') {
         if (read_sign(*text, &side, &depth)) {
             if (depth < 0 || depth > 1)
@@ -104,7 +104,7 @@ static int read_unit(const char *text, measure *out)
         }
         const size_t length = strcspn(text, " */^()");
         long power = 1;
-        measure one;
+        unit_measure one;
         if (length == 0 || !find_symbol(text, length, &one))
             return 0;
         text += length;
@@ -123,7 +123,7 @@ static int read_unit(const char *text, measure *out)
 
 status conversion_factor(const char *from, const char *to, double *factor, fault *f)
 {
-    measure a, b;
+    unit_measure a, b;
     if (!read_unit(from, &a))
         return fault_set(f, STATUS_REFUSED,
                          "unit '%.40s' is unknown; write a product as N, kN, N/mm, N mm, mm/N, "

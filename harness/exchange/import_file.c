@@ -27,7 +27,7 @@ static const int needed[COLUMNS] = {[QUANTITY] = 1, [UNIT] = 1, [ELEMENTS] = 1, 
 enum { FIELDS = 32, MOST_ELEMENTS = 10000000 };
 
 /* Where the reading of a file is. */
-typedef struct reader {
+typedef struct file_reader {
     import_set *set;
     const char *path;
     mistakes *m;
@@ -39,7 +39,7 @@ typedef struct reader {
     import_header header;
     int open; /* 1: the block takes rows */
     import_block block;
-} reader;
+} file_reader;
 
 static const char *name_at(const void *context, int i)
 {
@@ -50,7 +50,7 @@ static const char *name_at(const void *context, int i)
 static const char *const header_names[] = {"beamwork-import", "program", "case", "model",
                                            "convention",      "axes",    NULL};
 
-static void take_text(char to[IMPORT_TEXT], int *line, const reader *r, const char *value)
+static void take_text(char to[IMPORT_TEXT], int *line, const file_reader *r, const char *value)
 {
     if (strlen(value) >= IMPORT_TEXT)
         mistakes_add(r->m, r->line, 1, "a line of at most %d bytes", IMPORT_TEXT - 1);
@@ -58,7 +58,7 @@ static void take_text(char to[IMPORT_TEXT], int *line, const reader *r, const ch
     *line = r->line;
 }
 
-static status close_block(reader *r, fault *f)
+static status close_block(file_reader *r, fault *f)
 {
     if (!r->open)
         return STATUS_OK;
@@ -66,7 +66,7 @@ static status close_block(reader *r, fault *f)
     return import_block_close(&r->block, f);
 }
 
-static void take_header(reader *r, const char *key, const char *value)
+static void take_header(file_reader *r, const char *key, const char *value)
 {
     import_header *h = &r->header;
     if (strcmp(key, "beamwork-import") == 0) {
@@ -90,7 +90,7 @@ static void take_header(reader *r, const char *key, const char *value)
 }
 
 /* "# key: value   # remark"; other lines that begin with # are remarks. */
-static void read_header(reader *r, char *line)
+static void read_header(file_reader *r, char *line)
 {
     char *key = line_trim(line + 1), *colon = strchr(key, ':');
     if (colon == NULL || strcspn(key, " \t") < (size_t)(colon - key))
@@ -112,7 +112,7 @@ static void read_header(reader *r, char *line)
                  near != NULL ? near : "", near != NULL ? "'?" : "");
 }
 
-static void find_column(reader *r, const char *name, int field)
+static void find_column(file_reader *r, const char *name, int field)
 {
     for (int c = 0; c < COLUMNS; c++)
         if (strcmp(names[c], name) == 0) {
@@ -132,7 +132,7 @@ static void find_column(reader *r, const char *name, int field)
                  near != NULL ? near : "", near != NULL ? "'?" : "");
 }
 
-static void read_columns(reader *r, char *const field[], int count)
+static void read_columns(file_reader *r, char *const field[], int count)
 {
     r->placed = 1;
     r->fields = count;
@@ -150,7 +150,7 @@ static void read_columns(reader *r, char *const field[], int count)
 }
 
 /* A number; an empty field is NAN where it may be empty. */
-static double number_of(const reader *r, const char *text, column c)
+static double number_of(const file_reader *r, const char *text, column c)
 {
     double value;
     if (text == NULL || text[0] == '\0') {
@@ -167,7 +167,7 @@ static double number_of(const reader *r, const char *text, column c)
     return value;
 }
 
-static int count_of(const reader *r, const char *text, column c)
+static int count_of(const file_reader *r, const char *text, column c)
 {
     const double value = number_of(r, text, c);
     if (isnan(value))
@@ -179,7 +179,7 @@ static int count_of(const reader *r, const char *text, column c)
     return 0;
 }
 
-static void take_fields(const reader *r, const char *const at[COLUMNS], imported_row *row)
+static void take_fields(const file_reader *r, const char *const at[COLUMNS], imported_row *row)
 {
     *row = (imported_row){.line = r->line,
                           .elements = count_of(r, at[ELEMENTS], ELEMENTS),
@@ -194,7 +194,7 @@ static void take_fields(const reader *r, const char *const at[COLUMNS], imported
     snprintf(row->quantity, sizeof row->quantity, "%s", at[QUANTITY]);
 }
 
-static void read_row(reader *r, char *const field[], int count)
+static void read_row(file_reader *r, char *const field[], int count)
 {
     const char *at[COLUMNS] = {0};
     imported_row row;
@@ -217,7 +217,7 @@ static void read_row(reader *r, char *const field[], int count)
         import_block_add(&r->block, &row);
 }
 
-static void read_fields(reader *r, char *line)
+static void read_fields(file_reader *r, char *line)
 {
     char *field[FIELDS];
     if (!r->versioned) {
@@ -235,7 +235,7 @@ static void read_fields(reader *r, char *line)
         read_row(r, field, count);
 }
 
-static status read_line(reader *r, char *line, fault *f)
+static status read_line(file_reader *r, char *line, fault *f)
 {
     line = line_trim(line);
     if (line[0] == '\0')
@@ -252,7 +252,7 @@ static status read_line(reader *r, char *line, fault *f)
 }
 
 /* With what import_file_read frees. */
-static status read_lines(reader *r, FILE *from, char **line, fault *f)
+static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
 {
     size_t room = 0;
     while (r->rows <= IMPORT_ROWS && getline(line, &room, from) >= 0) {
@@ -274,7 +274,7 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
     FILE *from = line_open(path);
     if (from == NULL)
         return fault_set(f, STATUS_FAULT, "%.200s: %s", path, strerror(errno));
-    reader r = {.set = into, .path = path, .m = m, .header = {.axes = axes_same}};
+    file_reader r = {.set = into, .path = path, .m = m, .header = {.axes = axes_same}};
     char *line = NULL;
     const status outcome = read_lines(&r, from, &line, f);
     if (r.open)

@@ -60,7 +60,7 @@ static const char *parameters_of(const tables *t, const char *name)
 static int point_of(const sweep *s, const char *of, const char *parameters)
 {
     for (int i = 0; i < s->seriess; i++) {
-        const point *p = &s->point[s->series[i].point];
+        const sweep_point *p = &s->point[s->series[i].point];
         if (strcmp(p->type->name, of) == 0 && strcmp(p->text, parameters) == 0)
             return s->series[i].point;
     }

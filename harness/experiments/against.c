@@ -38,9 +38,9 @@ static int rank_of_interval(int pairs)
     return k;
 }
 
-against against_judge(int pairs, const double a[], const double b[])
+contest_clock against_judge(int pairs, const double a[], const double b[])
 {
-    against out = {
+    contest_clock out = {
         .pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
     double *ratio = malloc(((size_t)pairs + 1) * sizeof *ratio);
     for (int i = 0; i < pairs; i++) {
@@ -75,7 +75,7 @@ static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *
     return b_first ? lap(a, seconds_a, f) : lap(b, seconds_b, f);
 }
 
-status against_run(against_lap *lap, void *a, void *b, double budget, against *out, fault *f)
+status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f)
 {
     double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
     for (int i = 0; i < WARM_UP; i++) {

@@ -7,7 +7,7 @@
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 
-typedef struct against {
+typedef struct contest_clock {
     int pairs;
     double a, b; /* [s] least of one lap */
     /* median of b/a over the pairs; where it lies with 99.9 % confidence, however distributed */
@@ -15,16 +15,16 @@ typedef struct against {
     /* of b against a; ratios within 2 % of 1 are left undecided: code laid out otherwise does as
      * much */
     against_outcome outcome;
-} against;
+} contest_clock;
 
 const char *against_name(against_outcome);
 /* Of given seconds of `pairs` laps each: tests give them, no clock is asked. */
-against against_judge(int pairs, const double a[], const double b[]);
+contest_clock against_judge(int pairs, const double a[], const double b[]);
 
 /* One lap of a contestant takes *seconds. */
 typedef status against_lap(void *contestant, double *seconds, fault *f);
 /* As many pairs as fit into `budget` [s], at least 51: their number is fixed before the first one
  * counts. */
-status against_run(against_lap *lap, void *a, void *b, double budget, against *out, fault *f);
+status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f);
 
 #endif

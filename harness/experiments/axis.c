@@ -17,7 +17,7 @@ const char *axis_kind_name(axis_kind kind)
     return names[kind];
 }
 
-double axis_value(const axis *a, int i)
+double axis_value(const sweep_axis *a, int i)
 {
     if (a->value != NULL)
         return a->value[i];
@@ -30,7 +30,7 @@ double axis_value(const axis *a, int i)
     return a->from + i * step;
 }
 
-double axis_at(const axis *a, double share)
+double axis_at(const sweep_axis *a, double share)
 {
     if (a->value != NULL) {
         const int i = (int)(share * a->count);
@@ -40,13 +40,13 @@ double axis_at(const axis *a, double share)
                                : a->from + share * (a->to - a->from);
 }
 
-void axis_text(const axis *a, double value, char *text, int size)
+void axis_text(const sweep_axis *a, double value, char *text, int size)
 {
     assignment_value_text(a->of, value, text, size);
 }
 
 /* The parameter may have this value; else the words of --set. */
-static status check(const case_type *type, const axis *a, double value, fault *f)
+static status check(const case_type *type, const sweep_axis *a, double value, fault *f)
 {
     const assignment_list list = parameters_list(type);
     double values[CASE_MAX_PARAMETERS] = {0};
@@ -56,7 +56,7 @@ static status check(const case_type *type, const axis *a, double value, fault *f
     return assignment_set(&list, text, values, NULL, NULL, f);
 }
 
-static status add_value(axis *a, double value, fault *f)
+static status add_value(sweep_axis *a, double value, fault *f)
 {
     for (int i = 0; i < a->count; i++)
         if (a->value[i] == value)
@@ -71,7 +71,7 @@ static status add_value(axis *a, double value, fault *f)
 }
 
 /* Numbers or words between commas. */
-static status read_list(const case_type *type, const char *text, axis *a, fault *f)
+static status read_list(const case_type *type, const char *text, sweep_axis *a, fault *f)
 {
     const assignment_list list = parameters_list(type);
     double values[CASE_MAX_PARAMETERS] = {0};
@@ -92,7 +92,7 @@ static status read_list(const case_type *type, const char *text, axis *a, fault 
     }
 }
 
-static status read_end(const axis *a, const char *text, size_t length, double *out, fault *f)
+static status read_end(const sweep_axis *a, const char *text, size_t length, double *out, fault *f)
 {
     char one[TEXT];
     const char *end;
@@ -106,7 +106,7 @@ static status read_end(const axis *a, const char *text, size_t length, double *o
 }
 
 /* Number of parts behind the '/'. */
-static status read_parts(const char *text, size_t length, axis *a, fault *f)
+static status read_parts(const char *text, size_t length, sweep_axis *a, fault *f)
 {
     char one[TEXT], *end;
     snprintf(one, sizeof one, "%.*s", (int)(length < TEXT ? length : TEXT - 1), text);
@@ -120,7 +120,7 @@ static status read_parts(const char *text, size_t length, axis *a, fault *f)
     return STATUS_OK;
 }
 
-static status check_ends(const case_type *type, const axis *a, fault *f)
+static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
 {
     if (a->kind == AXIS_LOG && !(a->from > 0 && a->to > 0) && !(a->from < 0 && a->to < 0))
         return fault_set(f, STATUS_REFUSED,
@@ -138,7 +138,7 @@ static status check_ends(const case_type *type, const axis *a, fault *f)
 }
 
 /* Behind the name: "A..B/N:log". */
-static status read_range(const case_type *type, const char *text, const char *dots, axis *a,
+static status read_range(const case_type *type, const char *text, const char *dots, sweep_axis *a,
                          fault *f)
 {
     const char *to = dots + 2, *colon = strchr(to, ':');
@@ -160,13 +160,13 @@ static status read_range(const case_type *type, const char *text, const char *do
     return check_ends(type, a, f);
 }
 
-static status read_values(const case_type *type, const char *text, axis *a, fault *f)
+static status read_values(const case_type *type, const char *text, sweep_axis *a, fault *f)
 {
     const char *dots = strstr(text, "..");
     return dots != NULL ? read_range(type, text, dots, a, f) : read_list(type, text, a, f);
 }
 
-status axis_read(const case_type *type, const char *text, axis *out, fault *f)
+status axis_read(const case_type *type, const char *text, sweep_axis *out, fault *f)
 {
     const assignment_list list = parameters_list(type);
     double values[CASE_MAX_PARAMETERS] = {0};
@@ -174,7 +174,7 @@ status axis_read(const case_type *type, const char *text, axis *out, fault *f)
     char name[TEXT], shown[ASSIGNMENT_SHOWN];
     const size_t length = strcspn(text, "=");
     assignment_shown(&list, shown);
-    *out = (axis){.index = -1};
+    *out = (sweep_axis){.index = -1};
     if (length == 0 || length > 60 || text[length] == '\0' || text[length + 1] == '\0')
         return fault_set(f, STATUS_REFUSED,
                          "--vary '%.60s': write it as NAME=A..B/N or NAME=A,B,C; 'beamwork list "
@@ -189,7 +189,7 @@ status axis_read(const case_type *type, const char *text, axis *out, fault *f)
     return outcome;
 }
 
-void axis_free(axis *a)
+void axis_free(sweep_axis *a)
 {
     free(a->value);
     a->value = NULL;

@@ -13,7 +13,7 @@
 #include "harness/records/output.h"
 #include "harness/study/checksum.h"
 
-void batch_stem(const work *w, char out[BATCH_STEM])
+void batch_stem(const shard_work *w, char out[BATCH_STEM])
 {
     char hash[DIGEST_TEXT];
     digest d = digest_begin();
@@ -112,7 +112,7 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
 {
     char path[PATH_MAX], stem[BATCH_STEM], name[BATCH_NAME], *whole;
     size_t length;
-    const work w = {label->verb, label->build, label->request, label->plan, .batches = 0};
+    const shard_work w = {label->verb, label->build, label->request, label->plan, .batches = 0};
     batch_stem(&w, stem);
     batch_name(stem, label->batch, name);
     if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)

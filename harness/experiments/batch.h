@@ -19,12 +19,12 @@ typedef struct batch_label {
     char content[DIGEST_TEXT];
     double seconds;           /* that it took */
     double processor_seconds; /* of these, those of the processor, of all its processes */
-    node node;
+    machine node;
     json_t *origin; /* batch_label_free releases it */
 } batch_label;
 
 /* "verify-0123456789ab": what the names of all batches of one work begin with. */
-void batch_stem(const work *w, char out[BATCH_STEM]);
+void batch_stem(const shard_work *w, char out[BATCH_STEM]);
 /* "verify-0123456789ab-000017.batch"; batches are counted from 1 there. */
 void batch_name(const char *stem, int batch, char out[BATCH_NAME]);
 /* The batch of a name, or -1: it is none of that stem. */
@@ -45,6 +45,6 @@ status batch_open(const char *path, batch_label *out, FILE **from, long *end, fa
 status batch_read_label(const char *path, batch_label *out, fault *f);
 void batch_label_free(batch_label *);
 /* Does it belong to the work? REFUSED: no; what differs, with its path. */
-status batch_belongs(const batch_label *, const work *, const char *path, fault *f);
+status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
 
 #endif

@@ -123,7 +123,7 @@ void batch_label_free(batch_label *b)
     b->origin = NULL;
 }
 
-status batch_belongs(const batch_label *b, const work *w, const char *path, fault *f)
+status batch_belongs(const batch_label *b, const shard_work *w, const char *path, fault *f)
 {
     if (strcmp(b->verb, w->verb) != 0 || strcmp(b->request, w->request) != 0)
         return fault_set(f, STATUS_REFUSED,

@@ -113,7 +113,7 @@ static double solved(const beam_request *r, const scene *s, char words[MEASURE_W
     return value;
 }
 
-int beam_point(const beam_request *r, double at, double exact, measure *one)
+int beam_point(const beam_request *r, double at, double exact, element_measure *one)
 {
     scene s;
     fault f = {""};

@@ -30,6 +30,6 @@ status beam_section(const beam_request *, section *out);
 /* Solves it; one more point of the measure, the error of what is read against the exact value; NAN
  * where there is none, and the words of the first say why. 0: no more need be
  * asked: the formulation does not offer it, or the first three have no value. */
-int beam_point(const beam_request *, double at, double exact, measure *one);
+int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
 #endif

@@ -31,7 +31,7 @@ static status plan_case(const bench_request *r, const case_type *type, sweep *s,
     for (int k = 0; k < r->assignments; k++)
         TRY(parameters_set(type, r->assignment[k], parameter, f));
     TRY(plan_add(s, type, parameter, NULL, r->mesh, r->meshes, f));
-    const point *here = &s->point[s->points - 1];
+    const sweep_point *here = &s->point[s->points - 1];
     if (here->status != STATUS_OK)
         return fault_set(f, here->status, "%s", here->reason);
     return plan_extend(s, some > 0 ? r->cells.formulation : all, count, f);

@@ -95,18 +95,19 @@ static const record_type record_claim = {
     {key_of_formulation, key_of_family, fields_of_claim}};
 
 static const schema_field key_of_measure[] = {
-    {"name", "", FIELD_TEXT, "of what is measured", AT(measure, name), .key = KEY}, {0}};
+    {"name", "", FIELD_TEXT, "of what is measured", AT(element_measure, name), .key = KEY}, {0}};
 static const schema_field fields_of_measure[] = {
-    {"order", "1", FIELD_DOUBLE, "of the errors", AT(measure, order)},
+    {"order", "1", FIELD_DOUBLE, "of the errors", AT(element_measure, order)},
     {"least", "1", FIELD_INT, "order that the formulation declares; 0: not asked for",
-     AT(measure, least)},
-    {"highest", "1", FIELD_INT, "order that it declares", AT(measure, highest)},
-    {"locks", "", FIELD_FLAG, "the errors grow where it becomes thin", AT(measure, locks)},
+     AT(element_measure, least)},
+    {"highest", "1", FIELD_INT, "order that it declares", AT(element_measure, highest)},
+    {"locks", "", FIELD_FLAG, "the errors grow where it becomes thin", AT(element_measure, locks)},
     {"wrong_limit", "", FIELD_FLAG,
      "the error of a linear state is that of one element with every "
      "mesh",
-     AT(measure, astray)},
-    {"words", "", FIELD_TEXT, "why there is nothing, or what it comes to", AT(measure, words)},
+     AT(element_measure, astray)},
+    {"words", "", FIELD_TEXT, "why there is nothing, or what it comes to",
+     AT(element_measure, words)},
     {0}};
 static const record_type record_measure = {
     "measure",
@@ -117,12 +118,12 @@ static const record_type record_measure = {
 /* Of a measure: the group counts its points. */
 static void get_at(const subject *s, field_value *out)
 {
-    out->numbers = &((const measure *)s->record)->at[s->group];
+    out->numbers = &((const element_measure *)s->record)->at[s->group];
 }
 
 static void get_error(const subject *s, field_value *out)
 {
-    out->numbers = &((const measure *)s->record)->error[s->group];
+    out->numbers = &((const element_measure *)s->record)->error[s->group];
 }
 
 static const schema_field fields_of_point[] = {
@@ -135,7 +136,7 @@ static const record_type record_measured_point = {
     "an error of what is measured",
     {key_of_formulation, key_of_family, key_of_measure, fields_of_point}};
 
-static void gather_points(const measure *m, subject one, subjects *out)
+static void gather_points(const element_measure *m, subject one, subjects *out)
 {
     one.record = m;
     for (one.group = 0; one.group < m->points; one.group++)

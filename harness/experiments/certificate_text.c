@@ -78,7 +78,7 @@ static void error_text(double error, char text[COLUMN + 8])
         snprintf(text, COLUMN + 8, percent < 1e-2 ? "%.0e %%" : "%.2g %%", percent);
 }
 
-static int nothing(const measure *one)
+static int nothing(const element_measure *one)
 {
     for (int i = 0; i < one->points; i++)
         if (!isnan(one->error[i]))
@@ -86,7 +86,7 @@ static int nothing(const measure *one)
     return 1;
 }
 
-static void write_measure(FILE *to, const measure *one, int verbose)
+static void write_measure(FILE *to, const element_measure *one, int verbose)
 {
     const int at = fprintf(to, "    %-*s", MEASURE - 4, one->name);
     if (nothing(one)) {
@@ -109,7 +109,7 @@ static void write_measure(FILE *to, const measure *one, int verbose)
 static void write_measures(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
     const certificate_part *own = &c->part[part];
-    const measure *first = &own->measures.measure[0];
+    const element_measure *first = &own->measures.measure[0];
     fprintf(to, "  %-*s", MEASURE - 2, certificate_part_name(part));
     for (int i = 1; i < own->measures.count; i++)
         first = own->measures.measure[i].points > first->points ? &own->measures.measure[i] : first;

@@ -12,7 +12,7 @@ static status count_grid(design *d, fault *f)
 {
     d->points = 1;
     for (int i = 0; i < d->axes; i++) {
-        const axis *a = &d->axis[i];
+        const sweep_axis *a = &d->axis[i];
         if (a->count == 0)
             return fault_set(f, STATUS_REFUSED,
                              "--vary %s: how many parts? write %s=%g..%g/N, or --design sobol "
@@ -118,8 +118,8 @@ static status fill_box(design *d, long points, fault *f)
     return set_marks(d, f);
 }
 
-status design_make(design_kind kind, int axes, const axis list[], long points, unsigned long seed,
-                   design *out, fault *f)
+status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
+                   unsigned long seed, design *out, fault *f)
 {
     *out = (design){.kind = kind, .axes = axes, .axis = list, .seed = seed};
     const status outcome = kind == DESIGN_GRID ? count_grid(out, f) : fill_box(out, points, f);

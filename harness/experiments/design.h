@@ -20,9 +20,9 @@ typedef struct design_mark {
 typedef struct design {
     design_kind kind;
     int axes;
-    const axis *axis;   /* [axes]; not owned */
-    long points;        /* all */
-    unsigned long seed; /* of DESIGN_RANDOM: GSL's mt19937 */
+    const sweep_axis *axis; /* [axes]; not owned */
+    long points;            /* all */
+    unsigned long seed;     /* of DESIGN_RANDOM: GSL's mt19937 */
     long marks, stride;
     design_mark *mark; /* [marks] at every `stride` points: any of them is soon found */
 } design;
@@ -33,8 +33,8 @@ enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 10000000
 /* points: of what is no grid. Grids: the last axis changes first. The first point of Sobol's and
  * Halton's sequences is the one behind the origin, as GSL has them. REFUSED: too many points, an
  * axis without parts in a grid, with parts in what is none, more axes than the sequence has. */
-status design_make(design_kind kind, int axes, const axis list[], long points, unsigned long seed,
-                   design *out, fault *f);
+status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
+                   unsigned long seed, design *out, fault *f);
 void design_free(design *);
 /* Values of the axes at `count` points from `first` on, into out[count x axes]. FAULT: no memory.
  */

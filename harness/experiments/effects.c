@@ -6,11 +6,11 @@
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
 /* What an element says of a state. */
-typedef struct answers {
+typedef struct effects_answers {
     double e[M], J[M * N], energy, sigma[M], C[M * M], G[M * M];
-} answers;
+} effects_answers;
 
-static int answer(const specimen *s, const node_state x[], answers *out)
+static int answer(const specimen *s, const node_state x[], effects_answers *out)
 {
     double inner[SPECIMEN_INNER], stress[M];
     memset(out, 0, sizeof *out);
@@ -33,7 +33,7 @@ static int other(int count, const double a[], const double b[])
     return 0;
 }
 
-static int differ(const answers *a, const answers *b)
+static int differ(const effects_answers *a, const effects_answers *b)
 {
     return other(M, a->e, b->e) || other(M * N, a->J, b->J) || a->energy != b->energy ||
            other(M, a->sigma, b->sigma) || other(M * M, a->C, b->C) || other(M * M, a->G, b->G);
@@ -59,7 +59,7 @@ static int makes(const formulation *chosen, unsigned features, profiles_form for
 static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
 {
     pair p;
-    answers a, b;
+    effects_answers a, b;
     node_state x[ELEMENT_MAX_NODES];
     int found = -1;
     const int made = makes(chosen, features, form, &p.with),
@@ -80,7 +80,7 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
     specimen s;
-    answers a, b;
+    effects_answers a, b;
     node_state x[ELEMENT_MAX_NODES];
     int found = -1;
     if (makes(chosen, features, form, &s)) {

@@ -13,10 +13,10 @@ enum { M = SPECIMEN_STRAINS };
 static const double moved_by = 0.02; /* [lengths] of the strains that are looked at */
 
 /* Where differences are taken: a unit of a strain is a twentieth of the length. */
-typedef struct place {
+typedef struct energy_place {
     const specimen *s;
     const double *e, *inner;
-} place;
+} energy_place;
 
 static double unit_of(const specimen *s)
 {
@@ -24,7 +24,8 @@ static double unit_of(const specimen *s)
 }
 
 /* The state with strains i and j moved by si and sj units. */
-static status at_place(const place *at, int i, double si, int j, double sj, stress_output *out)
+static status at_place(const energy_place *at, int i, double si, int j, double sj,
+                       stress_output *out)
 {
     double e[M], inner[SPECIMEN_INNER];
     memcpy(e, at->e, (size_t)at->s->strains * sizeof *e);
@@ -55,7 +56,8 @@ static double size_of(const specimen *s, const double C[], int i, int j)
                 fmax(fabs(C[j * m + j]), 1e-9 * largest));
 }
 
-static void check_gradient(const place *at, const double sigma[], const double C[], claims *c)
+static void check_gradient(const energy_place *at, const double sigma[], const double C[],
+                           claims *c)
 {
     const specimen *s = at->s;
     claim *one = claims_open(c, "stress is the gradient of the energy", 1e-6);
@@ -73,7 +75,7 @@ static void check_gradient(const place *at, const double sigma[], const double C
     }
 }
 
-static void check_stiffness(const place *at, const double C[], claims *c)
+static void check_stiffness(const energy_place *at, const double C[], claims *c)
 {
     const specimen *s = at->s;
     const int m = s->strains;
@@ -158,7 +160,7 @@ static void check(const specimen *s, claims *c)
 {
     double e[M], sigma[M], C[M * M], inner[SPECIMEN_INNER], energy, residual = NAN;
     node_state x[ELEMENT_MAX_NODES];
-    const place at = {.s = s, .e = e, .inner = inner};
+    const energy_place at = {.s = s, .e = e, .inner = inner};
     specimen_state(s, moved_by, 11, x);
     claims_doing(c, "stress%s", s->words);
     s->type.strain(s->data, x, &(strain_output){.e = e});

@@ -21,7 +21,8 @@ static status gathered(const experiment_type *e, const record_type *type, const 
     return fault_set(f, STATUS_FAULT, "out of memory for results");
 }
 
-static status put_about(const experiment_type *e, const void *found, record *r, hid_t at, fault *f)
+static status put_about(const experiment_type *e, const void *found, record_file *r, hid_t at,
+                        fault *f)
 {
     subjects list;
     const environment now = environment_now(1);
@@ -34,7 +35,8 @@ static status put_about(const experiment_type *e, const void *found, record *r, 
     return STATUS_OK;
 }
 
-static status put_tables(const experiment_type *e, const void *found, record *r, hid_t at, fault *f)
+static status put_tables(const experiment_type *e, const void *found, record_file *r, hid_t at,
+                         fault *f)
 {
     for (int i = 0; e->records[i] != NULL; i++) {
         subjects list;
@@ -47,7 +49,7 @@ static status put_tables(const experiment_type *e, const void *found, record *r,
 
 static status write_group(const experiment_type *e, const void *found, const char *path, fault *f)
 {
-    record r;
+    record_file r;
     TRY(record_open(&r, f));
     const hid_t at = kept_group(&r, e->name);
     status outcome = put_about(e, found, &r, at, f);

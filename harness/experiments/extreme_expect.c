@@ -7,7 +7,7 @@
 
 #include "harness/study/columns.h"
 
-static status read_rows(columns *r, extreme_sweep *out)
+static status read_rows(table_columns *r, extreme_sweep *out)
 {
     static const columns_field field[] = {
         {"extreme", 1, offsetof(extreme_finding, extreme)},
@@ -31,7 +31,7 @@ static status read_rows(columns *r, extreme_sweep *out)
 
 status extreme_expect_read(const char *path, extreme_sweep *out, fault *f)
 {
-    columns r = {.path = path, .name = "extreme_findings", .f = f};
+    table_columns r = {.path = path, .name = "extreme_findings", .f = f};
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     r.group = file >= 0 ? H5Gopen2(file, r.name, H5P_DEFAULT) : -1;
     const status outcome = read_rows(&r, out);

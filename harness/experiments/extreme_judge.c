@@ -6,7 +6,7 @@
 #include "harness/study/truth.h"
 #include "harness/study/verdict.h"
 
-static int quantity_index(const extreme_outcome *o, const point *p)
+static int quantity_index(const extreme_outcome *o, const sweep_point *p)
 {
     const char *name = extremes[o->extreme].quantity[o->quantity].name;
     int q = 0;
@@ -18,7 +18,7 @@ static int quantity_index(const extreme_outcome *o, const point *p)
 /* The exact value, of the formulation's own theory of shear; or NULL. */
 static const truth *exact_value(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
-    const point *p = &s->first.point[o->point];
+    const sweep_point *p = &s->first.point[o->point];
     const int q = quantity_index(o, p);
     return q < p->scene.quantities ? verdict_truth(t, p, &s->formulation[o->formulation], q) : NULL;
 }
@@ -26,7 +26,7 @@ static const truth *exact_value(const extreme_sweep *s, const truths *t, const e
 /* Is there an exact value, but of another theory of shear only? */
 static int has_other_theory(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
-    const point *p = &s->first.point[o->point];
+    const sweep_point *p = &s->first.point[o->point];
     const char *name = extremes[o->extreme].quantity[o->quantity].name;
     return exact_value(s, t, o) == NULL && truth_of(t, p->type, p->parameter, name, "same") != NULL;
 }
@@ -97,7 +97,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
 {
     const extreme *e = &extremes[o->extreme];
     const series *one = &s->first.series[o->series];
-    const point *p = &s->first.point[o->point];
+    const sweep_point *p = &s->first.point[o->point];
     double uncertainty;
     o->result = o->error = NAN;
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++)
@@ -127,12 +127,12 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
 }
 
 /* |error| on the meshes that have a value, coarse to fine. */
-typedef struct refinement {
+typedef struct mesh_refinement {
     int count;
     double elements[OUTCOME_NEIGHBOURS + 1], size[OUTCOME_NEIGHBOURS + 1];
-} refinement;
+} mesh_refinement;
 
-static void add_mesh(refinement *r, int elements, double error)
+static void add_mesh(mesh_refinement *r, int elements, double error)
 {
     if (!isfinite(error))
         return;
@@ -140,7 +140,7 @@ static void add_mesh(refinement *r, int elements, double error)
     r->size[r->count++] = fabs(error);
 }
 
-static int falls(const refinement *r)
+static int falls(const mesh_refinement *r)
 {
     const int last = r->count - 1;
     if (r->count < 2 || r->size[last] > r->size[last - 1])
@@ -152,7 +152,7 @@ void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_o
 {
     const int *mesh = s->neighbours.series[o->neighbours].mesh;
     const int own = s->first.series[o->series].mesh[0];
-    refinement r = {.count = 0};
+    mesh_refinement r = {.count = 0};
     int placed = 0;
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++) {
         double uncertainty;

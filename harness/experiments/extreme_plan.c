@@ -124,7 +124,7 @@ static status plan_value(const extreme_request *request, extreme_sweep *out, int
     out->first.whole_only = 1;
     out->first.named = request->named;
     TRY(plan_add(&out->first, type, parameter, &edit, &mesh, 1, f));
-    point *p = &out->first.point[out->first.points - 1];
+    sweep_point *p = &out->first.point[out->first.points - 1];
     p->condition = 1;
     p->steps = e->knob == EXTREME_STEPS ? (int)x : 0;
     p->whole_steps = e->knob == EXTREME_WHOLE;

@@ -16,14 +16,14 @@ enum { enough_elements = 16 }; /* from here on the neighbours are coarser meshes
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
 {
     const series *one = &s->first.series[o->series];
-    const point *p = &s->first.point[o->point];
+    const sweep_point *p = &s->first.point[o->point];
     if (o->neighbours >= 0)
         return STATUS_OK;
     const int n = one->mesh[0], coarser = n >= enough_elements;
     const int mesh[OUTCOME_NEIGHBOURS] = {coarser ? n / 4 : 2 * n, coarser ? n / 2 : 4 * n};
     s->neighbours.whole_only = 1;
     TRY(plan_add(&s->neighbours, p->type, p->parameter, &p->edit, mesh, OUTCOME_NEIGHBOURS, f));
-    point *same = &s->neighbours.point[s->neighbours.points - 1];
+    sweep_point *same = &s->neighbours.point[s->neighbours.points - 1];
     same->steps = p->steps;
     same->whole_steps = p->whole_steps;
     TRY(plan_extend(&s->neighbours, &one->formulation, 1, f));

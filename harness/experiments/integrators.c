@@ -20,7 +20,7 @@ static status plan_point(const motion_request *r, motions *m, pace_plan_request 
 }
 
 static status plan_axis(const motion_request *r, motions *m, const pace_plan_request *q,
-                        const axis *a, fault *f)
+                        const sweep_axis *a, fault *f)
 {
     double value[CASE_MAX_PARAMETERS];
     if (a->count == 0)
@@ -39,7 +39,7 @@ static status plan_axis(const motion_request *r, motions *m, const pace_plan_req
 /* All values of the parameter that varies; without one the point itself. */
 static status plan_points(const motion_request *r, motions *m, pace_plan_request *q, fault *f)
 {
-    axis a;
+    sweep_axis a;
     if (r->vary == NULL)
         return plan_point(r, m, q, f);
     TRY(axis_read(r->type, r->vary, &a, f));

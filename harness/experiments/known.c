@@ -12,7 +12,7 @@
 #include "harness/study/truth.h"
 
 /* Rows of the request that hold at the point: few of many, which every quantity looks through. */
-static status borrow(const truths *all, const point *p, known *out, fault *f)
+static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;
     out->stored.row = calloc((size_t)all->rows + 1, sizeof *out->stored.row);
@@ -24,7 +24,8 @@ static status borrow(const truths *all, const point *p, known *out, fault *f)
     return STATUS_OK;
 }
 
-static status find_stored(const ranges *r, const point *p, known *out, fault *f)
+static status find_stored(const parameter_ranges *r, const sweep_point *p, known_truths *out,
+                          fault *f)
 {
     const ranges_request *q = &r->request;
     fault why;
@@ -52,7 +53,7 @@ static const char *theory_of(const scene *s, const char *quantity)
     return needs == FEATURE_HARINGX ? "haringx" : "";
 }
 
-static status add_row(const point *p, const derived_value *v, truths *t, fault *f)
+static status add_row(const sweep_point *p, const derived_value *v, truths *t, fault *f)
 {
     truth *row = &t->row[t->rows++];
     *row = (truth){.type = p->type,
@@ -77,7 +78,7 @@ static status add_row(const point *p, const derived_value *v, truths *t, fault *
                : fault_set(f, STATUS_FAULT, "out of memory for truths");
 }
 
-static status ask_scene(const char *script, const point *p, derived_value **value, int *count,
+static status ask_scene(const char *script, const sweep_point *p, derived_value **value, int *count,
                         fault *f)
 {
     FILE *text = tmpfile();
@@ -91,7 +92,7 @@ static status ask_scene(const char *script, const point *p, derived_value **valu
     return outcome;
 }
 
-static status derive(const ranges *r, const point *p, known *out, fault *f)
+static status derive(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f)
 {
     derived_value *value = NULL;
     int count = 0;
@@ -117,7 +118,7 @@ static status derive(const ranges *r, const point *p, known *out, fault *f)
 }
 
 /* Has every quantity that is asked for one of the same model? */
-static int all_stored(const ranges *r, const point *p, const truths *t)
+static int all_stored(const parameter_ranges *r, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < r->quantities; i++)
         if (truth_of(t, p->type, p->parameter, r->quantity[i].name, "same") == NULL)
@@ -125,7 +126,7 @@ static int all_stored(const ranges *r, const point *p, const truths *t)
     return 1;
 }
 
-status known_at(const ranges *r, const point *p, known *out, fault *f)
+status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     status outcome = find_stored(r, p, out, f);
@@ -136,7 +137,7 @@ status known_at(const ranges *r, const point *p, known *out, fault *f)
     return outcome;
 }
 
-void known_free(known *k)
+void known_free(known_truths *k)
 {
     if (k->borrowed)
         free(k->stored.row);

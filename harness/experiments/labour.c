@@ -24,7 +24,7 @@ static double processor_seconds(void)
 /* One batch, from nothing to its file. */
 static status compute(const labour *c, int batch, double *seconds, fault *f)
 {
-    const work *w = c->w;
+    const shard_work *w = c->w;
     char *bytes = NULL;
     size_t size = 0;
     digest content = digest_begin();

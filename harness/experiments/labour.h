@@ -14,12 +14,12 @@ typedef struct labour_shelf {
 } labour_shelf;
 
 typedef struct labour {
-    const work *w;
+    const shard_work *w;
     const shard_request *request;
     int count; /* batches to do */
     int *list; /* [count] in the order in which they are begun */
     labour_shelf *shelf;
-    node here;
+    machine here;
 } labour;
 
 /* What is said of one batch, in one piece that fits into a pipe. */

@@ -13,21 +13,21 @@ static const double longer = 1.7 * 0.2385; /* [m] */
 static const char *const claim_name = "many at once give what each gives alone";
 
 /* What one element says; what differences of it would give is not asked for. */
-typedef struct answers {
+typedef struct many_answers {
     status outcome;
     double e[M], J[M * N], H[N * N], energy, sigma[M], C[M * M];
-} answers;
+} many_answers;
 
 /* Elements of two kinds, one by one and at once. */
-typedef struct batch {
+typedef struct many_batch {
     const specimen *of[MANY];
     const element_data *data[MANY];
     node_state x[MANY * ELEMENT_MAX_NODES];
     double weight[M], inner[SPECIMEN_INNER];
-    answers alone[MANY], together[MANY];
-} batch;
+    many_answers alone[MANY], together[MANY];
+} many_batch;
 
-static void gather(const specimen *s, const specimen *other, batch *b)
+static void gather(const specimen *s, const specimen *other, many_batch *b)
 {
     const specimen *const order[MANY] = {s, s, other, s, other};
     memset(b, 0, sizeof *b);
@@ -41,7 +41,7 @@ static void gather(const specimen *s, const specimen *other, batch *b)
     specimen_rest(s, b->inner);
 }
 
-static strain_output strain_of(const batch *b, answers *a)
+static strain_output strain_of(const many_batch *b, many_answers *a)
 {
     const unsigned leaves = b->of[0]->made.given->leaves;
     strain_output out = {.e = a->e};
@@ -54,7 +54,7 @@ static strain_output strain_of(const batch *b, answers *a)
     return out;
 }
 
-static stress_output stress_of(const batch *b, answers *a)
+static stress_output stress_of(const many_batch *b, many_answers *a)
 {
     const unsigned leaves = b->of[0]->made.given->leaves;
     stress_output out = {.energy = &a->energy};
@@ -66,7 +66,7 @@ static stress_output stress_of(const batch *b, answers *a)
 }
 
 /* One difference of two numbers of an element, over their size. */
-static void differ(const batch *b, int k, const char *what, const char *entry, double alone,
+static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
                    double together, double size, claim *one)
 {
     claims_departs(one, fabs(together - alone) / (size > 0 ? size : 1),
@@ -83,9 +83,9 @@ static double largest(int count, const double v[])
     return out;
 }
 
-static void compare_strains(const batch *b, int k, claim *one)
+static void compare_strains(const many_batch *b, int k, claim *one)
 {
-    const answers *a = &b->alone[k], *t = &b->together[k];
+    const many_answers *a = &b->alone[k], *t = &b->together[k];
     const int n = b->of[k]->coordinates;
     const double l = b->of[k]->request.length;
     char what[SPECIMEN_WORDS];
@@ -103,7 +103,7 @@ static void compare_strains(const batch *b, int k, claim *one)
                    l / (chart_unit(i, l) * chart_unit(j, l)), one);
 }
 
-static void strains(const specimen *s, batch *b, claim *one)
+static void strains(const specimen *s, many_batch *b, claim *one)
 {
     strain_output out[MANY];
     for (int k = 0; k < MANY; k++) {
@@ -119,9 +119,9 @@ static void strains(const specimen *s, batch *b, claim *one)
         compare_strains(b, k, one);
 }
 
-static void compare_stresses(const batch *b, int k, claim *one)
+static void compare_stresses(const many_batch *b, int k, claim *one)
 {
-    const answers *a = &b->alone[k], *t = &b->together[k];
+    const many_answers *a = &b->alone[k], *t = &b->together[k];
     const int m = b->of[k]->strains;
     const double sigma = largest(m, a->sigma), C = largest(m * m, a->C);
     char what[SPECIMEN_WORDS];
@@ -139,7 +139,7 @@ static void compare_stresses(const batch *b, int k, claim *one)
         differ(b, k, "stresses", "C", a->C[i], t->C[i], C, one);
 }
 
-static void stresses(const specimen *s, batch *b, claim *one)
+static void stresses(const specimen *s, many_batch *b, claim *one)
 {
     stress_output out[MANY];
     const double *e[MANY], *inner[MANY];
@@ -161,7 +161,7 @@ static void stresses(const specimen *s, batch *b, claim *one)
 
 static void check(const specimen *s, claims *c)
 {
-    static batch b;
+    static many_batch b;
     specimen other;
     specimen_request what = s->made;
     fault f = {""};

@@ -22,7 +22,7 @@ static double exact_of(const beam_request *r, const section *c)
 }
 
 /* Thin, the error is that of the thick one, or much more. */
-static void conclude(measure *one)
+static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
     one->locks = thin > 10 * thick + 0.01;
@@ -34,7 +34,7 @@ static void conclude(measure *one)
 
 static void over_thickness(beam_request *r, const char *name, measures *out)
 {
-    measure *one = measures_add(out, name);
+    element_measure *one = measures_add(out, name);
     double thickness = 1;
     memset(r->vector, 0, sizeof r->vector);
     for (int i = 0; i < THICKNESSES; i++, thickness /= 10) {

@@ -11,14 +11,14 @@ enum { MESHES = 6 };
 static const double noise =
     1e-8; /* errors below it show no order: the column is not infinitely thin */
 
-typedef struct question {
+typedef struct orders_question {
     const char *name;
     beam_analysis analysis;
     element_analysis declared;
     unsigned needs;
-} question;
+} orders_question;
 
-static const question questions[] = {
+static const orders_question questions[] = {
     {"statics, linear: tip force", BEAM_LINEAR, ELEMENT_STATICS, 0},
     {"statics, large: tip force", BEAM_LARGE, ELEMENT_STATICS, FEATURE_LARGE},
     {"vibration: first bending mode", BEAM_VIBRATION, ELEMENT_VIBRATION, FEATURE_MASS},
@@ -39,7 +39,7 @@ static void elastica(double angle, double *load, double *deflection)
 }
 
 /* The load that is set, and the exact value that it gives. */
-static double exact_of(const question *q, const section *c, beam_request *r)
+static double exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * c->Iz, lambda = 1.8751040687119611;
     double load, deflection;
@@ -60,7 +60,7 @@ static double exact_of(const question *q, const section *c, beam_request *r)
 }
 
 /* Of the finest two meshes whose errors say something: the second of them; 0: there are none. */
-static int telling(const measure *one)
+static int telling(const element_measure *one)
 {
     int last = 0;
     for (int i = 1; i < one->points; i++)
@@ -70,7 +70,8 @@ static int telling(const measure *one)
 }
 
 /* The least order is a claim. */
-static void hold_against_declared(const question *q, int last, const measure *one, claims *c)
+static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
+                                  claims *c)
 {
     static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
     char name[CLAIM_NAME];
@@ -93,9 +94,10 @@ static void hold_against_declared(const question *q, int last, const measure *on
             fabs(one->error[last]), one->at[last - 1], one->at[last]);
 }
 
-static void measure_order(const formulation *chosen, const question *q, claims *c, measures *out)
+static void measure_order(const formulation *chosen, const orders_question *q, claims *c,
+                          measures *out)
 {
-    measure *one = measures_add(out, q->name);
+    element_measure *one = measures_add(out, q->name);
     const element_order declared = element_order_in(chosen->type, q->declared, chosen->option);
     beam_request r = {.chosen = chosen,
                       .thickness = 1e-4,

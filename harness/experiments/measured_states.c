@@ -58,7 +58,7 @@ static double exact_of(const state *s, const section *c, double load)
 }
 
 /* An error that more elements leave as it is comes from the section, not from the mesh. */
-static void conclude(const state *s, measure *one)
+static void conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
     one->astray = fine > 1e-6 && fine > 0.8 * coarse;
@@ -71,7 +71,7 @@ static void conclude(const state *s, measure *one)
 
 static void measure_state(const formulation *chosen, const state *s, measures *out)
 {
-    measure *one = measures_add(out, s->name);
+    element_measure *one = measures_add(out, s->name);
     beam_request r = {.chosen = chosen,
                       .thickness = s->thickness,
                       .width = s->width,
@@ -101,7 +101,7 @@ static void compare_units(measures *out)
 {
     double times = NAN;
     for (int i = 0; i < out->count; i++) {
-        const measure *one = &out->measure[i];
+        const element_measure *one = &out->measure[i];
         if (states[i].analysis != BEAM_LINEAR || one->points < 2 || isnan(one->error[1]))
             continue;
         const double here = 1 + one->error[1];

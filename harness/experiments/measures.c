@@ -5,17 +5,17 @@
 #include <stdio.h>
 #include <string.h>
 
-measure *measures_add(measures *m, const char *name)
+element_measure *measures_add(measures *m, const char *name)
 {
     assert(m->count < MEASURES_MOST);
-    measure *one = &m->measure[m->count++];
+    element_measure *one = &m->measure[m->count++];
     memset(one, 0, sizeof *one);
     snprintf(one->name, sizeof one->name, "%s", name);
     one->order = NAN;
     return one;
 }
 
-void measures_point(measure *one, double at, double error)
+void measures_point(element_measure *one, double at, double error)
 {
     assert(one->points < MEASURE_POINTS);
     one->at[one->points] = at;
@@ -30,7 +30,7 @@ int measures_astray(const measures *m)
     return count;
 }
 
-int measures_hopeless(const measure *one)
+int measures_hopeless(const element_measure *one)
 {
     for (int i = 0; i < one->points; i++)
         if (!isnan(one->error[i]))

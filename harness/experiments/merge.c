@@ -1,6 +1,6 @@
 #include "harness/experiments/merge.h"
 
-static status take(const work *w, const stock *s, int batch, fault *f)
+static status take(const shard_work *w, const stock *s, int batch, fault *f)
 {
     char path[PATH_MAX];
     batch_label label;
@@ -16,7 +16,7 @@ static status take(const work *w, const stock *s, int batch, fault *f)
     return outcome;
 }
 
-status merge_take(const work *w, const stock *s, fault *f)
+status merge_take(const shard_work *w, const stock *s, fault *f)
 {
     for (int i = 0; i < s->batches; i++)
         if (s->where[i] >= 0)

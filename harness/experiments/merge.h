@@ -5,6 +5,6 @@
 #include "harness/experiments/stock.h"
 
 /* Takes every batch that is there. s: of stock_take. FAULT: one cannot be read (any more). */
-status merge_take(const work *w, const stock *s, fault *f);
+status merge_take(const shard_work *w, const stock *s, fault *f);
 
 #endif

@@ -38,9 +38,9 @@ static void name_blas(char *out, size_t size)
         snprintf(out, size, "unknown");
 }
 
-node node_here(void)
+machine node_here(void)
 {
-    node out = {.host = "unknown"};
+    machine out = {.host = "unknown"};
     const environment e = environment_now(1);
     gethostname(out.host, sizeof out.host - 1);
     snprintf(out.processor, sizeof out.processor, "%s", e.processor);
@@ -48,7 +48,7 @@ node node_here(void)
     return out;
 }
 
-int node_same_kind(const node *a, const node *b)
+int node_same_kind(const machine *a, const machine *b)
 {
     return strcmp(a->processor, b->processor) == 0 && strcmp(a->blas, b->blas) == 0;
 }

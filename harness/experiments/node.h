@@ -2,13 +2,13 @@
 #ifndef BEAMWORK_NODE_H
 #define BEAMWORK_NODE_H
 
-typedef struct node {
+typedef struct machine {
     char host[128], processor[128];
     char blas[256]; /* library, and the kernels that it chose for this processor */
-} node;
+} machine;
 
-node node_here(void);
+machine node_here(void);
 /* 1: the same kind: processor and BLAS; hosts may differ. */
-int node_same_kind(const node *, const node *);
+int node_same_kind(const machine *, const machine *);
 
 #endif

@@ -22,7 +22,7 @@ const char *pace_fate_name(pace_fate fate)
     return name[fate];
 }
 
-const point *pace_point_of(const pace *p, const pace_run *r)
+const sweep_point *pace_point_of(const pace *p, const pace_run *r)
 {
     return &p->sweep.point[p->sweep.series[r->series].point];
 }

@@ -68,7 +68,7 @@ typedef struct pace {
 
 void pace_free(pace *);
 const char *pace_fate_name(pace_fate);
-const point *pace_point_of(const pace *, const pace_run *);
+const sweep_point *pace_point_of(const pace *, const pace_run *);
 const cell_result *pace_cell_of(const pace *, int index);
 
 #endif

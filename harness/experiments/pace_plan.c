@@ -63,7 +63,7 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
 /* The point that was added last becomes that motion. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
-    point *at = &p->sweep.point[p->sweep.points - 1];
+    sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
     if (how->mass == SCENE_MASS_USUAL) /* errors are those of time: all have the same mass */
@@ -87,7 +87,7 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
 {
     p->sweep.whole_only = 1;
     TRY(plan_add(&p->sweep, q->type, q->parameter, NULL, &g->elements, 1, f));
-    point *at = &p->sweep.point[p->sweep.points - 1];
+    sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     if (at->status != STATUS_OK)
         return fault_set(f, at->status, "%s", at->reason);
     at->shapes = q->errors ? frames_of(g, spacing) : 0;

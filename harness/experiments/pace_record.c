@@ -174,26 +174,28 @@ static const record_type record_pace_ladder = {
     "order", "orders", "an integrator with steps that are halved", {KEYS, fields_of_ladder}};
 
 /* An error, and who comes within it. */
-typedef struct reached {
+typedef struct record_reached {
     double error;
     const char *integrator;
     pace_reach way;
-} reached;
+} record_reached;
 
 static void get_reached_step(const subject *s, field_value *out)
 {
-    out->numbers = &((const reached *)s->record)->way.run->step;
+    out->numbers = &((const record_reached *)s->record)->way.run->step;
 }
 
 static void get_reached_tolerance(const subject *s, field_value *out)
 {
-    out->numbers = &((const reached *)s->record)->way.run->tolerance;
+    out->numbers = &((const record_reached *)s->record)->way.run->tolerance;
 }
 
 static const schema_field fields_of_reached[] = {
-    {"error", "1", FIELD_DOUBLE, "of time", AT(reached, error)},
-    {"integrator", "", FIELD_TEXT, "that comes within it", TEXT_OF(RECORD, reached, integrator)},
-    {"cost", "s", FIELD_DOUBLE, "counted work where the error is just that", AT(reached, way.cost)},
+    {"error", "1", FIELD_DOUBLE, "of time", AT(record_reached, error)},
+    {"integrator", "", FIELD_TEXT, "that comes within it",
+     TEXT_OF(RECORD, record_reached, integrator)},
+    {"cost", "s", FIELD_DOUBLE, "counted work where the error is just that",
+     AT(record_reached, way.cost)},
     {"step", "s", FIELD_DOUBLE, "of the run that is within it", .get = get_reached_step},
     {"tolerance", "1", FIELD_DOUBLE, "of that run", .get = get_reached_tolerance},
     {0}};
@@ -297,8 +299,9 @@ static void gather_reached(const pace *p, const pace_group *g, subjects *out)
     const int count = pace_reach_methods(p, name);
     for (int l = 0; l < PACE_LEVELS; l++)
         for (int i = 0; i < count; i++) {
-            const reached row = {pace_levels[l], name[i],
-                                 pace_reach_of(p, (int)(g - p->group), name[i], pace_levels[l])};
+            const record_reached row = {
+                pace_levels[l], name[i],
+                pace_reach_of(p, (int)(g - p->group), name[i], pace_levels[l])};
             const void *kept = row.way.run != NULL ? gather_keep(out, &row, sizeof row) : NULL;
             const subject one = subject_of(p, g->first, kept);
             if (kept != NULL)

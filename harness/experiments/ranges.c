@@ -12,11 +12,11 @@ static const double batch_cost = 0.5; /* [s] */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
 /* No parameter twice, in the axes or beside them. */
-static status add_axis(ranges *r, const char *text, fault *f)
+static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
         return fault_set(f, STATUS_REFUSED, "more than %d --vary; give fewer", CASE_MAX_PARAMETERS);
-    axis *a = &r->axis[r->design.axes];
+    sweep_axis *a = &r->axis[r->design.axes];
     TRY(axis_read(r->request.type, text, a, f));
     r->design.axes++;
     for (int i = 0; i < r->design.axes - 1; i++)
@@ -26,7 +26,7 @@ static status add_axis(ranges *r, const char *text, fault *f)
     return STATUS_OK;
 }
 
-static status read_axes(ranges *r, fault *f)
+static status read_axes(parameter_ranges *r, fault *f)
 {
     const assignment_list list = parameters_list(r->request.type);
     char shown[ASSIGNMENT_SHOWN];
@@ -44,7 +44,7 @@ static status read_axes(ranges *r, fault *f)
     return outcome;
 }
 
-static status cut(ranges *r, fault *f)
+static status cut(parameter_ranges *r, fault *f)
 {
     const double fits = floor(batch_cost / fmax(r->point_cost, 1e-9));
     const long most =
@@ -60,7 +60,7 @@ static status cut(ranges *r, fault *f)
     return STATUS_OK;
 }
 
-status ranges_make(const ranges_request *request, ranges *out, fault *f)
+status ranges_make(const ranges_request *request, parameter_ranges *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->request = *request;
@@ -71,19 +71,19 @@ status ranges_make(const ranges_request *request, ranges *out, fault *f)
     return cut(out, f);
 }
 
-void ranges_free(ranges *r)
+void ranges_free(parameter_ranges *r)
 {
     for (int i = 0; i < r->design.axes; i++)
         axis_free(&r->axis[i]);
     design_free(&r->design);
 }
 
-rows_shape ranges_shape(const ranges *r)
+rows_shape ranges_shape(const parameter_ranges *r)
 {
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-int ranges_batch(const ranges *r, int batch, long *first)
+int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
     const long left = r->design.points - *first;

@@ -38,10 +38,10 @@ typedef struct ranges_quantity {
 } ranges_quantity;
 
 enum { RANGES_ASSUMED = 2048 };
-typedef struct ranges {
+typedef struct parameter_ranges {
     ranges_request request;
     double base[CASE_MAX_PARAMETERS];
-    axis axis[CASE_MAX_PARAMETERS];
+    sweep_axis axis[CASE_MAX_PARAMETERS];
     design design;
     int formulations, meshes, quantities;
     formulation formulation[RANGES_FORMULATIONS];
@@ -54,14 +54,14 @@ typedef struct ranges {
     long points_in_batch;              /* but for the last one */
     int batches;
     double point_cost; /* [s] about, of all cells of a point */
-} ranges;
+} parameter_ranges;
 
 /* Nothing is solved. REFUSED: the culprit and the remedy. ranges_free frees it, also after a
  * failure. The request must outlive it. */
-status ranges_make(const ranges_request *request, ranges *out, fault *f);
-void ranges_free(ranges *);
-rows_shape ranges_shape(const ranges *);
+status ranges_make(const ranges_request *request, parameter_ranges *out, fault *f);
+void ranges_free(parameter_ranges *);
+rows_shape ranges_shape(const parameter_ranges *);
 /* Points of a batch: *first, and how many. */
-int ranges_batch(const ranges *, int batch, long *first);
+int ranges_batch(const parameter_ranges *, int batch, long *first);
 
 #endif

@@ -53,7 +53,7 @@ static void remove_former(const char *folder)
 
 status ranges_collect_check(const ranges_output *o, fault *f)
 {
-    place where;
+    file_place where;
     if (o->folder[0] == '\0' || (access(o->folder, F_OK) == 0 && is_former(o->folder)))
         return STATUS_OK;
     return output_folder_try(o->folder, &where, f);

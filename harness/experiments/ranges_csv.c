@@ -6,7 +6,7 @@
 #include "harness/formulations/assignment.h"
 #include "harness/model/missing.h"
 
-void ranges_csv_head(FILE *to, const ranges *r)
+void ranges_csv_head(FILE *to, const parameter_ranges *r)
 {
     for (int i = 0; i < r->design.axes; i++)
         fprintf(to, "%s,", r->axis[i].of->name);
@@ -22,8 +22,8 @@ static void put(FILE *to, double value)
 }
 
 /* Options of a formulation are joined by commas. */
-static void put_cell(FILE *to, const ranges *r, const rows *w, const char *where, int at, int which,
-                     int mesh)
+static void put_cell(FILE *to, const parameter_ranges *r, const rows *w, const char *where, int at,
+                     int which, int mesh)
 {
     const size_t cell = rows_cell(w, at, which, mesh);
     char lacks[OMIT_WORDS];
@@ -43,7 +43,8 @@ static void put_cell(FILE *to, const ranges *r, const rows *w, const char *where
     }
 }
 
-static void put_point(FILE *to, const ranges *r, const rows *w, const double value[], int at)
+static void put_point(FILE *to, const parameter_ranges *r, const rows *w, const double value[],
+                      int at)
 {
     char where[CASE_MAX_PARAMETERS * (ASSIGNMENT_VALUE + 1) + 1];
     int used = 0;
@@ -60,7 +61,7 @@ static void put_point(FILE *to, const ranges *r, const rows *w, const double val
             put_cell(to, r, w, where, at, i, k);
 }
 
-status ranges_csv_add(FILE *to, const ranges *r, long first, const rows *w, fault *f)
+status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *w, fault *f)
 {
     const int axes = r->design.axes;
     double *at = malloc((size_t)w->points * (size_t)axes * sizeof *at);

@@ -6,8 +6,8 @@
 
 /* The parameters that vary, then formulation, elements, quantity, unit, value, reference,
  * reference_kind, error, status, cost, seconds. What does not exist is empty. */
-void ranges_csv_head(FILE *to, const ranges *r);
+void ranges_csv_head(FILE *to, const parameter_ranges *r);
 /* Points from `first` on. FAULT: out of memory. */
-status ranges_csv_add(FILE *to, const ranges *r, long first, const rows *, fault *f);
+status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *, fault *f);
 
 #endif

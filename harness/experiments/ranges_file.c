@@ -12,20 +12,21 @@ enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
 
 /* A column of the file: its place in rows, its dimensions beside the points. */
-typedef struct column {
+typedef struct file_column {
     const char *name, *unit;
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
     const void *first; /* of these rows; of points: NULL */
     int missing;       /* whole numbers: what stands where nothing was computed */
-} column;
+} file_column;
 
-static int columns_of(const ranges *r, const rows *w, column out[RANGES_FILE_COLUMNS])
+static int columns_of(const parameter_ranges *r, const rows *w,
+                      file_column out[RANGES_FILE_COLUMNS])
 {
     const int f = r->formulations, m = r->meshes, q = r->quantities;
     const rows none = {.points = 0};
     const rows *from = w != NULL ? w : &none;
-    const column all[RANGES_FILE_COLUMNS] = {
+    const file_column all[RANGES_FILE_COLUMNS] = {
         {"points", NULL, H5T_NATIVE_DOUBLE, 1, {r->design.axes}, NULL, 0},
         {"reference", NULL, H5T_NATIVE_DOUBLE, 1, {q}, from->reference, 0},
         {"reference_doubt", "1", H5T_NATIVE_DOUBLE, 1, {q}, from->doubt, 0},
@@ -41,7 +42,7 @@ static int columns_of(const ranges *r, const rows *w, column out[RANGES_FILE_COL
     return RANGES_FILE_COLUMNS;
 }
 
-static hsize_t line_of(const column *c)
+static hsize_t line_of(const file_column *c)
 {
     hsize_t line = 1;
     for (int i = 0; i < c->ranks; i++)
@@ -50,7 +51,7 @@ static hsize_t line_of(const column *c)
 }
 
 /* Points of a compressed piece: whole batches, as long as they are small. */
-static hsize_t piece_of(const ranges *r, const column *c)
+static hsize_t piece_of(const parameter_ranges *r, const file_column *c)
 {
     const double most = fmax(1, piece_bytes / (double)(line_of(c) * H5Tget_size(c->type)));
     const long batch = r->points_in_batch;
@@ -59,13 +60,13 @@ static hsize_t piece_of(const ranges *r, const column *c)
     return (hsize_t)points;
 }
 
-static void put_unit(record *r, hid_t set, const char *unit)
+static void put_unit(record_file *r, hid_t set, const char *unit)
 {
     if (unit != NULL)
         record_text(r, set, "unit", unit);
 }
 
-static hid_t make_column(ranges_file *file, const column *c)
+static hid_t make_column(ranges_file *file, const file_column *c)
 {
     hsize_t size[MOST_RANKS] = {(hsize_t)file->of->design.points}, piece[MOST_RANKS];
     piece[0] = piece_of(file->of, c);
@@ -92,7 +93,8 @@ static hid_t make_column(ranges_file *file, const column *c)
 }
 
 /* Names by number, a line each. */
-static void put_names(record *r, hid_t set, const char *name, const char *(*of)(int), int count)
+static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
+                      int count)
 {
     char text[LINE] = "";
     size_t used = 0;
@@ -109,7 +111,7 @@ static const char *name_of_bit(int bit)
 }
 
 /* Words of an axis: its values in the file are their numbers. */
-static void put_words(record *r, hid_t points, const axis *a)
+static void put_words(record_file *r, hid_t points, const sweep_axis *a)
 {
     char *text = NULL;
     size_t size = 0;
@@ -127,8 +129,8 @@ static void put_words(record *r, hid_t points, const axis *a)
 
 static void put_columns(ranges_file *file)
 {
-    column all[RANGES_FILE_COLUMNS];
-    record *r = &file->record;
+    file_column all[RANGES_FILE_COLUMNS];
+    record_file *r = &file->record;
     const int count = columns_of(file->of, NULL, all);
     for (int i = 0; i < count && !r->bad; i++)
         file->column[i] = make_column(file, &all[i]);
@@ -148,8 +150,8 @@ static status failed(const ranges_file *file, fault *f)
                      file->path);
 }
 
-status ranges_file_open(const char *path, const ranges *r, const char *plan, ranges_file *out,
-                        fault *f)
+status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
+                        ranges_file *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->of = r;
@@ -167,7 +169,7 @@ status ranges_file_open(const char *path, const ranges *r, const char *plan, ran
     return ranges_file_close(out, NULL, "", failed(out, f), f);
 }
 
-static void write_piece(record *r, hid_t set, const column *c, long first, int points,
+static void write_piece(record_file *r, hid_t set, const file_column *c, long first, int points,
                         const void *value)
 {
     hsize_t from[MOST_RANKS] = {(hsize_t)first}, size[MOST_RANKS] = {(hsize_t)points};
@@ -181,7 +183,7 @@ static void write_piece(record *r, hid_t set, const column *c, long first, int p
 }
 
 /* Words by their number in the list. */
-static double place_of(const axis *a, double value)
+static double place_of(const sweep_axis *a, double value)
 {
     int i = 0;
     while (a->kind == AXIS_WORDS && i < a->count && a->value[i] != value)
@@ -189,7 +191,7 @@ static double place_of(const axis *a, double value)
     return a->kind == AXIS_WORDS ? i : value;
 }
 
-static status add_points(ranges_file *file, long first, int points, const column *c, fault *f)
+static status add_points(ranges_file *file, long first, int points, const file_column *c, fault *f)
 {
     const int axes = file->of->design.axes;
     double *at = malloc((size_t)points * (size_t)axes * sizeof *at);
@@ -205,7 +207,7 @@ static status add_points(ranges_file *file, long first, int points, const column
 
 status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
 {
-    column all[RANGES_FILE_COLUMNS];
+    file_column all[RANGES_FILE_COLUMNS];
     const int count = columns_of(file->of, w, all);
     TRY(add_points(file, first, w->points, &all[0], f));
     for (int i = 1; i < count && !file->record.bad; i++)
@@ -216,7 +218,7 @@ status ranges_file_add(ranges_file *file, long first, const rows *w, fault *f)
 status ranges_file_close(ranges_file *file, const tally *t, const char *content, status written,
                          fault *f)
 {
-    record *r = &file->record;
+    record_file *r = &file->record;
     if (written == STATUS_OK) {
         record_text(r, file->at, "content", content);
         ranges_file_worst(r, file->at, file->of, t);

@@ -9,16 +9,16 @@
 enum { RANGES_FILE_VERSION = 1, RANGES_FILE_COLUMNS = 11 };
 
 typedef struct ranges_file {
-    const ranges *of;
+    const parameter_ranges *of;
     const char *path;
-    record record;
+    record_file record;
     hid_t at; /* its group */
     hid_t column[RANGES_FILE_COLUMNS];
 } ranges_file;
 
 /* The path outlives it. plan: digits that say which sweep it is. */
-status ranges_file_open(const char *path, const ranges *r, const char *plan, ranges_file *out,
-                        fault *f);
+status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
+                        ranges_file *out, fault *f);
 /* Points from `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
 /* The last: worst points with the names of their scenes, and content:

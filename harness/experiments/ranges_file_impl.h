@@ -5,8 +5,8 @@
 #include "harness/experiments/ranges_file.h"
 
 /* What was asked for, before any point. */
-void ranges_file_request(record *, hid_t at, const ranges *, const char *plan);
+void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
 /* The worst points, behind all of them. */
-void ranges_file_worst(record *, hid_t at, const ranges *, const tally *);
+void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
 
 #endif

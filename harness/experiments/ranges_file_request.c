@@ -29,12 +29,12 @@ static void insert_text(hid_t table, const char *name, size_t offset, size_t len
     H5Tclose(type);
 }
 
-static void put_axes(record *r, hid_t at, const ranges *of)
+static void put_axes(record_file *r, hid_t at, const parameter_ranges *of)
 {
     axis_row row[CASE_MAX_PARAMETERS];
     memset(row, 0, sizeof row);
     for (int i = 0; i < of->design.axes; i++) {
-        const axis *a = &of->axis[i];
+        const sweep_axis *a = &of->axis[i];
         const int range = a->value == NULL, scattered = of->design.kind != DESIGN_GRID;
         snprintf(row[i].name, sizeof row[i].name, "%s", a->of->name);
         snprintf(row[i].unit, sizeof row[i].unit, "%s", a->of->unit);
@@ -53,7 +53,7 @@ static void put_axes(record *r, hid_t at, const ranges *of)
     H5Tclose(type);
 }
 
-static void put_quantities(record *r, hid_t at, const ranges *of)
+static void put_quantities(record_file *r, hid_t at, const parameter_ranges *of)
 {
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof of->quantity[0]);
     insert_text(type, "name", offsetof(ranges_quantity, name), sizeof of->quantity[0].name);
@@ -62,7 +62,7 @@ static void put_quantities(record *r, hid_t at, const ranges *of)
     H5Tclose(type);
 }
 
-static void put_formulations(record *r, hid_t at, const ranges *of)
+static void put_formulations(record_file *r, hid_t at, const parameter_ranges *of)
 {
     const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof of->formulation[0]);
     insert_text(type, "key", offsetof(formulation, key), sizeof of->formulation[0].key);
@@ -79,7 +79,7 @@ static void put_formulations(record *r, hid_t at, const ranges *of)
     H5Tclose(type);
 }
 
-void ranges_file_request(record *r, hid_t at, const ranges *of, const char *plan)
+void ranges_file_request(record_file *r, hid_t at, const parameter_ranges *of, const char *plan)
 {
     const environment e = environment_now(1);
     const ranges_request *q = &of->request;
@@ -107,7 +107,7 @@ void ranges_file_request(record *r, hid_t at, const ranges *of, const char *plan
     put_formulations(r, at, of);
 }
 
-void ranges_file_worst(record *r, hid_t at, const ranges *of, const tally *t)
+void ranges_file_worst(record_file *r, hid_t at, const parameter_ranges *of, const tally *t)
 {
     worst_row row[RANGES_FORMULATIONS * TALLY_WORST];
     int count = 0;

@@ -7,7 +7,7 @@ static void add_count(digest *plan, long count)
     digest_add_number(plan, (double)count);
 }
 
-static void add_axis(digest *plan, const axis *a)
+static void add_axis(digest *plan, const sweep_axis *a)
 {
     digest_add_text(plan, a->of->name);
     add_count(plan, a->kind);
@@ -18,7 +18,7 @@ static void add_axis(digest *plan, const axis *a)
         digest_add_number(plan, a->value[i]);
 }
 
-void ranges_identity_add(const ranges *r, digest *plan)
+void ranges_identity_add(const parameter_ranges *r, digest *plan)
 {
     digest_add_text(plan, r->request.type->name);
     for (int i = 0; i < parameters_count(r->request.type); i++)

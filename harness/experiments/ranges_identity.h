@@ -6,6 +6,6 @@
 #include "harness/records/digest.h"
 
 /* Points, formulations, meshes, quantities, and how it is cut. */
-void ranges_identity_add(const ranges *r, digest *plan);
+void ranges_identity_add(const parameter_ranges *r, digest *plan);
 
 #endif

@@ -5,14 +5,15 @@
 
 #include "harness/formulations/assignment.h"
 
-void ranges_points_values(const ranges *r, const double at[], double value[CASE_MAX_PARAMETERS])
+void ranges_points_values(const parameter_ranges *r, const double at[],
+                          double value[CASE_MAX_PARAMETERS])
 {
     memcpy(value, r->base, sizeof r->base);
     for (int i = 0; i < r->design.axes; i++)
         value[r->axis[i].index] = at[i];
 }
 
-void ranges_points_text(const ranges *r, const double at[], char *text, int size)
+void ranges_points_text(const parameter_ranges *r, const double at[], char *text, int size)
 {
     int used = 0;
     text[0] = '\0';

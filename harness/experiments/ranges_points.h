@@ -5,8 +5,9 @@
 #include "harness/experiments/ranges.h"
 
 /* Values of all parameters at a point whose axes have these. */
-void ranges_points_values(const ranges *, const double at[], double value[CASE_MAX_PARAMETERS]);
+void ranges_points_values(const parameter_ranges *, const double at[],
+                          double value[CASE_MAX_PARAMETERS]);
 /* "NAME=VALUE, NAME=VALUE": of the axes, with as many digits as they need. */
-void ranges_points_text(const ranges *, const double at[], char *text, int size);
+void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
 
 #endif

@@ -14,7 +14,7 @@
 
 /* A batch that is being made. */
 typedef struct making {
-    const ranges *of;
+    const parameter_ranges *of;
     const sweep *s;
     rows *out;
 } making;
@@ -29,7 +29,7 @@ static int quantity_of(const scene *s, const char *name)
 }
 
 /* What nobody asked for is not computed. */
-static void drop_quantities(const ranges *r, scene *s)
+static void drop_quantities(const parameter_ranges *r, scene *s)
 {
     int kept = 0;
     for (int i = 0; i < s->quantities; i++) {
@@ -43,7 +43,7 @@ static void drop_quantities(const ranges *r, scene *s)
     s->quantities = kept;
 }
 
-static status plan(const ranges *r, int batch, sweep *s, fault *f)
+static status plan(const parameter_ranges *r, int batch, sweep *s, fault *f)
 {
     long first;
     const int count = ranges_batch(r, batch, &first), axes = r->design.axes;
@@ -62,7 +62,7 @@ static status plan(const ranges *r, int batch, sweep *s, fault *f)
     return outcome;
 }
 
-static int status_of(const point *p, const series *one, int mesh)
+static int status_of(const sweep_point *p, const series *one, int mesh)
 {
     if (p->status != STATUS_OK)
         return ROWS_NO_SCENE;
@@ -81,7 +81,7 @@ static double value_of(const series *one, int mesh, int quantity)
 static void fill_cells(const making *m, int at, int which)
 {
     const series *one = &m->s->series[at * m->of->formulations + which];
-    const point *p = &m->s->point[at];
+    const sweep_point *p = &m->s->point[at];
     m->out->lacks[rows_lacks(m->out, at, which)] =
         one->without.other ? (int32_t)one->without.what : 0;
     for (int k = 0; k < m->of->meshes; k++) {
@@ -104,7 +104,7 @@ static void fill_cells(const making *m, int at, int which)
 
 /* Errors of one formulation against its reference, and the least mesh. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
-                        const reference *against)
+                        const point_reference *against)
 {
     const int index = at * m->of->formulations + which;
     const series *one = &m->s->series[index];
@@ -119,25 +119,25 @@ static void fill_errors(const making *m, int at, int which, int q, int quantity,
     m->out->least[rows_least(m->out, at, which, q)] = mesh >= 0 ? one->mesh[mesh] : 0;
 }
 
-static int is_known(const reference *r)
+static int is_known(const point_reference *r)
 {
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
 /* One quantity at one point: what stands as its reference is that of the first formulation that has
  * one. */
-static void fill_quantity(const making *m, int at, int q, const known *k)
+static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
-    const point *p = &m->s->point[at];
+    const sweep_point *p = &m->s->point[at];
     const int quantity =
         p->status == STATUS_OK ? quantity_of(&p->scene, m->of->quantity[q].name) : -1;
     const size_t place = rows_quantity(m->out, at, q);
-    reference shown = {ROWS_NONE, NAN, NAN};
+    point_reference shown = {ROWS_NONE, NAN, NAN};
     for (int i = 0; i < m->of->formulations && quantity >= 0; i++) {
         const int index = at * m->of->formulations + i;
         if (m->s->series[index].missing[0] != '\0')
             continue;
-        const reference one =
+        const point_reference one =
             reference_of(m->s, index, quantity, &k->stored, &k->derived, m->of->request.tolerance);
         if (is_known(&one))
             fill_errors(m, at, i, q, quantity, &one);
@@ -151,8 +151,8 @@ static void fill_quantity(const making *m, int at, int q, const known *k)
 
 static status fill_point(const making *m, int at, fault *f)
 {
-    const point *p = &m->s->point[at];
-    known k = {.borrowed = 0};
+    const sweep_point *p = &m->s->point[at];
+    known_truths k = {.borrowed = 0};
     for (int i = 0; i < m->of->formulations; i++)
         fill_cells(m, at, i);
     if (p->status == STATUS_OK)
@@ -163,7 +163,7 @@ static status fill_point(const making *m, int at, fault *f)
     return STATUS_OK;
 }
 
-static status solve(const ranges *r, int batch, sweep *s, rows *out, fault *f)
+static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, fault *f)
 {
     const sweep_request request = {.jobs = 1, .together = 1, .time_limit = r->request.time_limit};
     const making m = {r, s, out};
@@ -177,7 +177,7 @@ static status solve(const ranges *r, int batch, sweep *s, rows *out, fault *f)
     return STATUS_OK;
 }
 
-status ranges_solve(const ranges *r, int batch, rows *out, fault *f)
+status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};
     memset(out, 0, sizeof *out);

@@ -6,6 +6,6 @@
 
 /* All points of a batch into rows that the caller frees, also after a failure. What a point, a cell
  * or a truth fails with is a result; FAULT: memory or processes. */
-status ranges_solve(const ranges *r, int batch, rows *out, fault *f);
+status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f);
 
 #endif

@@ -14,9 +14,9 @@
 
 enum { SHOWN_MESHES = 7 };
 
-static void write_axis(FILE *to, const ranges *r, int index)
+static void write_axis(FILE *to, const parameter_ranges *r, int index)
 {
-    const axis *a = &r->axis[index];
+    const sweep_axis *a = &r->axis[index];
     const char *unit = strcmp(a->of->unit, "1") == 0 ? "" : a->of->unit;
     char text[RANGES_TABLE_LINE];
     int used = 0;
@@ -35,7 +35,7 @@ static void write_axis(FILE *to, const ranges *r, int index)
     paragraph_write(to, fprintf(to, "  %s ", a->of->name), 4, text);
 }
 
-void ranges_table_head(FILE *to, const ranges *r)
+void ranges_table_head(FILE *to, const parameter_ranges *r)
 {
     char fixed[PARAMETERS_TEXT], seed[60] = "";
     parameters_text(r->request.type, r->base, fixed, sizeof fixed);
@@ -71,14 +71,14 @@ static void write_share(FILE *to, long part, long all)
     }
 }
 
-static int finest_shown(const ranges *r)
+static int finest_shown(const parameter_ranges *r)
 {
     return r->meshes < SHOWN_MESHES ? r->meshes : SHOWN_MESHES;
 }
 
 static void write_line(FILE *to, const tally *t, int which, int q)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     const tally_series *s = tally_of(t, which, q);
     const int at = fprintf(to, "  %-*s", RANGES_TABLE_NAME, r->formulation[which].key);
     fprintf(to, "%*s", at < RANGES_TABLE_NAME + 2 ? 0 : 1, "");
@@ -107,7 +107,7 @@ static void write_line(FILE *to, const tally *t, int which, int q)
 /* One quantity: a line for each formulation. */
 static void write_shares(FILE *to, const tally *t, int q)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     const int at = fprintf(to, "%s", ranges_table_name(r, q));
     fprintf(to, "%*s", at < RANGES_TABLE_NAME + 2 ? RANGES_TABLE_NAME + 2 - at : 1, "");
     for (int k = r->meshes - finest_shown(r); k < r->meshes; k++) {
@@ -140,7 +140,7 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
 static void write_leasts(FILE *to, const tally *t)
 {
     enum { BESIDE = 3, WIDTH = 24 };
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     for (int first = 0; first < r->formulations; first += BESIDE) {
         const int end = first + BESIDE < r->formulations ? first + BESIDE : r->formulations;
         fprintf(to, "%-*s", RANGES_TABLE_NAME + 2, "n that is enough for");
@@ -198,7 +198,7 @@ static void write_others(FILE *to, const tally *t)
 
 static void write_failures(FILE *to, const tally *t)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     for (int i = 0; i < r->formulations; i++) {
         long failed = 0, ran = 0;
         for (int k = 0; k < r->meshes; k++) {
@@ -212,7 +212,7 @@ static void write_failures(FILE *to, const tally *t)
 }
 
 /* Its axes, in a few digits. */
-static void short_point(const ranges *r, const double at[], char *text, int size)
+static void short_point(const parameter_ranges *r, const double at[], char *text, int size)
 {
     int used = 0;
     text[0] = '\0';
@@ -227,7 +227,8 @@ static void short_point(const ranges *r, const double at[], char *text, int size
     }
 }
 
-static void write_worst(FILE *to, const ranges *r, int which, const tally_worst *w, fault *f)
+static void write_worst(FILE *to, const parameter_ranges *r, int which, const tally_worst *w,
+                        fault *f)
 {
     double at[CASE_MAX_PARAMETERS];
     char where[PARAMETERS_TEXT], what[SCENE_NAME + 60];
@@ -243,7 +244,7 @@ static void write_worst(FILE *to, const ranges *r, int which, const tally_worst 
 }
 
 /* How to see one of them: that of the first formulation. */
-static void write_command(FILE *to, const ranges *r, int which, const tally_worst *w,
+static void write_command(FILE *to, const parameter_ranges *r, int which, const tally_worst *w,
                           const char *folder, fault *f)
 {
     double at[CASE_MAX_PARAMETERS];
@@ -276,7 +277,7 @@ static void write_command(FILE *to, const ranges *r, int which, const tally_wors
 
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     int shown = -1;
     if (t->points < r->design.points)
         fprintf(to, "%ld of %ld points are there\n", t->points, r->design.points);

@@ -7,7 +7,7 @@
 #include "harness/experiments/tally.h"
 
 /* What is swept: points, cells, and the axes. */
-void ranges_table_head(FILE *to, const ranges *r);
+void ranges_table_head(FILE *to, const parameter_ranges *r);
 /* Within PARAGRAPH_WIDTH: what errors are against; the share of points within the tolerance with
  * each mesh, for each quantity and formulation; where there are one or two axes the least elements
  * over them, of all quantities together (every: of each too); the worst points with their values

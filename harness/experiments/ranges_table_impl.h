@@ -9,7 +9,7 @@
 enum { RANGES_TABLE_NAME = 24, RANGES_TABLE_COLUMN = 7, RANGES_TABLE_LINE = 1024 };
 
 /* Of a quantity, or of all together: index, or their number. */
-static inline const char *ranges_table_name(const ranges *r, int q)
+static inline const char *ranges_table_name(const parameter_ranges *r, int q)
 {
     return q < r->quantities ? r->quantity[q].name : "all quantities";
 }

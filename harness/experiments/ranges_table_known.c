@@ -83,7 +83,7 @@ static void write_reference(FILE *to, const tally *t, int q, char told[])
 /* Why the first one has none. */
 static void write_without_scene(FILE *to, const tally *t)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
     char where[PARAMETERS_TEXT];
     scene s;

@@ -30,7 +30,7 @@ static void write_place(FILE *to, const tally_place *p, int mixed)
 /* Value of an axis, short. */
 static void edge_text(const tally *t, int index, int place, char *text, int size)
 {
-    const axis *a = &t->of->axis[index];
+    const sweep_axis *a = &t->of->axis[index];
     if (a->of->choices != NULL)
         axis_text(a, tally_edge(t, index, place), text, size);
     else
@@ -60,7 +60,7 @@ static void write_fields(FILE *to, const tally *t, const char *label, int which,
 /* Over two axes a map for each formulation, over one a line. */
 static void write_maps_of(FILE *to, const tally *t, int q)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     if (r->design.axes == 1) {
         fprintf(to, "%s\n", ranges_table_name(r, q));
         write_columns(to, t);
@@ -101,7 +101,7 @@ static int has_other(const tally *t)
 /* Is a field without a reference? parts: has it points with and points without? */
 static int has_unknown(const tally *t, int parts)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     int unknown = 0;
     for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++) {
         const tally_place *p = &t->map[i];
@@ -122,7 +122,7 @@ static int is_coarse(const tally *t)
 
 void ranges_table_map(FILE *to, const tally *t, int every)
 {
-    const ranges *r = t->of;
+    const parameter_ranges *r = t->of;
     if (t->columns == 0) {
         fprintf(to, "\nno map: there are %d axes; the page of the sweep draws slices\n",
                 r->design.axes);

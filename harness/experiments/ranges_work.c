@@ -68,7 +68,7 @@ static status take(void *context, int batch, FILE *from, fault *f)
     return outcome;
 }
 
-status ranges_work_make(const ranges *r, ranges_work *out, fault *f)
+status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f)
 {
     *out = (ranges_work){.of = r, .content = digest_begin()};
     out->cost = calloc((size_t)r->batches + 1, sizeof *out->cost);
@@ -87,12 +87,12 @@ void ranges_work_free(ranges_work *w)
     w->cost = NULL;
 }
 
-work ranges_work_of(ranges_work *w)
+shard_work ranges_work_of(ranges_work *w)
 {
-    return (work){.verb = "sweep",
-                  .batches = w->of->batches,
-                  .cost = w->cost,
-                  .context = w,
-                  .run = run,
-                  .take = take};
+    return (shard_work){.verb = "sweep",
+                        .batches = w->of->batches,
+                        .cost = w->cost,
+                        .context = w,
+                        .run = run,
+                        .take = take};
 }

@@ -6,7 +6,7 @@
 #include "harness/experiments/work.h"
 
 typedef struct ranges_work {
-    const ranges *of;
+    const parameter_ranges *of;
     double *cost;      /* [batches] */
     tally *tally;      /* where batches that are taken are counted ... */
     ranges_file *file; /* ... and stored; NULL: nowhere */
@@ -16,9 +16,9 @@ typedef struct ranges_work {
 } ranges_work;
 
 /* FAULT: memory. ranges_work_free frees it. */
-status ranges_work_make(const ranges *r, ranges_work *out, fault *f);
+status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f);
 void ranges_work_free(ranges_work *);
 /* Which sweep it is, its identity, is the caller's to say. */
-work ranges_work_of(ranges_work *);
+shard_work ranges_work_of(ranges_work *);
 
 #endif

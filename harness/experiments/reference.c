@@ -13,9 +13,9 @@ static double scale_of(const scene_quantity *q, double value)
     return scale > 0 ? scale : 1;
 }
 
-static reference of_truth(const scene_quantity *q, const truth *t, rows_reference kind)
+static point_reference of_truth(const scene_quantity *q, const truth *t, rows_reference kind)
 {
-    return (reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
+    return (point_reference){kind, t->value, t->uncertainty / scale_of(q, t->value)};
 }
 
 /* Does another formulation solve the same problem? Theories of shear in stability differ. */
@@ -46,10 +46,10 @@ static int known_limits(const sweep *s, int index, int quantity, known_limit out
     return count;
 }
 
-static reference of_limits(const sweep *s, int index, int quantity, double tolerance)
+static point_reference of_limits(const sweep *s, int index, int quantity, double tolerance)
 {
     const scene_quantity *q = &s->point[s->series[index].point].scene.quantity[quantity];
-    const reference none = {ROWS_NONE, NAN, NAN};
+    const point_reference none = {ROWS_NONE, NAN, NAN};
     known_limit all[MOST];
     const int count = known_limits(s, index, quantity, all);
     int best = 0;
@@ -65,19 +65,19 @@ static reference of_limits(const sweep *s, int index, int quantity, double toler
     if (!(all[best].uncertainty / scale <= most))
         return none;
     if (!(doubt / scale <= most))
-        return (reference){ROWS_DISPUTED, NAN, NAN};
-    return (reference){ROWS_LIMIT, all[best].value, doubt / scale};
+        return (point_reference){ROWS_DISPUTED, NAN, NAN};
+    return (point_reference){ROWS_LIMIT, all[best].value, doubt / scale};
 }
 
-reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
-                       const truths *derived, double tolerance)
+point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
+                             const truths *derived, double tolerance)
 {
     const series *one = &s->series[series_index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const scene_quantity *q = &p->scene.quantity[quantity];
     const truth *row =
         stored != NULL ? verdict_truth(stored, p, &one->formulation, quantity) : NULL;
-    reference found = {ROWS_NONE, NAN, NAN};
+    point_reference found = {ROWS_NONE, NAN, NAN};
     if (row != NULL)
         found = of_truth(q, row, ROWS_STORED);
     if (found.doubt <= tolerance / 2) /* NAN is not */

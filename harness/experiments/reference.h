@@ -11,14 +11,14 @@
 #include "harness/experiments/rows.h"
 #include "harness/study/sweep.h"
 
-typedef struct reference {
+typedef struct point_reference {
     rows_reference kind;
     double value, doubt; /* doubt: relative */
-} reference;
+} point_reference;
 
 /* Of a series of the sweep and a quantity of its scene; stored, derived: truths of this point.
  * NULL: none. */
-reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
-                       const truths *derived, double tolerance);
+point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
+                             const truths *derived, double tolerance);
 
 #endif

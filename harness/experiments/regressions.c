@@ -22,7 +22,7 @@ static const double LARGER = 0.02;
 static const double MOVED = 1e-5;
 
 /* The run as it will be stored, read back: both sides are known by the same means. */
-static status read_back(const sweep *s, const judgement *j, results *out, fault *f)
+static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
     char path[PATH_MAX];
@@ -70,8 +70,8 @@ static status add_lines(char *text, judgement *j, fault *f)
     return STATUS_OK;
 }
 
-static status compare(const results *former, const char *name, const results *now, judgement *j,
-                      fault *f)
+static status compare(const stored_results *former, const char *name, const stored_results *now,
+                      judgement *j, fault *f)
 {
     const comparison_limits limits = {LARGER, RESULTS_FLOOR, DBL_MAX};
     char *text = NULL;
@@ -95,10 +95,11 @@ static status compare(const results *former, const char *name, const results *no
 }
 
 /* The limit of a quantity of a series at its default point in the former run, or NULL. */
-static const result_limit *limit_of_former(const results *former, const sweep *s, const verdict *v)
+static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
+                                           const verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     char name[FAULT_TEXT];
     snprintf(name, sizeof name, "%s/default/%s", p->type->name, one->formulation.key);
     for (int i = 0; p->text[0] == '\0' && i < former->seriess; i++)
@@ -120,7 +121,7 @@ static int is_judged_closely(const verdict *v, double slack)
            3 * v->fit.limit_uncertainty + v->truth->uncertainty <= slack;
 }
 
-static status find_moved(const results *former, const sweep *s, judgement *j, fault *f)
+static status find_moved(const stored_results *former, const sweep *s, judgement *j, fault *f)
 {
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
@@ -145,10 +146,10 @@ static status find_moved(const results *former, const sweep *s, judgement *j, fa
     return STATUS_OK;
 }
 
-status regressions_find(const results *former, const char *name, const sweep *s, judgement *j,
-                        fault *f)
+status regressions_find(const stored_results *former, const char *name, const sweep *s,
+                        judgement *j, fault *f)
 {
-    results now = {.cells = 0};
+    stored_results now = {.cells = 0};
     status outcome = read_back(s, j, &now, f);
     if (outcome == STATUS_OK)
         outcome = compare(former, name, &now, j, f);

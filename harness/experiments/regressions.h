@@ -10,7 +10,7 @@
  * one should, and limits of default points that moved by more than 1e-5 of themselves where no
  * exact truth judges them as closely. Of a former run that is known by its short table, errors
  * series by series. Work is not compared. REFUSED: the two have nothing in common. */
-status regressions_find(const results *former, const char *name, const sweep *, judgement *,
+status regressions_find(const stored_results *former, const char *name, const sweep *, judgement *,
                         fault *);
 
 #endif

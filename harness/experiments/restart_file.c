@@ -65,19 +65,19 @@ static void of_numbers(const double in[NUMBERS], outcome_end *e)
                        .scale = in[20]};
 }
 
-static void put_values(record *r, const char *name, size_t count, const double value[])
+static void put_values(record_file *r, const char *name, size_t count, const double value[])
 {
     const hsize_t size = count;
     H5Dclose(record_values(r, r->file, name, 1, &size, value, NULL));
 }
 
-static void put_text(record *r, const char *name, const char *text)
+static void put_text(record_file *r, const char *name, const char *text)
 {
     const hsize_t size = strlen(text);
     H5Dclose(record_array(r, r->file, name, H5T_NATIVE_CHAR, 1, &size, text));
 }
 
-static void put_ends(record *r, const solve_result *of)
+static void put_ends(record_file *r, const solve_result *of)
 {
     for (int i = 0; i < of->ends; i++) {
         char name[40];
@@ -94,7 +94,7 @@ status restart_write(const char *path, const solution_request *of, const sweep *
 {
     const solve_result *solved = &s->series[0].cell[0].solve;
     const double run[RUN] = {of->elements, of->keep_all, solved->ends};
-    record r;
+    record_file r;
     char *text;
     TRY(restart_text(&s->point[0].scene, &text, f));
     status outcome = record_open(&r, f);

@@ -33,15 +33,15 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
                      text);
 }
 
-typedef struct hand {
+typedef struct shard_hand {
     pid_t process;
     int from; /* -1: it does not run */
-} hand;
+} shard_hand;
 
 typedef struct crew {
     labour todo;
     shard_outcome *out;
-    hand hand[SHARD_MOST_JOBS];
+    shard_hand hand[SHARD_MOST_JOBS];
     int jobs, running;
     double cost, cost_done;
     progress line;
@@ -191,7 +191,7 @@ static status make_folder(const char *into, fault *f)
 /* What the shard still has to do goes to list, the dearest first; mine[batches]. */
 static status make_list(crew *c, char mine[], fault *f)
 {
-    const work *w = c->todo.w;
+    const shard_work *w = c->todo.w;
     stock s;
     status outcome = stock_take(w, &c->todo.request->into, 1, mine, c->todo.request->tell, &s, f);
     if (outcome == STATUS_OK)
@@ -216,7 +216,7 @@ static status make_list(crew *c, char mine[], fault *f)
 /* With what shard_run frees. */
 static status run(crew *c, int shard[], char mine[], fault *f)
 {
-    const work *w = c->todo.w;
+    const shard_work *w = c->todo.w;
     if (c->todo.list == NULL || shard == NULL || mine == NULL || c->todo.shelf == MAP_FAILED ||
         deal_out(w->batches, w->cost, c->todo.request->count, shard) != 0)
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
@@ -234,7 +234,7 @@ static status run(crew *c, int shard[], char mine[], fault *f)
     return c->todo.count > 0 ? run_crew(c, f) : STATUS_OK;
 }
 
-status shard_run(const work *w, const shard_request *request, shard_outcome *out, fault *f)
+status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f)
 {
     const size_t count = (size_t)w->batches + 1;
     int *shard = malloc(count * sizeof *shard);

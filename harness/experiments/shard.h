@@ -29,6 +29,6 @@ status shard_parse(const char *text, int *index, int *count, fault *f);
 /* Computes what is not there yet, the dearest batches first. A batch whose process ends without an
  * answer is lost alone: it is done when the shard is started again. REFUSED: the folder has batches
  * of another work. FAULT: disk, memory, or the batch itself: all ends, what is done stays. */
-status shard_run(const work *w, const shard_request *request, shard_outcome *out, fault *f);
+status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
 
 #endif

@@ -18,13 +18,13 @@ enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 static const double longer = 1.7 * 0.2385; /* [m] */
 
 /* Everything that an element says of one state. */
-typedef struct account {
+typedef struct call_account {
     status stress, inertia;
     double e[M], J[M * N], H[N * N], energy, sigma[M], C[M * M], residual, mass[N * N];
     double inner[SPECIMEN_INNER];
-} account;
+} call_account;
 
-static void tell(const specimen *s, const node_state x[], account *out)
+static void tell(const specimen *s, const node_state x[], call_account *out)
 {
     double weight[M];
     memset(out, 0, sizeof *out);
@@ -53,7 +53,7 @@ static int same_bits(size_t count, const double a[], const double b[])
 }
 
 /* The name of the first that is not the same bits, or NULL. */
-static const char *apart(const account *a, const account *b)
+static const char *apart(const call_account *a, const call_account *b)
 {
     const struct {
         const char *name;
@@ -72,7 +72,7 @@ static const char *apart(const account *a, const account *b)
     return a->stress != b->stress ? "stress: the status" : NULL;
 }
 
-static void same(const account *a, const account *b, const char *after, const specimen *s,
+static void same(const call_account *a, const call_account *b, const char *after, const specimen *s,
                  claim *one)
 {
     const char *other = apart(a, b);
@@ -84,12 +84,12 @@ static void same(const account *a, const account *b, const char *after, const sp
 
 /* Of another length, in memory of its own or in the place of the first, which is made again. Both
  * say what they say where nothing went before. */
-static void other_element(const specimen *s, const account *before, const node_state x[],
-                          const account *first, claim *one)
+static void other_element(const specimen *s, const call_account *before, const node_state x[],
+                          const call_account *first, claim *one)
 {
     specimen_request what = s->made;
     specimen other;
-    account between, after;
+    call_account between, after;
     fault f = {""};
     what.length = longer;
     if (specimen_make(&what, &other, &f) == STATUS_OK) {
@@ -102,10 +102,11 @@ static void other_element(const specimen *s, const account *before, const node_s
 }
 
 /* 0: it cannot be made again, and that is told. */
-static int in_its_place(const specimen *s, const account *before, const node_state x[], claim *one)
+static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
+                        claim *one)
 {
     element_request request = s->request;
-    account after;
+    call_account after;
     fault f = {""};
     char *kept = malloc(s->size);
     if (kept == NULL)
@@ -131,9 +132,9 @@ static int in_its_place(const specimen *s, const account *before, const node_sta
 }
 
 /* Each output alone is what it is together with the others. */
-static void alone(const specimen *s, const account *before, const node_state x[], claim *one)
+static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
-    account a = *before;
+    call_account a = *before;
     double weight[M], inner[SPECIMEN_INNER];
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
@@ -153,7 +154,8 @@ static void alone(const specimen *s, const account *before, const node_state x[]
 }
 
 /* The same state by two ways, with inner unknowns: straight from rest, and over another state. */
-static void two_ways(const specimen *s, const account *before, const node_state x[], claim *one)
+static void two_ways(const specimen *s, const call_account *before, const node_state x[],
+                     claim *one)
 {
     double e[M], inner[SPECIMEN_INNER], energy = NAN;
     node_state y[ELEMENT_MAX_NODES];
@@ -170,7 +172,7 @@ static void two_ways(const specimen *s, const account *before, const node_state 
                    before->energy, energy, s->words);
 }
 
-static void make_longer(const specimen *s, const node_state x[], account *out)
+static void make_longer(const specimen *s, const node_state x[], call_account *out)
 {
     specimen_request what = s->made;
     specimen other;
@@ -183,10 +185,10 @@ static void make_longer(const specimen *s, const node_state x[], account *out)
 
 /* What the first call of all says of the longer element: in a process of its own, where it is made
  * and nothing went before. */
-static void tell_first(const specimen *s, const node_state x[], account *out)
+static void tell_first(const specimen *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();
-    account *there =
+    call_account *there =
         mmap(NULL, sizeof *there, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (there == MAP_FAILED)
         return;
@@ -206,7 +208,7 @@ static void tell_first(const specimen *s, const node_state x[], account *out)
 
 static void check(const specimen *s, claims *c)
 {
-    account first = {0}, before, between, after;
+    call_account first = {0}, before, between, after;
     node_state x[ELEMENT_MAX_NODES], y[ELEMENT_MAX_NODES];
     claim *one = claims_open(c, "the same call gives the same bits", 0);
     specimen_state(s, 0.04, 41, x);

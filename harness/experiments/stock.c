@@ -21,7 +21,7 @@ status stock_path(const stock *s, int batch, char out[PATH_MAX], fault *f)
     return path_of(s->folder[s->where[batch]], name, out, f);
 }
 
-static status add_kind(stock *s, const node *of, fault *f)
+static status add_kind(stock *s, const machine *of, fault *f)
 {
     for (int i = 0; i < s->kinds; i++)
         if (node_same_kind(&s->kind[i].node, of)) {
@@ -67,7 +67,7 @@ static status add(stock *s, const batch_label *label, const char *path, int fold
 }
 
 /* It is called as batches of this work are. */
-static status look_inside(stock *s, const work *w, const char *path, int batch, int folder,
+static status look_inside(stock *s, const shard_work *w, const char *path, int batch, int folder,
                           FILE *tell, fault *f)
 {
     batch_label label;
@@ -90,7 +90,7 @@ static status look_inside(stock *s, const work *w, const char *path, int batch, 
 }
 
 /* Whose is it? Never that of this work. */
-static status refuse_other(const work *w, const char *path, fault *f)
+static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
     if (batch_read_label(path, &label, NULL) != STATUS_OK)
@@ -105,8 +105,8 @@ static status refuse_other(const work *w, const char *path, fault *f)
     return outcome;
 }
 
-static status look_at(stock *s, const work *w, const char *name, int folder, const char *wanted,
-                      FILE *tell, fault *f)
+static status look_at(stock *s, const shard_work *w, const char *name, int folder,
+                      const char *wanted, FILE *tell, fault *f)
 {
     char path[PATH_MAX];
     const int batch = batch_of_name(name, s->stem);
@@ -123,8 +123,8 @@ static status unreadable(const char *folder, fault *f)
                      strerror(errno));
 }
 
-static status look_through(stock *s, const work *w, int folder, const char *wanted, FILE *tell,
-                           fault *f)
+static status look_through(stock *s, const shard_work *w, int folder, const char *wanted,
+                           FILE *tell, fault *f)
 {
     status outcome = STATUS_OK;
     DIR *d = opendir(s->folder[folder]);
@@ -137,7 +137,7 @@ static status look_through(stock *s, const work *w, int folder, const char *want
     return outcome;
 }
 
-status stock_take(const work *w, const char *const folder[], int folders, const char *wanted,
+status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
                   FILE *tell, stock *out, fault *f)
 {
     *out = (stock){.batches = w->batches, .folder = folder, .folders = folders};
@@ -182,7 +182,7 @@ static void write_ranges(FILE *to, const stock *s)
 }
 
 /* Whose they are, when all shards are of one number. */
-static void write_shards(FILE *to, const stock *s, const work *w)
+static void write_shards(FILE *to, const stock *s, const shard_work *w)
 {
     int *shard = malloc(((size_t)s->batches + 1) * sizeof *shard);
     const char *before = " (shards ";
@@ -200,7 +200,7 @@ static void write_shards(FILE *to, const stock *s, const work *w)
     free(shard);
 }
 
-void stock_missing(const stock *s, const work *w, char *out, size_t size)
+void stock_missing(const stock *s, const shard_work *w, char *out, size_t size)
 {
     const int missing = s->batches - s->there;
     out[0] = '\0';

@@ -5,7 +5,7 @@
 #include "harness/experiments/batch.h"
 
 typedef struct stock_kind {
-    node node; /* the first of the kind */
+    machine node; /* the first of the kind */
     int batches;
 } stock_kind;
 
@@ -27,13 +27,13 @@ typedef struct stock {
  * REFUSED: a batch of another build, request or plan, a file that only is called like one, two
  * batches that differ. FAULT: a folder that cannot be read. stock_free frees it, also after a
  * failure. */
-status stock_take(const work *w, const char *const folder[], int folders, const char *wanted,
+status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
                   FILE *tell, stock *out, fault *f);
 void stock_free(stock *);
 /* Where a batch that is there is. */
 status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
 /* "3 of 149 batches are missing: 3, 7-12 (shards 2/4, 3/4)"; nothing where none is. */
-void stock_missing(const stock *, const work *, char *out, size_t size);
+void stock_missing(const stock *, const shard_work *, char *out, size_t size);
 /* A line for each kind of machine where there are several. */
 void stock_tell_kinds(const stock *, FILE *to);
 /* The first batch of a folder that can be read, by its name: what merge asks again. REFUSED: there

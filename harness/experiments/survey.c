@@ -16,15 +16,15 @@
 enum { LOOKED_AT = 9 };
 
 /* What the selection lets through. */
-typedef struct wanted {
+typedef struct survey_wanted {
     const char *select;
     select_words words;
     char formulation[RANGES_FORMULATIONS]; /* 1: it holds for one of its quantities */
     char runs[RANGES_FORMULATIONS];
     const char *missing[RANGES_FORMULATIONS]; /* what keeps it from the first point it fails at */
-} wanted;
+} survey_wanted;
 
-static status add_point(const ranges *r, long index, sweep *s, fault *f)
+static status add_point(const parameter_ranges *r, long index, sweep *s, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
     TRY(design_points(&r->design, index, 1, at, f));
@@ -34,7 +34,7 @@ static status add_point(const ranges *r, long index, sweep *s, fault *f)
 }
 
 /* A quantity of a scene that has one value. */
-static status add_quantity(ranges *r, const scene_quantity *q, fault *f)
+static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *f)
 {
     for (int i = 0; i < r->quantities; i++)
         if (strcmp(r->quantity[i].name, q->name) == 0)
@@ -49,10 +49,10 @@ static status add_quantity(ranges *r, const scene_quantity *q, fault *f)
 }
 
 /* Of one series: which quantities are asked for, and does it run? */
-static status look_at(ranges *r, const sweep *s, int index, wanted *w, fault *f)
+static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const int which = index % r->formulations;
     w->runs[which] |= one->missing[0] == '\0';
     if (one->missing[0] != '\0' && w->missing[which] == NULL)
@@ -78,7 +78,7 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-static status check_words(const wanted *w, const point *p, fault *f)
+static status check_words(const survey_wanted *w, const sweep_point *p, fault *f)
 {
     char word[SELECT_WORD];
     if (!select_unmet(w->select, &w->words, word))
@@ -92,7 +92,7 @@ static status check_words(const wanted *w, const point *p, fault *f)
 }
 
 /* Formulations that are named run, or are refused; of all those that do not run are left out. */
-static status keep_running(ranges *r, const wanted *w, fault *f)
+static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
 {
     int kept = 0, told = 0;
     for (int i = 0; i < r->formulations; i++) {
@@ -121,7 +121,7 @@ static status keep_running(ranges *r, const wanted *w, fault *f)
                            r->request.type->name);
 }
 
-static void take_meshes(ranges *r, const sweep *s)
+static void take_meshes(parameter_ranges *r, const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++)
         if (s->point[s->series[i].point].status == STATUS_OK) {
@@ -131,9 +131,9 @@ static void take_meshes(ranges *r, const sweep *s)
         }
 }
 
-static status judge(ranges *r, const sweep *s, fault *f)
+static status judge(parameter_ranges *r, const sweep *s, fault *f)
 {
-    wanted w = {.select = r->request.select};
+    survey_wanted w = {.select = r->request.select};
     int known = -1;
     TRY(select_begin(w.select, &w.words, f));
     for (int i = 0; i < s->seriess; i++)
@@ -152,7 +152,7 @@ static status judge(ranges *r, const sweep *s, fault *f)
 }
 
 /* All that there are, until it is seen which run. */
-static void take_formulations(ranges *r)
+static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;
     r->formulations = q->formulations;
@@ -177,7 +177,7 @@ static double cost_of(const sweep *s)
     return all;
 }
 
-static status survey_points(ranges *r, sweep *s, fault *f)
+static status survey_points(parameter_ranges *r, sweep *s, fault *f)
 {
     const long last = r->design.points - 1;
     const int looks = last + 1 < LOOKED_AT ? (int)last + 1 : LOOKED_AT;
@@ -191,7 +191,7 @@ static status survey_points(ranges *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-status survey(ranges *r, fault *f)
+status survey(parameter_ranges *r, fault *f)
 {
     sweep s = {0};
     const status outcome = survey_points(r, &s, f);

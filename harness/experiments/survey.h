@@ -8,6 +8,6 @@
 /* Fills formulations, meshes, quantities, left_out and point_cost from the scenes of the first, the
  * last and some points between. REFUSED: no scene can be built at any of them, no formulation runs,
  * the selection names nothing or holds for nothing. */
-status survey(ranges *r, fault *f);
+status survey(parameter_ranges *r, fault *f);
 
 #endif

@@ -10,11 +10,11 @@ static int least_of(long a, long b)
 }
 
 /* Places of an axis in the map, of at most so many. */
-static int places_of(const ranges *r, int index, int most)
+static int places_of(const parameter_ranges *r, int index, int most)
 {
     if (index >= r->design.axes)
         return 1;
-    const axis *a = &r->axis[index];
+    const sweep_axis *a = &r->axis[index];
     if (a->count > 0)
         return least_of(a->count, most);
     /* fields of some points each */
@@ -23,7 +23,7 @@ static int places_of(const ranges *r, int index, int most)
     return least_of((long)fmax(1, fields), most);
 }
 
-status tally_alloc(const ranges *r, tally *out, fault *f)
+status tally_alloc(const parameter_ranges *r, tally *out, fault *f)
 {
     const size_t cells = (size_t)r->formulations * (size_t)r->meshes,
                  row = (size_t)r->formulations * (size_t)(r->quantities + 1);
@@ -70,7 +70,7 @@ const tally_place *tally_at(const tally *t, int which, int quantity, int line, i
 
 double tally_edge(const tally *t, int axis_index, int place)
 {
-    const axis *a = &t->of->axis[axis_index];
+    const sweep_axis *a = &t->of->axis[axis_index];
     const int places = axis_index == 0 ? t->columns : t->lines;
     if (a->count > 0)
         return axis_value(a, (int)(((long)place * a->count + places - 1) / places));
@@ -84,7 +84,7 @@ static int place_of(const tally *t, int axis_index, double value)
     int low = 0;
     if (axis_index >= t->of->design.axes)
         return 0;
-    const axis *a = &t->of->axis[axis_index];
+    const sweep_axis *a = &t->of->axis[axis_index];
     if (a->value != NULL) {
         while (low < a->count - 1 && a->value[low] != value)
             low++;

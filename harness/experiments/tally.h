@@ -35,7 +35,7 @@ typedef struct tally_place {
 } tally_place;
 
 typedef struct tally {
-    const ranges *of;
+    const parameter_ranges *of;
     long points, without_scene, first_without; /* index of the first such point */
     long kind[RANGES_QUANTITIES][ROWS_REFERENCES];
     double doubt[RANGES_QUANTITIES];  /* the largest */
@@ -52,7 +52,7 @@ typedef struct tally {
 } tally;
 
 /* FAULT: out of memory. tally_free frees it, also after a failure. */
-status tally_alloc(const ranges *r, tally *out, fault *f);
+status tally_alloc(const parameter_ranges *r, tally *out, fault *f);
 void tally_free(tally *);
 /* Points from `first` on, each once, in their order. */
 status tally_add(tally *, long first, const rows *, fault *f);

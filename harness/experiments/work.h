@@ -10,7 +10,7 @@
 
 /* All of it depends on the request and the build alone: two processes that never met say the same.
  */
-typedef struct work {
+typedef struct shard_work {
     const char *verb;
     /* one line each: the program, what it was asked, and all that its answers depend on; batches
      * belong together where all three are equal */
@@ -25,6 +25,6 @@ typedef struct work {
     status (*run)(void *context, int batch, FILE *to, digest *content, fault *f);
     /* In canonical order, each batch once. FAULT: it cannot be read. */
     status (*take)(void *context, int batch, FILE *from, fault *f);
-} work;
+} shard_work;
 
 #endif

@@ -15,7 +15,7 @@ static void write_text(FILE *to, const void *text)
 }
 
 /* The scene of a point as a text, which the caller frees; "" where no file can say it. */
-static status text_of(const ranges *r, long index, char **text, fault *f)
+static status text_of(const parameter_ranges *r, long index, char **text, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];
     char where[FAULT_TEXT], summary[2 * FAULT_TEXT];

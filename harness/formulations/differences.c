@@ -7,15 +7,15 @@
 #include "harness/formulations/stencil.h"
 
 /* Where differences are taken. */
-typedef struct place {
+typedef struct difference_place {
     const element_data *data;
     const node_state *x;
     const double *s;                /* for second derivatives */
     differences_jacobian *jacobian; /* of the strains, where there is one */
     gather *together;               /* strains of all moved states at once; NULL: each by itself */
-} place;
+} difference_place;
 
-static void moved(const place *at, int i, double si, int j, double sj, node_state out[])
+static void moved(const difference_place *at, int i, double si, int j, double sj, node_state out[])
 {
     double step[ELEMENT_MAX_COORDINATES] = {0};
     step[i] += si * chart_unit(i, at->data->length);
@@ -34,7 +34,7 @@ static void copy_answer(const double *answer, int count, double values[])
 
 static int strains_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const difference_place *at = context;
     node_state x[ELEMENT_MAX_NODES];
     if (at->together == NULL || !at->together->answered)
         moved(at, i, si, j, sj, x);
@@ -48,7 +48,7 @@ static int strains_at(const void *context, int i, double si, int j, double sj, d
 /* s.e, whose second derivative is H. */
 static int work_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const difference_place *at = context;
     double e[ELEMENT_MAX_STRAINS];
     strains_at(context, i, si, j, sj, e);
     values[0] = 0;
@@ -60,7 +60,7 @@ static int work_at(const void *context, int i, double si, int j, double sj, doub
 /* J^T s. */
 static int forces_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const difference_place *at = context;
     const int n = NODE_COORDINATES * at->data->nodes;
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     node_state x[ELEMENT_MAX_NODES];
@@ -84,7 +84,7 @@ static double per_unit(const element_data *d, int c)
     return 1 / chart_unit(c, d->length);
 }
 
-static void first(const place *at, double J[])
+static void first(const difference_place *at, double J[])
 {
     const element_data *d = at->data;
     const int n = NODE_COORDINATES * d->nodes;
@@ -96,7 +96,7 @@ static void first(const place *at, double J[])
     }
 }
 
-static void second(const place *at, double H[])
+static void second(const difference_place *at, double H[])
 {
     const element_data *d = at->data;
     const int n = NODE_COORDINATES * d->nodes;
@@ -108,7 +108,7 @@ static void second(const place *at, double H[])
         }
 }
 
-static void curvature(const place *at, double H[])
+static void curvature(const difference_place *at, double H[])
 {
     const element_data *d = at->data;
     const int n = NODE_COORDINATES * d->nodes;
@@ -127,7 +127,7 @@ static void curvature(const place *at, double H[])
 void differences_curvature(const element_data *d, const node_state x[],
                            differences_jacobian *jacobian, const double s[], double H[])
 {
-    curvature(&(place){.data = d, .x = x, .s = s, .jacobian = jacobian}, H);
+    curvature(&(difference_place){.data = d, .x = x, .s = s, .jacobian = jacobian}, H);
 }
 
 static void given_jacobian(const element_data *d, const node_state x[], double J[])
@@ -159,7 +159,7 @@ static strain_output given_part(const element_data *d, const strain_output *out)
 static void made_part(const element_data *d, const node_state x[], gather *together,
                       const strain_output *out)
 {
-    const place at = {
+    const difference_place at = {
         .data = d, .x = x, .s = out->s, .jacobian = given_jacobian, .together = together};
     if (leaves_j(d) && out->J != NULL)
         first(&at, out->J);

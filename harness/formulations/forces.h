@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_FORCES_H
 #define BEAMWORK_FORCES_H
 
-#include "harness/formulations/adapted.h"
+#include "elements/element.h"
 #include "harness/formulations/gather.h"
 
 /* Of the type itself; with `together`, of the answers gathered there, and zero while states are. */

@@ -38,20 +38,20 @@ static const char *const keys[] = {"beamwork", "name",           "summary", "sou
                                    "offers",   "gives",          "strains", "nodes",  "order",
                                    "limits",   "shear_theories", "options", "inertia"};
 
-typedef struct reading {
+typedef struct handshake_reading {
     const char *who;
     json_t *said;
     fault *f;
-} reading;
+} handshake_reading;
 
-static status refuse(const reading *r, const char *key, const char *what)
+static status refuse(const handshake_reading *r, const char *key, const char *what)
 {
     return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' of its first line: %.120s", r->who, key,
                      what);
 }
 
 /* A text that stays when the JSON goes. */
-static status text_of(const reading *r, const char *key, const char **out)
+static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));
     if (text == NULL || text[0] == '\0')
@@ -63,7 +63,7 @@ static status text_of(const reading *r, const char *key, const char **out)
     return *out != NULL ? STATUS_OK : fault_set(r->f, STATUS_FAULT, "out of memory");
 }
 
-static status name_of(const reading *r, const char **out)
+static status name_of(const handshake_reading *r, const char **out)
 {
     TRY(text_of(r, "name", out));
     const size_t length = strlen(*out);
@@ -80,7 +80,7 @@ static unsigned bit_of(const word_bit list[], const char *word)
     return list == NULL ? feature_named(word) : 0;
 }
 
-static status no_such_word(const reading *r, const char *key, const word_bit known[],
+static status no_such_word(const handshake_reading *r, const char *key, const word_bit known[],
                            const char *word)
 {
     char words[260] = "";
@@ -96,7 +96,8 @@ static status no_such_word(const reading *r, const char *key, const word_bit kno
 }
 
 /* The sum of the bits of a list of words; known NULL: words of feature.h. */
-static status words_of(const reading *r, const char *key, const word_bit known[], unsigned *out)
+static status words_of(const handshake_reading *r, const char *key, const word_bit known[],
+                       unsigned *out)
 {
     const json_t *list = json_object_get(r->said, key);
     *out = 0;
@@ -113,8 +114,8 @@ static status words_of(const reading *r, const char *key, const word_bit known[]
 }
 
 /* A whole number; `absent` where there is none. */
-static status number_of(const reading *r, const char *key, int least, int most, int absent,
-                        int *out)
+static status number_of(const handshake_reading *r, const char *key, int least, int most,
+                        int absent, int *out)
 {
     const json_t *value = json_object_get(r->said, key);
     const json_int_t number = json_integer_value(value);
@@ -127,7 +128,7 @@ static status number_of(const reading *r, const char *key, int least, int most, 
     return STATUS_OK;
 }
 
-static status orders_of(const reading *r, element_order out[])
+static status orders_of(const handshake_reading *r, element_order out[])
 {
     static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
     const json_t *order = json_object_get(r->said, "order");
@@ -150,7 +151,7 @@ static status orders_of(const reading *r, element_order out[])
     return STATUS_OK;
 }
 
-static status gives_of(const reading *r, handshake *out)
+static status gives_of(const handshake_reading *r, handshake *out)
 {
     const char *words = json_string_value(json_object_get(r->said, "gives"));
     for (size_t i = 0; words != NULL && i < sizeof gives / sizeof gives[0]; i++)
@@ -163,7 +164,7 @@ static status gives_of(const reading *r, handshake *out)
 }
 
 /* Of its own: in vibration and in frames that turn, or in motions in time too. */
-static status inertia_of(const reading *r, handshake *out)
+static status inertia_of(const handshake_reading *r, handshake *out)
 {
     const json_t *given = json_object_get(r->said, "inertia");
     const char *word = json_string_value(given);
@@ -180,7 +181,7 @@ static status inertia_of(const reading *r, handshake *out)
     return STATUS_OK;
 }
 
-static status only_known_keys(const reading *r)
+static status only_known_keys(const handshake_reading *r)
 {
     const char *key;
     json_t *value;
@@ -195,7 +196,7 @@ static status only_known_keys(const reading *r)
     return STATUS_OK;
 }
 
-static status protocol_of(const reading *r)
+static status protocol_of(const handshake_reading *r)
 {
     const json_t *number = json_object_get(r->said, "beamwork");
     if (json_is_integer(number) && json_integer_value(number) == PROCESS_PROTOCOL)
@@ -207,7 +208,7 @@ static status protocol_of(const reading *r)
                      PROCESS_PROTOCOL);
 }
 
-static status read_all(const reading *r, handshake *out)
+static status read_all(const handshake_reading *r, handshake *out)
 {
     element_type *t = &out->type;
     TRY(protocol_of(r));
@@ -245,7 +246,7 @@ void handshake_free(element_type *t)
 status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f)
 {
     json_error_t why;
-    const reading r = {who, json_loadb(line, length, JSON_REJECT_DUPLICATES, &why), f};
+    const handshake_reading r = {who, json_loadb(line, length, JSON_REJECT_DUPLICATES, &why), f};
     *out = (handshake){.type = {.abi = ELEMENT_ABI, .size = sizeof(element_type)}};
     if (!json_is_object(r.said)) {
         json_decref(r.said);

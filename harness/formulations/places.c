@@ -1,4 +1,5 @@
 #include "harness/formulations/places.h"
+#include "harness/formulations/adapted.h"
 
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #ifndef BEAMWORK_PLACES_H
 #define BEAMWORK_PLACES_H
 
-#include "harness/formulations/adapted.h"
+#include "elements/element.h"
 
 enum { PLACES_MOST = 6 * (ELEMENT_MAX_NODES - 1) + ELEMENT_MAX_NODES };
 

@@ -4,19 +4,20 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "harness/formulations/adapted.h"
 #include "harness/formulations/forces.h"
 #include "harness/formulations/places.h"
 #include "harness/formulations/stencil.h"
 
 /* Where differences of energies and forces are taken. */
-typedef struct place {
+typedef struct relative_place {
     const element_data *data;
     const double *e;
     const double *F;  /* of the nodes, held while the strains move */
     gather *together; /* forces of all moved states at once; NULL: each by itself */
-} place;
+} relative_place;
 
-static void moved(const place *at, int i, double si, int j, double sj, double e[])
+static void moved(const relative_place *at, int i, double si, int j, double sj, double e[])
 {
     memcpy(e, at->e, (size_t)at->data->strains * sizeof *e);
     e[i] += si * at->data->length;
@@ -25,7 +26,7 @@ static void moved(const place *at, int i, double si, int j, double sj, double e[
 
 static int energy_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const relative_place *at = context;
     double e[PLACES_MOST];
     node_state x[ELEMENT_MAX_NODES];
     moved(at, i, si, j, sj, e);
@@ -33,12 +34,12 @@ static int energy_at(const void *context, int i, double si, int j, double sj, do
     return (int)forces_of(at->data, at->together, x, &(force_output){.energy = values});
 }
 
-static status stresses_of(const place *at, double energy[], double sigma[]);
+static status stresses_of(const relative_place *at, double energy[], double sigma[]);
 
 static int stresses_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     double e[PLACES_MOST];
-    place there = *(const place *)context;
+    relative_place there = *(const relative_place *)context;
     moved(context, i, si, j, sj, e);
     there.e = e;
     return (int)stresses_of(&there, NULL, values);
@@ -47,7 +48,7 @@ static int stresses_at(const void *context, int i, double si, int j, double sj, 
 /* B^T F with the forces held. */
 static int carried_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const place *at = context;
+    const relative_place *at = context;
     const int m = at->data->strains;
     double e[PLACES_MOST], B[ELEMENT_MAX_COORDINATES * PLACES_MOST];
     moved(at, i, si, j, sj, e);
@@ -57,7 +58,7 @@ static int carried_at(const void *context, int i, double si, int j, double sj, d
     return 0;
 }
 
-static status energy_differences(const place *at, double energy[], double sigma[])
+static status energy_differences(const relative_place *at, double energy[], double sigma[])
 {
     const element_data *d = at->data;
     double now;
@@ -71,7 +72,7 @@ static status energy_differences(const place *at, double energy[], double sigma[
     return (status)outcome;
 }
 
-static status stresses_of(const place *at, double energy[], double sigma[])
+static status stresses_of(const relative_place *at, double energy[], double sigma[])
 {
     const element_data *d = at->data;
     if (d->given->leaves & LEAVES_FORCE)
@@ -96,7 +97,8 @@ static void make_symmetric(int m, double C[])
 }
 
 /* C += d f/d e, f [strains]. */
-static int add_columns(const element_data *d, stencil_function *f, const place *at, double C[])
+static int add_columns(const element_data *d, stencil_function *f, const relative_place *at,
+                       double C[])
 {
     const int m = d->strains;
     double column[PLACES_MOST];
@@ -110,14 +112,14 @@ static int add_columns(const element_data *d, stencil_function *f, const place *
 }
 
 /* B^T K B, and what B turns of the forces. */
-static status given_tangent(const place *here, double C[])
+static status given_tangent(const relative_place *here, double C[])
 {
     const element_data *d = here->data;
     const int n = NODE_COORDINATES * d->nodes, m = d->strains;
     double F[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     double B[ELEMENT_MAX_COORDINATES * PLACES_MOST], work[ELEMENT_MAX_COORDINATES * PLACES_MOST];
     node_state x[ELEMENT_MAX_NODES];
-    const place at = {.data = d, .e = here->e, .F = F};
+    const relative_place at = {.data = d, .e = here->e, .F = F};
     places_nodes(d, here->e, x);
     TRY(forces_of(d, here->together, x, &(force_output){.F = F, .K = K}));
     places_motion(d, here->e, B);
@@ -125,7 +127,7 @@ static status given_tangent(const place *here, double C[])
     return (status)add_columns(d, carried_at, &at, C);
 }
 
-static status second_energies(const element_data *d, const place *at, double C[])
+static status second_energies(const element_data *d, const relative_place *at, double C[])
 {
     const int m = d->strains;
     int outcome = 0;
@@ -138,7 +140,7 @@ static status second_energies(const element_data *d, const place *at, double C[]
     return (status)outcome;
 }
 
-static status tangent_of(const place *at, double C[])
+static status tangent_of(const relative_place *at, double C[])
 {
     const element_data *d = at->data;
     memset(C, 0, (size_t)(d->strains * d->strains) * sizeof *C);
@@ -150,7 +152,7 @@ static status tangent_of(const place *at, double C[])
     return STATUS_OK;
 }
 
-static status stress_at(const place *at, stress_output *out)
+static status stress_at(const relative_place *at, stress_output *out)
 {
     if (out->residual != NULL)
         *out->residual = 0;
@@ -160,30 +162,30 @@ static status stress_at(const place *at, stress_output *out)
 }
 
 /* Of many elements. */
-typedef struct many {
+typedef struct relative_many {
     const element_data *const *data;
     const double *const *e;
     stress_output *out;
     status *outcome;
-} many;
+} relative_many;
 
 static void stress_of_one(void *context, gather *together, int i)
 {
-    const many *all = context;
-    const place at = {.data = all->data[i], .e = all->e[i], .together = together};
+    const relative_many *all = context;
+    const relative_place at = {.data = all->data[i], .e = all->e[i], .together = together};
     all->outcome[i] = stress_at(&at, &all->out[i]);
 }
 
 static void evaluate_states(void *context, gather *g, int first, int count)
 {
-    const many *all = context;
+    const relative_many *all = context;
     forces_evaluate(all->data[0]->given, g, first, count);
 }
 
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[])
 {
-    many all = {data, e, out, outcome};
+    relative_many all = {data, e, out, outcome};
     (void)inner;
     if (count == 0)
         return;
@@ -193,7 +195,7 @@ void relative_stress_many(int count, const element_data *const data[], const dou
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out)
 {
-    const place at = {.data = d, .e = e};
+    const relative_place at = {.data = d, .e = e};
     status outcome;
     if (d->given->force_many == NULL)
         return stress_at(&at, out);
@@ -224,7 +226,7 @@ static status flexible(int m, double C[], const double sigma[], double e[])
 static int tangent_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     double e[PLACES_MOST];
-    place there = *(const place *)context;
+    relative_place there = *(const relative_place *)context;
     (void)i;
     (void)j;
     for (int k = 0; k < there.data->strains; k++)
@@ -235,7 +237,7 @@ static int tangent_at(const void *context, int i, double si, int j, double sj, d
 
 /* The tangent at e, or its change along e. */
 typedef struct tangents {
-    many all; /* one */
+    relative_many all; /* one */
     double *C;
     status outcome;
 } tangents;
@@ -243,14 +245,14 @@ typedef struct tangents {
 static void tangent_there(void *context, gather *together, int i)
 {
     tangents *t = context;
-    const place at = {.data = t->all.data[i], .e = t->all.e[i], .together = together};
+    const relative_place at = {.data = t->all.data[i], .e = t->all.e[i], .together = together};
     t->outcome = tangent_of(&at, t->C);
 }
 
 static void tangent_change(void *context, gather *together, int i)
 {
     tangents *t = context;
-    const place at = {.data = t->all.data[i], .e = t->all.e[i], .together = together};
+    const relative_place at = {.data = t->all.data[i], .e = t->all.e[i], .together = together};
     t->outcome =
         (status)stencil_first(tangent_at, &at, at.data->strains * at.data->strains, 0, t->C);
 }

@@ -58,7 +58,7 @@ static status prepare(study *s, const char *names, const char *meshes, const cha
 static status write(study *s, char **json, fault *f)
 {
     const sweep_request request = {.jobs = s->jobs, .stop = s->stop};
-    text t;
+    document_text t;
     TRY(run_sweep(&request, &s->sweep, f));
     TRY(contestants_finished(&s->sweep, f));
     TRY(families_add_truths(&s->sweep, 0, &s->truths, f));

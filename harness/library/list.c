@@ -22,7 +22,7 @@ static status list_of(const char *name, char **json, fault *f)
 {
     list_subject what;
     truths ledger = {0};
-    text t;
+    document_text t;
     if (json == NULL)
         return fault_set(f, STATUS_REFUSED, "bw_list: give a place for the text");
     *json = NULL;

@@ -9,7 +9,7 @@
 
 static status write_json(const bw_result *r, char **json, fault *f)
 {
-    text t;
+    document_text t;
     if (json != NULL)
         *json = NULL;
     if (r == NULL || json == NULL)

@@ -47,7 +47,7 @@ bw_status bw_scene_case(const char *name, bw_scene **out, char **why)
 /* All of them, as JSON. */
 static void tell(const mistakes *m, call *c)
 {
-    text t;
+    document_text t;
     fault f;
     if (m->count > 0 && text_begin(&t, &f) == STATUS_OK)
         text_end(&t, mistakes_json(m, t.to, &f), &c->text, &f);
@@ -131,7 +131,7 @@ static status write_list(FILE *to, const bw_scene *handle, fault *f)
 static status document(const bw_scene *s, char **out, const char *what,
                        status (*write)(FILE *, const bw_scene *, fault *), fault *f)
 {
-    text t;
+    document_text t;
     if (out != NULL)
         *out = NULL;
     if (s == NULL || out == NULL)

@@ -7,14 +7,14 @@ static status lost(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a document");
 }
 
-status text_begin(text *t, fault *f)
+status text_begin(document_text *t, fault *f)
 {
-    *t = (text){0};
+    *t = (document_text){0};
     t->to = open_memstream(&t->bytes, &t->size);
     return t->to != NULL ? STATUS_OK : lost(f);
 }
 
-status text_end(text *t, status written, char **out, fault *f)
+status text_end(document_text *t, status written, char **out, fault *f)
 {
     const int failed = fclose(t->to) != 0;
     *out = NULL;

@@ -6,14 +6,14 @@
 
 #include "elements/shared/status.h"
 
-typedef struct text {
+typedef struct document_text {
     FILE *to; /* what is written there becomes the text */
     char *bytes;
     size_t size;
-} text;
+} document_text;
 
-status text_begin(text *, fault *f);
+status text_begin(document_text *, fault *f);
 /* *out: malloced, or NULL where `written` or the end of writing failed. */
-status text_end(text *, status written, char **out, fault *f);
+status text_end(document_text *, status written, char **out, fault *f);
 
 #endif

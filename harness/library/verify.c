@@ -19,7 +19,7 @@
 enum { TIME_LIMIT = 120 /* [s] of a cell */, LONGEST = 1000000, DOUBLINGS = 10, PICTURES = 5 };
 
 /* What is asked, and what answers it; verify frees it. */
-typedef struct trial {
+typedef struct verify_trial {
     const bw_scene *scene;
     const char *results;
     sweep_request request;
@@ -27,13 +27,13 @@ typedef struct trial {
     formulation formulation[CONTESTANTS_MOST];
     json_t *kept;
     const char *former_path; /* of results that this run may not be worse than; NULL: none */
-    results former;
+    stored_results former;
     truths truths;
     sweep sweep;
     judgement judgement;
-} trial;
+} verify_trial;
 
-static status read_truths(trial *v, fault *f)
+static status read_truths(verify_trial *v, fault *f)
 {
     if (v->scene == NULL)
         return known_read_all(&v->truths, f);
@@ -42,7 +42,7 @@ static status read_truths(trial *v, fault *f)
     return file != NULL ? scene_truths_add_all(file, &v->truths, f) : STATUS_OK;
 }
 
-static status read_former(trial *v, fault *f)
+static status read_former(verify_trial *v, fault *f)
 {
     known_lock();
     const status outcome = results_read(v->former_path, &v->former, f);
@@ -50,7 +50,7 @@ static status read_former(trial *v, fault *f)
     return outcome;
 }
 
-static status prepare(trial *v, const char *names, const char *options, fault *f)
+static status prepare(verify_trial *v, const char *names, const char *options, fault *f)
 {
     sweep_request *r = &v->request;
     const call_option table[] = {{"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
@@ -61,7 +61,7 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
                                  {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},
                                  {"not_worse_than", OPTION_WORDS, &v->former_path, 0, 0},
                                  {.name = NULL}};
-    place where;
+    file_place where;
     TRY(options_read(options, table, &v->kept, f));
     TRY(contestants_parse(names, v->formulation, &r->formulations, &r->named, f));
     r->formulation = v->formulation;
@@ -78,7 +78,7 @@ static status prepare(trial *v, const char *names, const char *options, fault *f
     return read_truths(v, f);
 }
 
-static status judge(trial *v, fault *f)
+static status judge(verify_trial *v, fault *f)
 {
     const sweep_request *r = &v->request;
     const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
@@ -94,7 +94,7 @@ static status judge(trial *v, fault *f)
     return outcome;
 }
 
-static status keep(const trial *v, const environment *e, fault *f)
+static status keep(const verify_trial *v, const environment *e, fault *f)
 {
     if (v->results == NULL)
         return STATUS_OK;
@@ -104,9 +104,9 @@ static status keep(const trial *v, const environment *e, fault *f)
     return outcome;
 }
 
-static status answer(trial *v, char **json, fault *f)
+static status answer(verify_trial *v, char **json, fault *f)
 {
-    text t;
+    document_text t;
     TRY(judge(v, f));
     const environment e = environment_now(v->request.jobs);
     TRY(keep(v, &e, f));
@@ -114,7 +114,7 @@ static status answer(trial *v, char **json, fault *f)
     return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->judgement, &e, NULL, f), json, f);
 }
 
-static status verify(trial *v, const char *names, const char *options, char **json, fault *f)
+static status verify(verify_trial *v, const char *names, const char *options, char **json, fault *f)
 {
     if (json == NULL)
         return fault_set(f, STATUS_REFUSED, "bw_verify: give a place for the text");
@@ -135,8 +135,9 @@ bw_status bw_verify(const bw_scene *from, const char *formulations, const char *
 {
     call c;
     call_begin(&c, why);
-    trial v = {.scene = from,
-               .results = into,
-               .request = {.select = select, .jobs = contestants_jobs(), .time_limit = TIME_LIMIT}};
+    verify_trial v = {
+        .scene = from,
+        .results = into,
+        .request = {.select = select, .jobs = contestants_jobs(), .time_limit = TIME_LIMIT}};
     return call_end(&c, verify(&v, formulations, options, json, &c.fault));
 }

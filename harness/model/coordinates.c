@@ -95,11 +95,11 @@ static void number_release(model *m, int index)
 
 /* How many coordinates are held, and how many of them because they leave the plane; vertices that
  * nothing reaches. */
-typedef struct tally {
+typedef struct coordinates_tally {
     int held, across, unused;
-} tally;
+} coordinates_tally;
 
-static void number_vertex(model *m, int index, int pass, int used, tally *of)
+static void number_vertex(model *m, int index, int pass, int used, coordinates_tally *of)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
@@ -129,7 +129,7 @@ static void number_vertex(model *m, int index, int pass, int used, tally *of)
     }
 }
 
-static status number_vertices(model *m, tally *of, fault *f)
+static status number_vertices(model *m, coordinates_tally *of, fault *f)
 {
     char *used = calloc((size_t)m->mesh.vertices, 1);
     if (used == NULL)
@@ -214,7 +214,7 @@ static int fixed_warps(const model *m, int *absent)
 }
 
 /* What is not a coordinate, in lines. */
-static status note_left_out(model *m, const tally *of, fault *f)
+static status note_left_out(model *m, const coordinates_tally *of, fault *f)
 {
     int absent = 0, attached = 0;
     for (int i = 0; i < m->scene->nodes; i++)
@@ -241,7 +241,7 @@ static status note_left_out(model *m, const tally *of, fault *f)
 
 status coordinates_number(model *m, fault *f)
 {
-    tally of = {0, 0, 0};
+    coordinates_tally of = {0, 0, 0};
     for (int i = 0; i < m->scene->drivers; i++)
         m->mesh.driver_coordinate[i] = NONE;
     TRY(number_vertices(m, &of, f));

@@ -5,35 +5,36 @@
 #include <string.h>
 
 /* A place of a member at which pieces meet. */
-typedef struct cut {
+typedef struct division_cut {
     int member;
     double place;
-} cut;
+} division_cut;
 
 static int in_order(const void *a, const void *b)
 {
-    const cut *p = a, *q = b;
+    const division_cut *p = a, *q = b;
     if (p->member != q->member)
         return p->member < q->member ? -1 : 1;
     return (p->place > q->place) - (p->place < q->place);
 }
 
 /* All of the loads, in order; returns how many. */
-static int list_cuts(const scene *s, cut out[])
+static int list_cuts(const scene *s, division_cut out[])
 {
     int count = 0;
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
         for (int k = 0; k < 2 && scene_load_along(load); k++)
             if (load->range[k] > 0 && load->range[k] < 1)
-                out[count++] = (cut){load->where, load->range[k]};
+                out[count++] = (division_cut){load->where, load->range[k]};
     }
     qsort(out, (size_t)count, sizeof *out, in_order);
     return count;
 }
 
 /* The places of one member, from its cuts on; returns how many cuts those are. */
-static int place_pieces(int member, const cut cuts[], int count, double place[], int *pieces)
+static int place_pieces(int member, const division_cut cuts[], int count, double place[],
+                        int *pieces)
 {
     int used = 0;
     *pieces = 0;
@@ -49,7 +50,7 @@ static int place_pieces(int member, const cut cuts[], int count, double place[],
 status division_make(const scene *s, int elements, division *out, fault *f)
 {
     const size_t members = (size_t)s->members, most = 2 * (size_t)s->loads;
-    cut *cuts = malloc((most + 1) * sizeof *cuts);
+    division_cut *cuts = malloc((most + 1) * sizeof *cuts);
     out->first = malloc((members + 1) * sizeof *out->first);
     out->each = malloc((members + 1) * sizeof *out->each);
     out->place = malloc((2 * members + most + 1) * sizeof *out->place);

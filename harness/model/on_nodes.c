@@ -9,12 +9,12 @@
 
 enum { MOST_NAMES = 6 };
 
-typedef struct words {
+typedef struct nodes_words {
     char *text;
     size_t room, used;
-} words;
+} nodes_words;
 
-__attribute__((format(printf, 2, 3))) static void put(words *w, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void put(nodes_words *w, const char *format, ...)
 {
     va_list arguments;
     if (w->used >= w->room)
@@ -24,7 +24,7 @@ __attribute__((format(printf, 2, 3))) static void put(words *w, const char *form
     va_end(arguments);
 }
 
-static void put_loads(words *w, const scene *s)
+static void put_loads(nodes_words *w, const scene *s)
 {
     int count = 0;
     for (int i = 0; i < s->loads; i++)
@@ -64,7 +64,8 @@ static int is_lumped(const scene *s, const scene_analysis *a)
     return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a));
 }
 
-static int put_masses(words *w, const scene *s, const element_type *type, const double options[])
+static int put_masses(nodes_words *w, const scene *s, const element_type *type,
+                      const double options[])
 {
     int count = 0;
     for (int i = 0; i < s->analyses; i++) {
@@ -85,7 +86,7 @@ static int put_masses(words *w, const scene *s, const element_type *type, const 
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room)
 {
-    words w = {text, room, 0};
+    nodes_words w = {text, room, 0};
     text[0] = '\0';
     put_loads(&w, s);
     if (w.used > 0)

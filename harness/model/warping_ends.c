@@ -10,15 +10,15 @@
 enum { HELD, SHARED, FREE, STATES };
 enum { MOST_NAMES = 8 };
 
-typedef struct tally {
+typedef struct ends_tally {
     int of[STATES], all; /* ends of members that warp */
-} tally;
+} ends_tally;
 
-typedef struct ends {
+typedef struct held_ends {
     const scene *scene;
     const scene *other; /* NULL: all; else those that this one leaves free and the scene does not */
-    tally *node;
-} ends;
+    ends_tally *node;
+} held_ends;
 
 static int warp_of(const scene *s, int member, int end)
 {
@@ -35,7 +35,7 @@ static int warps(const scene *s, int member, int end)
 }
 
 /* HELD, SHARED or FREE; STATES: not asked for. */
-static int state_of(const ends *e, int member, int end)
+static int state_of(const held_ends *e, int member, int end)
 {
     const int warp = warp_of(e->scene, member, end);
     if (!warps(e->scene, member, end) ||
@@ -46,19 +46,19 @@ static int state_of(const ends *e, int member, int end)
 }
 
 /* The names of one state after the other. */
-typedef struct words {
+typedef struct ends_words {
     char *text;
     size_t room, used;
     int names; /* of the state */
-} words;
+} ends_words;
 
-static void put(words *w, const char *before, const char *text)
+static void put(ends_words *w, const char *before, const char *text)
 {
     if (w->used < w->room)
         w->used += (size_t)snprintf(w->text + w->used, w->room - w->used, "%s%s", before, text);
 }
 
-static void add(words *w, const char *text)
+static void add(ends_words *w, const char *text)
 {
     if (w->names > 0 && w->names < MOST_NAMES)
         put(w, ", ", text);
@@ -68,7 +68,7 @@ static void add(words *w, const char *text)
 }
 
 /* The node where all of its ends are in this state, else each of them. */
-static void add_node(const ends *e, int node, int state, words *out)
+static void add_node(const held_ends *e, int node, int state, ends_words *out)
 {
     const scene *s = e->scene;
     const scene_words where = scene_name(s, SCENE_NODES, node);
@@ -87,7 +87,7 @@ static void add_node(const ends *e, int node, int state, words *out)
     }
 }
 
-static void write_ends(const ends *e, words *out)
+static void write_ends(const held_ends *e, ends_words *out)
 {
     static const char *const word[STATES] = {"held at ", "shared at ", "free at "};
     for (int state = 0; state < STATES; state++) {
@@ -110,8 +110,8 @@ static void write_ends(const ends *e, words *out)
 
 static void tell(const scene *s, const scene *other, char *text, size_t room)
 {
-    ends e = {s, other, NULL};
-    words out = {text, room, 0, 0};
+    held_ends e = {s, other, NULL};
+    ends_words out = {text, room, 0, 0};
     text[0] = '\0';
     if (!(features_needed(s) & FEATURE_WARPING))
         return;

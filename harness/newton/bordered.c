@@ -9,7 +9,7 @@
 #include "harness/newton/refinement.h"
 #include "harness/newton/stiffness_parts.h"
 
-status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f)
+status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
 {
     const border *b = &t->border;
     const size_t all = (size_t)t->all + 1;
@@ -43,7 +43,7 @@ void bordered_free(bordered *s)
 }
 
 /* What is released, and what it takes from a solution without it. */
-static void add_released(const tangent *t, const bordered *s, double x[])
+static void add_released(const node_tangent *t, const bordered *s, double x[])
 {
     const border *b = &t->border;
     double z[TANGENT_BORDER];
@@ -57,7 +57,7 @@ static void add_released(const tangent *t, const bordered *s, double x[])
     }
 }
 
-void bordered_solve(tangent *t, counters *n, const bordered *s, int columns, double x[])
+void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[])
 {
     factor_solve_many(t->factor, columns, t->all, x);
     n->solutions += columns;
@@ -66,7 +66,7 @@ void bordered_solve(tangent *t, counters *n, const bordered *s, int columns, dou
 }
 
 /* rest[all] = load - K x */
-static void residual_of(const equations *eq, const tangent *t, const bordered *s)
+static void residual_of(const equations *eq, const node_tangent *t, const bordered *s)
 {
     double *rest = s->rest;
     memset(rest, 0, (size_t)t->all * sizeof *rest);
@@ -76,10 +76,10 @@ static void residual_of(const equations *eq, const tangent *t, const bordered *s
         rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
 }
 
-status bordered_refine(const equations *eq, tangent *t, const bordered *s, fault *f)
+status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
     /* x itself was the first, and of condensed members as good as the second */
-    refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
+    solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
     while (state == REFINEMENT_GOES_ON) {

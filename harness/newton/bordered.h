@@ -15,12 +15,12 @@ typedef struct bordered {
 
 /* SINGULAR: not held when the prescribed motion is released. Freed by bordered_free in either
  * case. */
-status bordered_alloc(tangent *t, counters *n, bordered *out, fault *f);
+status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
 /* In place; what is held or prescribed stays as it is. x: [columns x all] */
-void bordered_solve(tangent *t, counters *n, const bordered *s, int columns, double x[]);
+void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[]);
 /* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
  * strains (refinement.h). SINGULAR: round-off leaves too few digits. */
-status bordered_refine(const equations *eq, tangent *t, const bordered *s, fault *f);
+status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
 #endif

@@ -54,7 +54,7 @@ static int released_columns(const model *m, int vertex)
     return r != NULL ? r->turns + r->slides : 0;
 }
 
-static status member_of(const model *m, int index, member *out, fault *f)
+static status member_of(const model *m, int index, condensed_member *out, fault *f)
 {
     const int nodes = model_nodes(m), last = model_first_element(m, index + 1) - 1;
     out->first = model_first_element(m, index);
@@ -186,8 +186,8 @@ void condensation_free(condensation *s)
 }
 
 /* One element as a link; force[7 nodes]: internal, in the state. */
-static status link_element_of(const equations *eq, const model_state *s, const member *of, int i,
-                              double path, chain_link *link, double force[], fault *f)
+static status link_element_of(const equations *eq, const model_state *s, const condensed_member *of,
+                              int i, double path, chain_link *link, double force[], fault *f)
 {
     const model *m = eq->m;
     const model_slot w = linearise_slot(m, &eq->run->memory, i);
@@ -209,8 +209,8 @@ static status link_element_of(const equations *eq, const model_state *s, const m
 }
 
 /* The chain of a member; force[14]: internal forces of its ends. */
-static status fill_chain(const equations *eq, const model_state *s, member *of, double path,
-                         double force[], fault *f)
+static status fill_chain(const equations *eq, const model_state *s, condensed_member *of,
+                         double path, double force[], fault *f)
 {
     const model *m = eq->m;
     double own[ELEMENT_MAX_COORDINATES];
@@ -228,7 +228,8 @@ static status fill_chain(const equations *eq, const model_state *s, member *of, 
 }
 
 /* K of the member's ends, in coordinates of the model. */
-static status member_matrix(condensation *s, member *of, double path, double K[], fault *f)
+static status member_matrix(condensation *s, condensed_member *of, double path, double K[],
+                            fault *f)
 {
     const int c = of->joint, n = 2 * NODE_COORDINATES;
     double small[CHAIN_LINK * CHAIN_LINK], force[2 * NODE_COORDINATES];

@@ -37,6 +37,6 @@ status condensation_factor(condensation *, fault *);
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
 /* A factor that solves by it and owns it. */
-status condensation_as_factor(condensation *, factor **, fault *);
+status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
 #endif

@@ -10,12 +10,12 @@
 /* More coordinates of ends than this are not condensed: their pattern is made densely. */
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
-typedef struct member {
+typedef struct condensed_member {
     mesh_element ends; /* from the first node of the first element to the last of the last */
     mesh_triad triad[2];
     int first, links, joint, y;
     chain *chain;
-} member;
+} condensed_member;
 
 struct condensation {
     const equations *eq;
@@ -23,13 +23,13 @@ struct condensation {
     const model_state *at;
     int members, all, unknowns;
     int lent; /* 1: chains and r are another one's */
-    member *member;
+    condensed_member *member;
     int *number;   /* [all] of a coordinate of an end among those; NONE: of no end */
     int *unknown;  /* [unknowns] coordinates of the system that is left */
     sparse K;      /* of the ends, in all coordinates */
     sparse inside; /* of the unknowns */
     int *from;     /* [entries of inside] in K */
-    factor *factor;
+    matrix_factor *factor;
     double *r;      /* of the longest member: loads, then motions, [links x y] */
     double *small;  /* [unknowns] */
     double *driven; /* [driven] */

@@ -8,7 +8,7 @@
 #include "harness/newton/condensation_impl.h"
 
 /* Loads between the ends of a member, in the order of its links. */
-static void gather_loads(const condensation *s, const member *of, const double x[])
+static void gather_loads(const condensation *s, const condensed_member *of, const double x[])
 {
     const int c = of->joint, nodes = model_nodes(s->m);
     for (int i = 0; i < of->links; i++)
@@ -21,7 +21,7 @@ static void gather_loads(const condensation *s, const member *of, const double x
             }
 }
 
-static void scatter_motions(const condensation *s, const member *of, double x[])
+static void scatter_motions(const condensation *s, const condensed_member *of, double x[])
 {
     const int c = of->joint, nodes = model_nodes(s->m);
     for (int i = 0; i < of->links; i++)
@@ -37,7 +37,7 @@ static void scatter_motions(const condensation *s, const member *of, double x[])
 static void reduce(condensation *s, double x[])
 {
     for (int i = 0; i < s->members; i++) {
-        const member *of = &s->member[i];
+        const condensed_member *of = &s->member[i];
         const int c = of->joint;
         double ends[CHAIN_LINK], force[MODEL_MAX_COORDINATES] = {0};
         gather_loads(s, of, x);
@@ -54,7 +54,7 @@ static void reduce(condensation *s, double x[])
 static void expand(condensation *s, double x[])
 {
     for (int i = 0; i < s->members; i++) {
-        const member *of = &s->member[i];
+        const condensed_member *of = &s->member[i];
         const int c = of->joint;
         double ends[CHAIN_LINK], local[2 * NODE_COORDINATES];
         kinematics_local(s->m, s->at, &of->ends, x, local);
@@ -103,7 +103,7 @@ static void free_of(void *context)
     condensation_free(context);
 }
 
-status condensation_as_factor(condensation *s, factor **out, fault *f)
+status condensation_as_factor(condensation *s, matrix_factor **out, fault *f)
 {
     return factor_of(&(factor_operator){s, solve_with, count_of, free_of}, out, f);
 }

@@ -34,7 +34,7 @@ analysis_context context_unloaded(const analysis_context *c)
     return none;
 }
 
-status context_factor(analysis_context *c, factor *fa, const sparse *K, fault *f)
+status context_factor(analysis_context *c, matrix_factor *fa, const sparse *K, fault *f)
 {
     const status outcome = factor_numeric(fa, K, f);
     c->work->singular = outcome == STATUS_SINGULAR;
@@ -57,7 +57,7 @@ status context_factor_condensed(analysis_context *c, condensation *s, fault *f)
     return outcome;
 }
 
-status context_symmetric(const factor *fa, const char *what, fault *f)
+status context_symmetric(const matrix_factor *fa, const char *what, fault *f)
 {
     const factor_counts counts = factor_count(fa);
     return counts.negative_pivots >= 0
@@ -70,7 +70,7 @@ status context_symmetric(const factor *fa, const char *what, fault *f)
                      what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
 }
 
-void context_leave_factor(analysis_context *c, factor *fa)
+void context_leave_factor(analysis_context *c, matrix_factor *fa)
 {
     int compliances = 0;
     for (int i = 0; i < c->scene->analyses; i++)
@@ -81,14 +81,14 @@ void context_leave_factor(analysis_context *c, factor *fa)
         c->work->left = fa;
 }
 
-factor *context_take_factor(analysis_context *c)
+matrix_factor *context_take_factor(analysis_context *c)
 {
-    factor *fa = c->work->left;
+    matrix_factor *fa = c->work->left;
     c->work->left = NULL;
     return fa;
 }
 
-void context_count_condition(const analysis_context *c, factor *fa, const sparse *K)
+void context_count_condition(const analysis_context *c, matrix_factor *fa, const sparse *K)
 {
     counters *n = &c->run->counters;
     if (c->options->condition) {
@@ -97,7 +97,8 @@ void context_count_condition(const analysis_context *c, factor *fa, const sparse
     }
 }
 
-void context_count_solution(const analysis_context *c, const factor *fa, int fresh, long *counted)
+void context_count_solution(const analysis_context *c, const matrix_factor *fa, int fresh,
+                            long *counted)
 {
     counters *n = &c->run->counters;
     const factor_counts counts = factor_count(fa);

@@ -9,10 +9,10 @@
 
 /* What a solution keeps from one analysis for the next ones. */
 typedef struct context_work {
-    double setup; /* [s] spent on patterns and symbolic factorisation */
-    int singular; /* 1: the last factorisation failed */
-    factor *left; /* of the pattern of the free coordinates, whose numbers nobody needs any more;
-                     NULL: none */
+    double setup;        /* [s] spent on patterns and symbolic factorisation */
+    int singular;        /* 1: the last factorisation failed */
+    matrix_factor *left; /* of the pattern of the free coordinates, whose numbers nobody needs any
+                     more; NULL: none */
 } context_work;
 
 typedef struct analysis_context {
@@ -35,7 +35,7 @@ analysis_context context_of(const analysis_context *, int analysis);
  * themselves. */
 analysis_context context_unloaded(const analysis_context *);
 /* The numeric factors of K, and into the context whether they exist. */
-status context_factor(analysis_context *, factor *, const sparse *K, fault *);
+status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
 /* What condenses members of many elements; *out NULL: none is, or the condition of the tangent was
  * asked for, which is that of all coordinates. See condensation_alloc. */
 status context_condensation(const analysis_context *, int count, const int released[],
@@ -44,17 +44,18 @@ status context_condensation(const analysis_context *, int count, const int relea
 status context_factor_condensed(analysis_context *, condensation *, fault *);
 /* REFUSED where what was factored is not symmetric: `what` (critical loads) need that of the state.
  */
-status context_symmetric(const factor *, const char *what, fault *f);
+status context_symmetric(const matrix_factor *, const char *what, fault *f);
 /* A symmetric factor of the pattern of the free coordinates is not needed any more: it is kept
  * where a compliance may ask for one, so that order and pattern need not be found again. */
-void context_leave_factor(analysis_context *, factor *);
+void context_leave_factor(analysis_context *, matrix_factor *);
 /* NULL: none was left. */
-factor *context_take_factor(analysis_context *);
+matrix_factor *context_take_factor(analysis_context *);
 /* When it was asked for: the condition of a matrix just factored, into the counters. */
-void context_count_condition(const analysis_context *, factor *, const sparse *K);
+void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
 /* The work of a solution with a factor, into the counters; fresh 0: its numbers are those of a
  * solution before. *counted: factorisations of it that are there already, and then are all. */
-void context_count_solution(const analysis_context *, const factor *, int fresh, long *counted);
+void context_count_solution(const analysis_context *, const matrix_factor *, int fresh,
+                            long *counted);
 /* The work of an eigenvalue problem, into the counters. */
 void context_count_eigen(const analysis_context *, const eigen_result *);
 

@@ -19,7 +19,7 @@ int distributed_spreads(const equations *eq, const scene_load *load)
     return scene_load_along(load) && !lumped;
 }
 
-int distributed_acts(const distributed *of)
+int distributed_acts(const distributed_loads *of)
 {
     double part[2];
     if (of->eq->loading.rotates)
@@ -30,7 +30,7 @@ int distributed_acts(const distributed *of)
     return 0;
 }
 
-int distributed_jumps(const distributed *of)
+int distributed_jumps(const distributed_loads *of)
 {
     double part[2];
     for (int i = 0; i < model_scene(of->m)->loads; i++)
@@ -41,7 +41,7 @@ int distributed_jumps(const distributed *of)
 }
 
 /* The triad of the undeformed element at x. */
-static void undeformed(const distributed *of, double x, double R[9])
+static void undeformed(const distributed_loads *of, double x, double R[9])
 {
     const mesh_element *el = model_element(of->m, of->element);
     const mesh_kind *kind = model_kind(of->m, el->kind);
@@ -55,7 +55,7 @@ static void undeformed(const distributed *of, double x, double R[9])
 
 /* What the load is at x times `scale`, with the undeformed triad there: per length, of gravity on
  * the mass there. */
-static void load_at(const distributed *of, const scene_load *load, double scale, double x,
+static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
     const section *c = model_section(of->m, model_kind_of(of->m, of->element)->section);
@@ -85,7 +85,7 @@ static void load_at(const distributed *of, const scene_load *load, double scale,
 enum { MOST = FIELD_MOST_POINTS };
 
 /* Is a load along an element, which is `one` at a point of it, the same at all of them? */
-static int same(const distributed *of, const scene_load *load, const field_load *one)
+static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
            (load->axes == SCENE_AXES_FIXED ||
@@ -93,7 +93,7 @@ static int same(const distributed *of, const scene_load *load, const field_load 
 }
 
 /* What acts of one load at the points of an element; returns how many. */
-static int points_of(const distributed *of, const scene_load *load, double scale,
+static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
     const mesh_kind *kind = model_kind_of(of->m, of->element);
@@ -146,7 +146,7 @@ static void gather(const equations *eq, int element, const scene_load *load, dou
                    double force[3 * ELEMENT_ALONG_POINTS])
 {
     const model *m = eq->m;
-    const distributed of = {eq, m, element, 0};
+    const distributed_loads of = {eq, m, element, 0};
     double x[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS], before[9];
     quadrature_points(ELEMENT_ALONG_POINTS, x, weight);
     for (int k = 0; k < ELEMENT_ALONG_POINTS; k++) {
@@ -292,7 +292,7 @@ static int add_field(const equations *eq, const node_state x[], int element, con
                      double scale, const double part[2], double forces[], double K[])
 {
     const model *m = eq->m;
-    const distributed of = {eq, m, element, 0};
+    const distributed_loads of = {eq, m, element, 0};
     field_rows rows[MOST];
     field_load acting[MOST];
     const int count = points_of(&of, load, scale, part, rows, acting);
@@ -339,7 +339,7 @@ int distributed_add(const equations *eq, const model_state *s, const node_state 
 }
 
 /* Its vectors, in fixed axes, of the section with the triad R. */
-static void add_load(const distributed *of, const scene_load *load, double x,
+static void add_load(const distributed_loads *of, const scene_load *load, double x,
                      const double before[9], const double R[9], span_load *out)
 {
     field_load one;
@@ -380,7 +380,7 @@ static void add_rotating_matrices(const section *c, const double omega[3], const
 }
 
 /* Centrifugal force on the mass at the centroid, and moment on the section's inertia. */
-static void add_rotating(const distributed *of, const span_frame *at, span_load *out)
+static void add_rotating(const distributed_loads *of, const span_frame *at, span_load *out)
 {
     const model *m = of->m;
     const section *c = model_section(m, model_kind_of(m, of->element)->section);
@@ -410,7 +410,7 @@ static void add_rotating(const distributed *of, const span_frame *at, span_load 
 
 void distributed_at(void *context, double x, const span_frame *at, span_load *out)
 {
-    const distributed *of = context;
+    const distributed_loads *of = context;
     double before[9];
     memset(out, 0, sizeof *out);
     undeformed(of, x, before);

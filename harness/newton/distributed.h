@@ -8,12 +8,12 @@
 #include "harness/section_forces/span.h"
 
 /* Of one element, at a path parameter. */
-typedef struct distributed {
+typedef struct distributed_loads {
     const equations *eq;
     const model *m;
     int element;
     double path;
-} distributed;
+} distributed_loads;
 
 /* Does the load do its work within elements? Else halves of it go to their ends (applied.h). */
 int distributed_spreads(const equations *, const scene_load *);
@@ -55,9 +55,9 @@ int distributed_add_field(const equations *, const node_state x[], int element, 
                           double forces[], double K[]);
 
 /* Does anything act along it? */
-int distributed_acts(const distributed *);
+int distributed_acts(const distributed_loads *);
 /* A load that begins, ends or acts between its ends, or SCENE_NONE. */
-int distributed_jumps(const distributed *);
+int distributed_jumps(const distributed_loads *);
 /* What acts per initial length at x in [0, 1] of the element, on a section with this frame: loads
  * of its member, and what a rotating frame adds (of the section's turn too where rotary inertia is
  * active).  context: a distributed. */

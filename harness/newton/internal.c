@@ -196,11 +196,11 @@ static void take_ends(const equations *eq, const internal_state *s, int i, span_
 }
 
 /* What acts along an element. */
-typedef struct between {
-    distributed loads;
+typedef struct internal_between {
+    distributed_loads loads;
     int acts, nodes; /* 0 nodes: nothing moves */
     double density[ELEMENT_MAX_NODES][6];
-} between;
+} internal_between;
 
 /* Shares of the nodes, evenly along the element, at x in [0, 1]. */
 static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
@@ -214,7 +214,7 @@ static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
 
 static void between_at(void *context, double x, const span_frame *at, span_load *out)
 {
-    between *of = context;
+    internal_between *of = context;
     double part[ELEMENT_MAX_NODES];
     memset(out, 0, sizeof *out);
     if (of->acts)
@@ -232,7 +232,8 @@ static status recover(const equations *eq, const internal_state *s, int i, const
 {
     const model *m = eq->m;
     const mesh_kind *kind = model_kind_of(m, i);
-    between loads = {.loads = {eq, m, i, s->path}, .nodes = s->moving != NULL ? model_nodes(m) : 0};
+    internal_between loads = {.loads = {eq, m, i, s->path},
+                              .nodes = s->moving != NULL ? model_nodes(m) : 0};
     element_request request = {.section = model_section(m, kind->section),
                                .length = kind->length,
                                .options = model_options(m)};

@@ -66,12 +66,12 @@ static status residual_of(analysis_context *c, const double load[], const double
     return STATUS_OK;
 }
 
-typedef struct workspace {
+typedef struct system_workspace {
     double *load, *r, *weight, *shaken; /* [free + driven] */
     double *sigma;                      /* [elements x strains] */
-} workspace;
+} system_workspace;
 
-static status workspace_alloc(analysis_context *c, double path, workspace *w, fault *f)
+static status workspace_alloc(analysis_context *c, double path, system_workspace *w, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const size_t all = (size_t)(size.free + size.driven) + 1;
@@ -88,7 +88,7 @@ static status workspace_alloc(analysis_context *c, double path, workspace *w, fa
 }
 
 /* Initial strains that are held back leave no displacement to compare with but themselves. */
-static double part_of(const analysis_context *c, const workspace *w, const double change[],
+static double part_of(const analysis_context *c, const system_workspace *w, const double change[],
                       const double x[])
 {
     return refinement_part(model_sizes(c->model).free, w->weight, change, x,
@@ -96,7 +96,7 @@ static double part_of(const analysis_context *c, const workspace *w, const doubl
 }
 
 /* x += K^-1 (load - K x); the size of what was added beside x. */
-static status correct(analysis_context *c, linear_system *s, workspace *w, double x[],
+static status correct(analysis_context *c, linear_system *s, system_workspace *w, double x[],
                       double *correction, fault *f)
 {
     const int n = model_sizes(c->model).free;
@@ -110,7 +110,7 @@ static status correct(analysis_context *c, linear_system *s, workspace *w, doubl
 
 /* A correction may vanish by chance, of one element above all: how far x, shaken in its last digits
  * and corrected, ends from where it was. Not counted as work. */
-static status shake(analysis_context *c, linear_system *s, workspace *w, const double x[],
+static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {
     const model_size size = model_sizes(c->model);
@@ -125,10 +125,11 @@ static status shake(analysis_context *c, linear_system *s, workspace *w, const d
     return STATUS_OK;
 }
 
-static status refine(analysis_context *c, linear_system *s, workspace *w, double x[], fault *f)
+static status refine(analysis_context *c, linear_system *s, system_workspace *w, double x[],
+                     fault *f)
 {
     refinement_state state = REFINEMENT_GOES_ON;
-    refinement r = {0};
+    solution_refinement r = {0};
     double correction;
     while (state == REFINEMENT_GOES_ON) {
         TRY(correct(c, s, w, x, &correction, f));
@@ -143,8 +144,8 @@ static status refine(analysis_context *c, linear_system *s, workspace *w, double
 }
 
 /* With what linear_system_solve frees. */
-static status solve(analysis_context *c, linear_system *s, double path, workspace *w, double x[],
-                    fault *f)
+static status solve(analysis_context *c, linear_system *s, double path, system_workspace *w,
+                    double x[], fault *f)
 {
     const model_size size = model_sizes(c->model);
     memset(x, 0, (size_t)(size.free + size.driven) * sizeof *x);
@@ -155,7 +156,7 @@ static status solve(analysis_context *c, linear_system *s, double path, workspac
 
 status linear_system_solve(analysis_context *c, linear_system *s, double path, double x[], fault *f)
 {
-    workspace w = {0};
+    system_workspace w = {0};
     const status outcome = solve(c, s, path, &w, x, f);
     free(w.load);
     free(w.sigma);

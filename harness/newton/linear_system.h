@@ -8,7 +8,7 @@
  * kept for the caller. */
 typedef struct linear_system {
     sparse K;
-    factor *factor;
+    matrix_factor *factor;
 } linear_system;
 status linear_system_alloc(analysis_context *, linear_system *, fault *);
 void linear_system_free(linear_system *);

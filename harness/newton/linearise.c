@@ -294,7 +294,7 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .part = window > 0 ? eq->run->part : &own,
                         .f = f};
     /* inertia counts its evaluations */
-    team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
+    thread_team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
     memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)

@@ -24,7 +24,7 @@
 enum { MAX_ITERATIONS = 30 };
 
 /* What solves, and its matrix unless members are condensed. */
-static status allocate_tangent(newton *n, int condense, fault *f)
+static status allocate_tangent(newton_run *n, int condense, fault *f)
 {
     const sparse *pattern;
     if (condense && n->c->options->newton != NEWTON_DENSE)
@@ -36,7 +36,7 @@ static status allocate_tangent(newton *n, int condense, fault *f)
     return factor_alloc(pattern, &n->factor, f);
 }
 
-static status allocate(newton *n, int condense, fault *f)
+static status allocate(newton_run *n, int condense, fault *f)
 {
     const model *m = n->c->model;
     const size_t all = (size_t)n->all + 1;
@@ -52,7 +52,7 @@ static status allocate(newton *n, int condense, fault *f)
     return kinematics_state_alloc(m, &n->backup, f);
 }
 
-status newton_alloc(analysis_context *c, int condense, newton *n, fault *f)
+status newton_alloc(analysis_context *c, int condense, newton_run *n, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const double start = clock_processor_seconds();
@@ -68,7 +68,7 @@ status newton_alloc(analysis_context *c, int condense, newton *n, fault *f)
     return outcome;
 }
 
-status newton_keep_driven(newton *n, fault *f)
+status newton_keep_driven(newton_run *n, fault *f)
 {
     const sparse *pattern;
     if (n->whole.value != NULL)
@@ -77,7 +77,7 @@ status newton_keep_driven(newton *n, fault *f)
     return sparse_alloc_like(pattern, &n->whole, f);
 }
 
-void newton_free(newton *n)
+void newton_free(newton_run *n)
 {
     free(n->residual);
     free(n->dx);
@@ -98,7 +98,7 @@ void newton_free(newton *n)
 
 /* 1: what a driver moves of its condition's coordinates is more than the round-off of all that it
  * moves. */
-static int drives(const newton *n, int count, const model_condition condition[],
+static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {
     const double round_off = 1e-12;
@@ -114,7 +114,7 @@ static int drives(const newton *n, int count, const model_condition condition[],
 
 /* Unknown drivers: their increments, of which the columns are solved for, make the conditions hold;
  * dx of the free coordinates follows. */
-static status meet_conditions(newton *n, int count, const model_condition condition[], fault *f)
+static status meet_conditions(newton_run *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
     int pivot[MODEL_MAX_CONDITIONS];
@@ -140,7 +140,7 @@ static status meet_conditions(newton *n, int count, const model_condition condit
 }
 
 /* The tangent of the state and its factors. */
-static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
+static status factor_tangent(newton_run *n, model_linearisation *lin, fault *f)
 {
     if (n->whole.value != NULL)
         lin->K = &n->whole;
@@ -156,7 +156,7 @@ static status factor_tangent(newton *n, model_linearisation *lin, fault *f)
 }
 
 /* dx of the condensed system. */
-static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
+static status solve_condensed(newton_run *n, model_linearisation *lin, fault *f)
 {
     phases *p = &n->c->run->phases;
     const status factored = factor_tangent(n, lin, f);
@@ -171,7 +171,7 @@ static status solve_condensed(newton *n, model_linearisation *lin, fault *f)
 }
 
 /* dx of the uncondensed system, by Gaussian elimination with partial pivoting (LAPACK). */
-static status solve_dense(newton *n, model_linearisation *lin, fault *f)
+static status solve_dense(newton_run *n, model_linearisation *lin, fault *f)
 {
     const model *m = n->c->model;
     const size_t size = (size_t)uncondensed_size(m) + (size_t)lin->conditions;
@@ -208,7 +208,7 @@ static status solve_dense(newton *n, model_linearisation *lin, fault *f)
     return STATUS_OK;
 }
 
-static status direction(newton *n, double path, step_record *record, fault *f)
+static status direction(newton_run *n, double path, step_record *record, fault *f)
 {
     counters *count = &n->c->run->counters;
     n->energy = NAN;
@@ -240,7 +240,7 @@ static status direction(newton *n, double path, step_record *record, fault *f)
     return STATUS_OK;
 }
 
-status newton_direction(newton *n, double path, step_record *record, fault *f)
+status newton_direction(newton_run *n, double path, step_record *record, fault *f)
 {
     phases *p = &n->c->run->phases;
     phases_start(p);
@@ -249,7 +249,7 @@ status newton_direction(newton *n, double path, step_record *record, fault *f)
     return outcome;
 }
 
-void newton_advance(newton *n, double path, newton_correction *out)
+void newton_advance(newton_run *n, double path, newton_correction *out)
 {
     phases_start(&n->c->run->phases);
     out->size = advance_state(&n->c->eq, &n->c->run->memory, n->state, n->dx, path, &out->stress);
@@ -262,13 +262,13 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
                       fault *f)
 {
     (void)iteration;
-    newton *n = of;
+    newton_run *n = of;
     TRY(newton_direction(n, n->path, record, f));
     newton_advance(n, n->path, out);
     return STATUS_OK;
 }
 
-status newton_to(newton *n, double path, step_record *record, fault *f)
+status newton_to(newton_run *n, double path, step_record *record, fault *f)
 {
     newton_use use = newton_on_path(n, n, correct);
     n->path = path;

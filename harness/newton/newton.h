@@ -10,14 +10,14 @@
 #include "harness/newton/context.h"
 #include "harness/newton/predictor.h"
 
-typedef struct newton {
+typedef struct newton_run {
     analysis_context *c;
     model_state *state, *backup;
     predictor *predictor;    /* NULL: every step begins at the last state */
     condensation *condensed; /* NULL: no member is condensed; else K is not assembled */
     sparse K;
     sparse whole; /* with the driven coordinates; no values: not asked for */
-    factor *factor;
+    matrix_factor *factor;
     double *residual, *dx;   /* [free + driven] */
     double *dense, *unknown; /* of the uncondensed system, allocated when it is asked for */
     int *pivot;
@@ -29,13 +29,13 @@ typedef struct newton {
     arrival arrival;
     int max_iterations, free, all;
     long counted; /* factorisations that are in the model's counters */
-} newton;
+} newton_run;
 
 /* condense 1: members of many elements are condensed to their ends. */
-status newton_alloc(analysis_context *, int condense, newton *, fault *);
-void newton_free(newton *);
+status newton_alloc(analysis_context *, int condense, newton_run *, fault *);
+void newton_free(newton_run *);
 /* From here on K is known of the driven coordinates too. */
-status newton_keep_driven(newton *, fault *);
+status newton_keep_driven(newton_run *, fault *);
 
 /* One correction of an iteration. */
 typedef struct newton_correction {
@@ -47,9 +47,9 @@ typedef struct newton_correction {
 
 /* K, its factors and dx = K^-1 residual in the present state for the loads and drivers at `path`;
  * drivers are in dx. */
-status newton_direction(newton *, double path, step_record *, fault *);
+status newton_direction(newton_run *, double path, step_record *, fault *);
 /* The state takes dx, at that path parameter. */
-void newton_advance(newton *, double path, newton_correction *);
+void newton_advance(newton_run *, double path, newton_correction *);
 /* What the formulation does not follow of the structure at rest: arcs of its elements. */
 status newton_judge_rest(const model *m, fault *f);
 /* Every state that an analysis accepts is asked here, with the one before it: NOT_CONVERGED names
@@ -61,9 +61,9 @@ status newton_accept(const model *, const model_state *from, model_state *, faul
 /* What Newton's iteration differs by from analysis to analysis. */
 typedef struct newton_use {
     void *of;
-    newton *on; /* of a path: its states are asked newton_accept, and what strayed from its first
-                   correction, and may be at another equilibrium, has not converged; NULL: of a
-                   motion */
+    newton_run *on;  /* of a path: its states are asked newton_accept, and what strayed from its
+                    first  correction, and may be at another equilibrium, has not converged; NULL: of
+                    a  motion */
     int least, most; /* iterations */
     /* The equations of the present state are solved, and the state takes the correction. */
     status (*correct)(void *of, int iteration, newton_correction *, step_record *, fault *);
@@ -72,7 +72,7 @@ typedef struct newton_use {
 } newton_use;
 
 /* Of states on a path. */
-newton_use newton_on_path(newton *, void *of,
+newton_use newton_on_path(newton_run *, void *of,
                           status (*correct)(void *of, int iteration, newton_correction *,
                                             step_record *, fault *));
 /* Of steps in time. */
@@ -86,6 +86,6 @@ newton_use newton_in_time(const analysis_context *, void *of,
 status newton_iterate(analysis_context *, const newton_use *, arrival *, step_record *, fault *);
 
 /* Newton to `path`: converged, or NOT_CONVERGED with the reason. */
-status newton_to(newton *, double path, step_record *, fault *);
+status newton_to(newton_run *, double path, step_record *, fault *);
 
 #endif

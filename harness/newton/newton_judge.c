@@ -236,7 +236,7 @@ static status accept(const newton_use *use, fault *f)
     return use->accept != NULL ? use->accept(use->of, f) : STATUS_OK;
 }
 
-newton_use newton_on_path(newton *n, void *of,
+newton_use newton_on_path(newton_run *n, void *of,
                           status (*correct)(void *, int, newton_correction *, step_record *,
                                             fault *))
 {

@@ -11,13 +11,13 @@ enum { LEAST = 2, MOST = 30 };
  * judged by it exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
-refinement_state refinement_judge(refinement *r, double correction)
+refinement_state refinement_judge(solution_refinement *r, double correction)
 {
     r->last = correction;
     return correction <= enough_digits ? REFINEMENT_ENDS : REFINEMENT_LOST;
 }
 
-refinement_state refinement_next(refinement *r, double correction)
+refinement_state refinement_next(solution_refinement *r, double correction)
 {
     const int step = r->corrections++, settles = !(correction < r->last / 2);
     r->last = correction;
@@ -28,7 +28,7 @@ refinement_state refinement_next(refinement *r, double correction)
     return REFINEMENT_GOES_ON;
 }
 
-status refinement_refuse(const refinement *r, const char *what, fault *f)
+status refinement_refuse(const solution_refinement *r, const char *what, fault *f)
 {
     const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN: none */
     return fault_set(f, STATUS_SINGULAR,

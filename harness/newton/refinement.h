@@ -23,18 +23,18 @@ typedef enum refinement_state {
 } refinement_state;
 
 /* Begins as {0}. */
-typedef struct refinement {
+typedef struct solution_refinement {
     int corrections; /* the first is the solution itself */
     double last;     /* in parts of the solution */
-} refinement;
+} solution_refinement;
 
 /* What follows from a correction, in parts of the solution: at least two after the first, and on
  * while they halve and digits are missing. */
-refinement_state refinement_next(refinement *, double correction);
+refinement_state refinement_next(solution_refinement *, double correction);
 /* Are the digits enough that a last correction, or another measure of the error, leaves? */
-refinement_state refinement_judge(refinement *, double correction);
+refinement_state refinement_judge(solution_refinement *, double correction);
 /* SINGULAR, with the digits that are left of `what` and what helps. */
-status refinement_refuse(const refinement *, const char *what, fault *);
+status refinement_refuse(const solution_refinement *, const char *what, fault *);
 /* |change|/|x| in a metric of n weights, |x| of at least `least`; 0: no change. */
 double refinement_part(int n, const double weight[], const double change[], const double x[],
                        double least);

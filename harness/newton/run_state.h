@@ -62,7 +62,7 @@ typedef struct run_state {
     assemble_patterns *patterns; /* of the matrices of the model, made when they are asked for */
     counters counters;
     phases phases;
-    team *team;                /* of the loop over elements; NULL: one thread */
+    thread_team *team;         /* of the loop over elements; NULL: one thread */
     struct element_part *part; /* of a few elements, before they are added up in order; NULL: none
                                   yet: equations_impl.h */
     struct run_ahead *ahead;   /* one block; NULL: nothing has been evaluated ahead: ahead.h */

@@ -26,14 +26,14 @@ static const double harmless_condition = 1e8;
 static const double clear = 30, alike = 2;
 
 /* The free block out of the whole. */
-static void copy_inside(tangent *t)
+static void copy_inside(node_tangent *t)
 {
     if (t->inside.value != t->K.value)
         sparse_copy_leading(&t->K, &t->inside);
 }
 
 static status allocate(const analysis_context *c, const scene_compliance *a,
-                       const condensation *members, tangent *t, fault *f)
+                       const condensation *members, node_tangent *t, fault *f)
 {
     const sparse *inside, *whole;
     const model_size size = model_sizes(c->model);
@@ -63,7 +63,7 @@ static status allocate(const analysis_context *c, const scene_compliance *a,
 }
 
 status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
-                     tangent *t, fault *f)
+                     node_tangent *t, fault *f)
 {
     const double start = clock_processor_seconds();
     memset(t, 0, sizeof *t);
@@ -72,7 +72,7 @@ status tangent_alloc(analysis_context *c, const scene_compliance *a, const conde
     return outcome;
 }
 
-void tangent_free(tangent *t)
+void tangent_free(node_tangent *t)
 {
     if (t->inside.value != t->K.value)
         sparse_free_values(&t->inside);
@@ -84,7 +84,7 @@ void tangent_free(tangent *t)
 }
 
 /* Factors of the free block. */
-static status factor_inside(analysis_context *c, tangent *t, fault *f)
+static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
 {
     counters *n = &c->run->counters;
     if (t->own == NULL && t->inside.symmetric)
@@ -107,7 +107,7 @@ static status factor_inside(analysis_context *c, tangent *t, fault *f)
 }
 
 /* Is the condition above what is harmless? */
-static int asks_refinement(tangent *t)
+static int asks_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
     const int clearly = t->condition > clear * harmless_condition ||
@@ -122,7 +122,7 @@ static int asks_refinement(tangent *t)
 
 /* What follows from K and the factors of its free block. */
 static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
-                       const double reaction[6], tangent *t, fault *f)
+                       const double reaction[6], node_tangent *t, fault *f)
 {
     t->state = s;
     t->refined = t->condensed != NULL || asks_refinement(t);
@@ -138,7 +138,7 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
 }
 
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
-                  const double reaction[6], tangent *t, fault *f)
+                  const double reaction[6], node_tangent *t, fault *f)
 {
     const int condensed = t->condensed != NULL;
     model_linearisation lin = {
@@ -155,8 +155,8 @@ status tangent_at(analysis_context *c, const scene_compliance *a, const model_st
 }
 
 status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
-                    const double reaction[6], const sparse *K, const sparse *inside, factor *fa,
-                    tangent *t, fault *f)
+                    const double reaction[6], const sparse *K, const sparse *inside,
+                    matrix_factor *fa, node_tangent *t, fault *f)
 {
     const size_t size = (size_t)inside->column[inside->n] * sizeof *inside->value;
     memcpy(t->K.value, K->value, (size_t)K->column[K->n] * sizeof *K->value);
@@ -169,8 +169,8 @@ status tangent_take(analysis_context *c, const scene_compliance *a, const model_
 }
 
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
-                              const double reaction[6], const condensation *members, tangent *t,
-                              fault *f)
+                              const double reaction[6], const condensation *members,
+                              node_tangent *t, fault *f)
 {
     condensation_take(t->condensed, members, s);
     loads_release_moment(c->model, s, a->node, reaction + 3, condensation_ends(t->condensed));
@@ -179,13 +179,13 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
 }
 
 /* Coordinates of the node that move: free or released. */
-static int moves(const tangent *t, int k)
+static int moves(const node_tangent *t, int k)
 {
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
 }
 
 /* Loads on the moving coordinates, or their motions: x[index] = column of T, or sum = T x. */
-static void load_of(const tangent *t, const int moving[], int component, double x[])
+static void load_of(const node_tangent *t, const int moving[], int component, double x[])
 {
     memset(x, 0, (size_t)t->all * sizeof *x);
     for (int k = 0; k < t->coordinates; k++)
@@ -193,7 +193,7 @@ static void load_of(const tangent *t, const int moving[], int component, double 
             x[t->index[k]] = t->T[component * t->coordinates + k];
 }
 
-static double motion_of(const tangent *t, const int moving[], int component, const double x[])
+static double motion_of(const node_tangent *t, const int moving[], int component, const double x[])
 {
     double sum = 0;
     for (int k = 0; k < t->coordinates; k++)
@@ -201,7 +201,7 @@ static double motion_of(const tangent *t, const int moving[], int component, con
     return sum;
 }
 
-static status refine(const equations *eq, tangent *t, const bordered *s, const int moving[],
+static status refine(const equations *eq, node_tangent *t, const bordered *s, const int moving[],
                      int component, double x[], fault *f)
 {
     load_of(t, moving, component, s->load);
@@ -213,7 +213,7 @@ static status refine(const equations *eq, tangent *t, const bordered *s, const i
 
 /* Columns of C for unit loads on the components that are wanted and can move; with what
  * tangent_compliance frees. */
-static status respond_all(const equations *eq, tangent *t, bordered *s, unsigned wanted,
+static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
     int moving[TANGENT_COMPONENTS], component[TANGENT_COMPONENTS], count = 0;
@@ -237,8 +237,8 @@ static status respond_all(const equations *eq, tangent *t, bordered *s, unsigned
     return STATUS_OK;
 }
 
-status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsigned components,
-                          double C[36], fault *f)
+status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
+                          unsigned components, double C[36], fault *f)
 {
     bordered s = {0};
     memset(C, 0, 36 * sizeof *C);
@@ -248,7 +248,7 @@ status tangent_compliance(analysis_context *c, tangent *t, unsigned wanted, unsi
 }
 
 /* The columns of T of coordinates that `wanted` says: [6 x n], and n. */
-static int columns_of(const tangent *t, int (*wanted)(const tangent *, int), double out[])
+static int columns_of(const node_tangent *t, int (*wanted)(const node_tangent *, int), double out[])
 {
     int n = 0;
     for (int k = 0; k < t->coordinates; k++)
@@ -262,12 +262,12 @@ static int columns_of(const tangent *t, int (*wanted)(const tangent *, int), dou
     return n;
 }
 
-static int is_free(const tangent *t, int k)
+static int is_free(const node_tangent *t, int k)
 {
     return t->index[k] < t->free;
 }
 
-void tangent_prescribed(const tangent *t, double moment[3])
+void tangent_prescribed(const node_tangent *t, double moment[3])
 {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS], rest[3];
     const int n = columns_of(t, is_free, T);
@@ -275,7 +275,7 @@ void tangent_prescribed(const tangent *t, double moment[3])
     memcpy(moment, rest, sizeof rest);
 }
 
-void tangent_movable(const model *m, const tangent *t, movable *out)
+void tangent_movable(const model *m, const node_tangent *t, movable *out)
 {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
     const int n = columns_of(t, moves, T);

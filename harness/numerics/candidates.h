@@ -19,7 +19,7 @@ typedef struct candidates {
     int refinements;     /* of every solution */
     double *correction;  /* [n] while solutions are refined, else NULL */
     sparse shifted;      /* K - s A/mu; without values until it is needed */
-    factor *shifted_factor;
+    matrix_factor *shifted_factor;
 } candidates;
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);

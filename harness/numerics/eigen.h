@@ -18,11 +18,11 @@ typedef double eigen_form(void *context, const double x[]);
 typedef void eigen_product(void *context, const double x[], double y[]);
 
 typedef struct eigen_problem {
-    const sparse *K, *A; /* same pattern */
-    factor *K_factor;    /* factor_numeric done */
-    double sign;         /* +1: A, -1: -A is meant */
-    int largest;         /* wanted number of most positive mu */
-    int smallest;        /* wanted number of most negative mu */
+    const sparse *K, *A;     /* same pattern */
+    matrix_factor *K_factor; /* factor_numeric done */
+    double sign;             /* +1: A, -1: -A is meant */
+    int largest;             /* wanted number of most positive mu */
+    int smallest;            /* wanted number of most negative mu */
     eigen_form *K_energy,
         *A_energy; /* x^T K x and x^T A x (A without the sign), [K's unit]; NULL: from the matrix */
     eigen_form *K_rounding,

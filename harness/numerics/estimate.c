@@ -10,7 +10,7 @@
 /* K, M and G times the real and the imaginary part of a vector; its residual. */
 enum { K_RE, K_IM, M_RE, M_IM, G_RE, G_IM, R_RE, R_IM, WORK, PARTS };
 
-status estimate_alloc(int n, estimate *e, fault *f)
+status estimate_alloc(int n, motion_estimate *e, fault *f)
 {
     memset(e, 0, sizeof *e);
     e->work = calloc((size_t)PARTS * (size_t)n + 1, sizeof *e->work);
@@ -18,12 +18,12 @@ status estimate_alloc(int n, estimate *e, fault *f)
                            : fault_set(f, STATUS_FAULT, "out of memory for %d coordinates", n);
 }
 
-void estimate_free(estimate *e)
+void estimate_free(motion_estimate *e)
 {
     free(e->work);
 }
 
-static double *part(const estimate *e, int which)
+static double *part(const motion_estimate *e, int which)
 {
     return e->work + (size_t)which * (size_t)e->basis->n;
 }
@@ -41,7 +41,7 @@ typedef struct forms {
     double k, m, g;
 } forms;
 
-static forms forms_of(const estimate *e, const double re[], const double im[])
+static forms forms_of(const motion_estimate *e, const double re[], const double im[])
 {
     const int n = e->basis->n;
     estimate_stiffness(e->p, re, part(e, K_RE));
@@ -67,7 +67,7 @@ static double quotient(const forms *of, double frequency)
 }
 
 /* r = (K + lambda^2 M + lambda G) x into its parts. */
-static void residual(const estimate *e, double complex lambda)
+static void residual(const motion_estimate *e, double complex lambda)
 {
     const double complex square = lambda * lambda;
     for (int k = 0; k < e->basis->n; k++) {
@@ -80,7 +80,7 @@ static void residual(const estimate *e, double complex lambda)
 }
 
 /* half^T S^-1 half */
-static double size_of(estimate *e, const double half[])
+static double size_of(motion_estimate *e, const double half[])
 {
     double *x = part(e, WORK);
     memcpy(x, half, (size_t)e->basis->n * sizeof *x);
@@ -90,7 +90,7 @@ static double size_of(estimate *e, const double half[])
 }
 
 /* w^H (lambda^2 M - K) x and w^H w = x^H x = x^H S x = 1. */
-static double energy(const estimate *e, int i, double complex lambda, int grows)
+static double energy(const motion_estimate *e, int i, double complex lambda, int grows)
 {
     const subspace *b = e->basis;
     const size_t at = (size_t)i * (size_t)b->room;
@@ -107,7 +107,7 @@ static double energy(const estimate *e, int i, double complex lambda, int grows)
 }
 
 /* x_k^H r of another pair, squared. */
-static double share(const estimate *e, int k)
+static double share(const motion_estimate *e, int k)
 {
     const subspace *b = e->basis;
     const double complex *c = e->pairs->c + (size_t)k * (size_t)b->room;
@@ -122,7 +122,7 @@ static double share(const estimate *e, int k)
 
 /* Twice what the vector misses, in parts of the eigenvalue: of other motions that were found, and
  * of those that were not, of which the first is known. */
-static double missed(estimate *e, int i, double complex lambda, double own)
+static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
     double sum = 0, rest = size_of(e, part(e, R_RE)) + size_of(e, part(e, R_IM));
@@ -144,7 +144,7 @@ static double missed(estimate *e, int i, double complex lambda, double own)
 
 /* What rounding may change in x^H (K + lambda^2 M + lambda G) x. The entries themselves pass
  * through a few operations. */
-static double rounding(const estimate *e, double size, const double re[], const double im[])
+static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;
     const gyroscopic_problem *p = e->p;
@@ -156,7 +156,7 @@ static double rounding(const estimate *e, double size, const double re[], const 
     return operations * (k + size * size * m + size * g);
 }
 
-void estimate_pair(estimate *e, int i, const double re[], const double im[], int grows,
+void estimate_pair(motion_estimate *e, int i, const double re[], const double im[], int grows,
                    double complex *lambda, double *error)
 {
     const forms of = forms_of(e, re, im);

@@ -11,23 +11,23 @@
 #include "harness/numerics/gyroscopic.h"
 #include "harness/numerics/ritz.h"
 
-typedef struct estimate {
+typedef struct motion_estimate {
     const gyroscopic_problem *p;
-    const subspace *basis; /* orthonormal in S = K + shift M, ... */
-    factor *S_factor;      /* ... which is factored as a matrix */
+    const subspace *basis;   /* orthonormal in S = K + shift M, ... */
+    matrix_factor *S_factor; /* ... which is factored as a matrix */
     const ritz *pairs;
     double shift;
     int found;    /* the pairs that are handed over: the first of them */
     double *work; /* [11 n] */
     long solutions;
-} estimate;
+} motion_estimate;
 
-status estimate_alloc(int n, estimate *, fault *);
-void estimate_free(estimate *);
+status estimate_alloc(int n, motion_estimate *, fault *);
+void estimate_free(motion_estimate *);
 /* Pair i, x = re + i im; grows: not an oscillation.  *lambda: of an oscillation better, the
  * quotient of quadratic forms k - omega^2 m + omega g = 0, whose error is the square of the
  * vector's; *error: an estimate, |lambda| is off by error |lambda|. */
-void estimate_pair(estimate *, int i, const double re[], const double im[], int grows,
+void estimate_pair(motion_estimate *, int i, const double re[], const double im[], int grows,
                    double complex *lambda, double *error);
 /* y = K x */
 void estimate_stiffness(const gyroscopic_problem *, const double x[], double y[]);

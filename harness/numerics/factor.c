@@ -11,7 +11,7 @@
 #include "harness/numerics/factor_symmetric.h"
 #include "harness/numerics/factor_unsymmetric.h"
 
-struct factor {
+struct matrix_factor {
     int n;
     factor_operator by;              /* without functions: none */
     factor_symmetric *symmetric;     /* one of the two; both of a matrix by its numbers */
@@ -23,9 +23,9 @@ struct factor {
 };
 
 /* All but the factors. */
-static status begin(const sparse *pattern, factor **out, fault *f)
+static status begin(const sparse *pattern, matrix_factor **out, fault *f)
 {
-    factor *fa = *out = calloc(1, sizeof *fa);
+    matrix_factor *fa = *out = calloc(1, sizeof *fa);
     if (fa == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for factors");
     fa->n = pattern->n;
@@ -40,10 +40,10 @@ static status begin(const sparse *pattern, factor **out, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for factors");
 }
 
-status factor_alloc(const sparse *pattern, factor **out, fault *f)
+status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f)
 {
     TRY(begin(pattern, out, f));
-    factor *fa = *out;
+    matrix_factor *fa = *out;
     if (fa->n == 0)
         return STATUS_OK;
     if (pattern->symmetric)
@@ -53,7 +53,8 @@ status factor_alloc(const sparse *pattern, factor **out, fault *f)
     return factor_unsymmetric_alloc(pattern, &fa->unsymmetric, &fa->counts, f);
 }
 
-status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, fault *f)
+status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
+                         fault *f)
 {
     if (of->symmetric == NULL || !pattern->symmetric)
         return factor_alloc(pattern, out, f);
@@ -64,9 +65,9 @@ status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, 
     return factor_symmetric_alloc_like(of->symmetric, &(*out)->symmetric, f);
 }
 
-status factor_of(const factor_operator *by, factor **out, fault *f)
+status factor_of(const factor_operator *by, matrix_factor **out, fault *f)
 {
-    factor *fa = *out = calloc(1, sizeof *fa);
+    matrix_factor *fa = *out = calloc(1, sizeof *fa);
     if (fa == NULL) {
         by->free(by->context);
         return fault_set(f, STATUS_FAULT, "out of memory for factors");
@@ -75,7 +76,7 @@ status factor_of(const factor_operator *by, factor **out, fault *f)
     return STATUS_OK;
 }
 
-void factor_free(factor *fa)
+void factor_free(matrix_factor *fa)
 {
     if (fa == NULL)
         return;
@@ -97,7 +98,7 @@ static void unit_vector(int n, int i, double e[])
 }
 
 /* Part of x_column that is round-off, with x = A^-1 e_row. */
-static double lost_part(factor *fa, const sparse *a, int row, int column)
+static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
 {
     double *x = fa->residual, *y = fa->residual, sum = 0;
     unit_vector(fa->n, row, x);
@@ -118,7 +119,7 @@ static double lost_part(factor *fa, const sparse *a, int row, int column)
 }
 
 /* LDL^T where the numbers of the whole matrix are symmetric: *a becomes its upper triangle. */
-static status choose(factor *fa, const sparse **a, fault *f)
+static status choose(matrix_factor *fa, const sparse **a, fault *f)
 {
     const factor_counts before = fa->counts;
     fa->counts.asymmetry = by_numbers_take(fa->whole, *a);
@@ -134,7 +135,7 @@ static status choose(factor *fa, const sparse **a, fault *f)
     return STATUS_OK;
 }
 
-status factor_numeric(factor *fa, const sparse *a, fault *f)
+status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
 {
     const double n = fa->n, lost = 0.25;
     int row = 0, column = 0;
@@ -160,12 +161,12 @@ status factor_numeric(factor *fa, const sparse *a, fault *f)
     return outcome;
 }
 
-void factor_solve(factor *fa, double x[])
+void factor_solve(matrix_factor *fa, double x[])
 {
     factor_solve_many(fa, 1, fa->n, x);
 }
 
-void factor_solve_many(factor *fa, int columns, int stride, double x[])
+void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[])
 {
     for (int c = 0; c < columns && fa->by.solve != NULL; c++)
         fa->by.solve(fa->by.context, 0, x + c * stride);
@@ -175,7 +176,7 @@ void factor_solve_many(factor *fa, int columns, int stride, double x[])
         factor_unsymmetric_solve(fa->unsymmetric, columns, stride, x);
 }
 
-void factor_solve_transposed(factor *fa, double x[])
+void factor_solve_transposed(matrix_factor *fa, double x[])
 {
     if (fa->by.solve != NULL)
         fa->by.solve(fa->by.context, 1, x);
@@ -185,7 +186,7 @@ void factor_solve_transposed(factor *fa, double x[])
         factor_solve(fa, x);
 }
 
-factor_counts factor_count(const factor *fa)
+factor_counts factor_count(const matrix_factor *fa)
 {
     if (fa->by.count != NULL)
         return fa->by.count(fa->by.context);
@@ -197,12 +198,12 @@ factor_counts factor_count(const factor *fa)
     return counts;
 }
 
-int factor_is_symmetric(const factor *fa)
+int factor_is_symmetric(const matrix_factor *fa)
 {
     return factor_count(fa).negative_pivots >= 0;
 }
 
-const sparse *factor_upper(const factor *fa)
+const sparse *factor_upper(const matrix_factor *fa)
 {
     return fa->whole != NULL && fa->upper ? by_numbers_upper(fa->whole) : NULL;
 }

@@ -12,7 +12,7 @@
 enum { MOST_STEPS = 5 };
 
 typedef struct condition {
-    factor *fa;
+    matrix_factor *fa;
     int n;
     const double *scale; /* [n] S: the matrix is S A S */
 } condition;
@@ -89,7 +89,7 @@ static double scaled_norm(const sparse *a, double scale[], double sum[])
     return norm;
 }
 
-double factor_condition(factor *fa, const sparse *a)
+double factor_condition(matrix_factor *fa, const sparse *a)
 {
     const size_t n = (size_t)a->n;
     double *work = malloc((3 * n + 1) * sizeof *work), estimate = NAN;

@@ -24,7 +24,7 @@ static const double near_zero = 1e-4, away_from_zero = 1e-2;
 /* Where all pairs are found, no others lie below this ratio to the last one. */
 static const double far = 1e3;
 
-typedef struct solver {
+typedef struct gyroscopic_solver {
     const gyroscopic_problem *p;
     gyroscopic_result *out;
     double shift;             /* [1/s^2] S = K + shift M */
@@ -38,7 +38,7 @@ typedef struct solver {
     ritz pairs;
     double *re, *im, *work, *product; /* [free] */
     int found;                        /* pairs wanted that have digits */
-} solver;
+} gyroscopic_solver;
 
 void gyroscopic_free(gyroscopic_result *r)
 {
@@ -52,7 +52,7 @@ void gyroscopic_free(gyroscopic_result *r)
 /* y = S x */
 static void basis_product(void *context, const double x[], double y[])
 {
-    const solver *s = context;
+    const gyroscopic_solver *s = context;
     estimate_stiffness(s->p, x, y);
     if (s->shift == 0)
         return;
@@ -62,7 +62,7 @@ static void basis_product(void *context, const double x[], double y[])
 }
 
 /* out_re + i out_im = sum_k c_k vector_k, times a complex number, added. */
-static void accumulate(const solver *s, const double *vectors, const double complex c[],
+static void accumulate(const gyroscopic_solver *s, const double *vectors, const double complex c[],
                        double complex times)
 {
     const size_t n = (size_t)s->basis.n;
@@ -75,14 +75,14 @@ static void accumulate(const solver *s, const double *vectors, const double comp
     }
 }
 
-static void clear(const solver *s)
+static void clear(const gyroscopic_solver *s)
 {
     memset(s->re, 0, (size_t)s->basis.n * sizeof *s->re);
     memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
 }
 
 /* r^H S^-1 r for one half of a residual, which is replaced by S^-1 times itself. */
-static double solve_half(solver *s, double half[])
+static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
     factor_solve(s->p->K_factor, half);
@@ -91,7 +91,7 @@ static double solve_half(solver *s, double half[])
 }
 
 /* Size of the residual of pair i; where it is large, the basis takes in S^-1 times it. */
-static double improve(solver *s, int i, int *grown)
+static double improve(gyroscopic_solver *s, int i, int *grown)
 {
     const double complex lambda = s->pairs.lambda[i],
                          *c = s->pairs.c + (size_t)i * (size_t)s->basis.room;
@@ -108,7 +108,7 @@ static double improve(solver *s, int i, int *grown)
 }
 
 /* By what part of lambda^2 of pair i rounding moves it, with its mass beside the largest. */
-static double noise(const solver *s, int i)
+static double noise(const gyroscopic_solver *s, int i)
 {
     const double size = cabs(s->pairs.lambda[i]);
     double mass = 0;
@@ -119,7 +119,7 @@ static double noise(const solver *s, int i)
 
 /* Ritz pairs until `wanted` of them are good. Those with too little mass to have digits end the
  * search where the basis has no more to gain. */
-static status iterate(solver *s, int wanted, fault *f)
+static status iterate(gyroscopic_solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
         TRY(s->shift > 0 ? ritz_general(&s->basis, s->shift, &s->pairs, f)
@@ -149,7 +149,7 @@ static status iterate(solver *s, int wanted, fault *f)
 
 /* The first `count` modes without G go into the basis; those too whose value is lost in round-off:
  * the basis improves them. */
-static status start(solver *s, int count, fault *f)
+static status start(gyroscopic_solver *s, int count, fault *f)
 {
     eigen_result e = {0};
     const eigen_problem problem = {
@@ -172,7 +172,7 @@ static status start(solver *s, int count, fault *f)
 }
 
 /* Negative eigenvalues of K that the pairs found do not account for. */
-static int unaccounted(const solver *s)
+static int unaccounted(const gyroscopic_solver *s)
 {
     return s->out->negative -
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
@@ -180,7 +180,7 @@ static int unaccounted(const solver *s)
 
 /* K is indefinite: what the count below a gap behind the first `last` pairs proves of them. One
  * that fails proves nothing. */
-static status prove(solver *s, int last, status counted, int below, int *number)
+static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {
     const gyroscopic_index found = gyroscopic_index_of(&s->pairs, &s->basis, s->shift, last);
     const int negative = s->out->negative;
@@ -193,7 +193,7 @@ static status prove(solver *s, int last, status counted, int below, int *number)
 
 /* Part of x^H S x of the pairs found that assembling S has changed: by half of it their frequencies
  * are others in the matrix, where they are counted. */
-static double departure(solver *s)
+static double departure(gyroscopic_solver *s)
 {
     double largest = 0;
     for (int i = 0; i < s->found; i++) {
@@ -210,7 +210,7 @@ static double departure(solver *s)
 
 /* Frequencies below a gap between those found and the next, less those that are found; equal ones
  * have no gap between them. */
-static status missing(solver *s, int wanted, int *number, fault *f)
+static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
     const double gap = fmax(1e-6, 4 * departure(s)); /* relative */
     int last = s->found, below = 0;
@@ -250,7 +250,7 @@ static double rate_of_turning(const sparse *G, const sparse *M)
 }
 
 /* The least shift, in powers of ten, that makes K definite. */
-static status find_shift(solver *s, fault *f)
+static status find_shift(gyroscopic_solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
     double k = 0, mass = 0;
@@ -283,7 +283,7 @@ static status find_shift(solver *s, fault *f)
 
 /* The shift that a start shows to be needed: where K is nearly singular, as at a critical speed, or
  * K + shift M is. No larger than the shift there is: none is. */
-static double shift_after(const solver *s, status started)
+static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);
     const double scale = s->all_known ? fmin(rate * rate, s->furthest) : rate * rate;
@@ -294,7 +294,7 @@ static double shift_after(const solver *s, status started)
 }
 
 /* The first start, if need be with another shift. */
-static status begin(solver *s, int count, fault *f)
+static status begin(gyroscopic_solver *s, int count, fault *f)
 {
     const status outcome = start(s, count, f);
     if (outcome != STATUS_OK && outcome != STATUS_NOT_CONVERGED)
@@ -308,7 +308,7 @@ static status begin(solver *s, int count, fault *f)
 }
 
 /* The phase that makes the real part as large as it can be. */
-static void turn_phase(const solver *s)
+static void turn_phase(const gyroscopic_solver *s)
 {
     double complex square = 0;
     for (int i = 0; i < s->basis.n; i++)
@@ -322,7 +322,7 @@ static void turn_phase(const solver *s)
 }
 
 /* Pair i into the result; its vector is in re and im. */
-static void take_pair(solver *s, int i, estimate *e)
+static void take_pair(gyroscopic_solver *s, int i, motion_estimate *e)
 {
     gyroscopic_result *r = s->out;
     double complex lambda = s->pairs.lambda[i];
@@ -337,10 +337,10 @@ static void take_pair(solver *s, int i, estimate *e)
     memcpy(r->mode + (size_t)i * (size_t)r->n, s->re, (size_t)r->n * sizeof(double));
 }
 
-static status hand_over(solver *s, fault *f)
+static status hand_over(gyroscopic_solver *s, fault *f)
 {
     gyroscopic_result *r = s->out;
-    estimate e;
+    motion_estimate e;
     r->count = s->found;
     r->frequency = calloc((size_t)r->count + 1, sizeof(double));
     r->growth = calloc((size_t)r->count + 1, sizeof(double));
@@ -362,7 +362,7 @@ static status hand_over(solver *s, fault *f)
     return STATUS_OK;
 }
 
-static status find(solver *s, fault *f)
+static status find(gyroscopic_solver *s, fault *f)
 {
     const int n = s->out->n;
     int first = s->p->wanted + SPARE, lost = 1;
@@ -379,7 +379,7 @@ static status find(solver *s, fault *f)
 }
 
 /* With what gyroscopic_solve frees. */
-static status solve(solver *s, fault *f)
+static status solve(gyroscopic_solver *s, fault *f)
 {
     const gyroscopic_problem *p = s->p;
     const int vectors = p->wanted + SPARE;
@@ -399,7 +399,7 @@ static status solve(solver *s, fault *f)
 status gyroscopic_solve(const gyroscopic_problem *p, gyroscopic_result *r, fault *f)
 {
     const size_t n = (size_t)p->K->n;
-    solver s = {.p = p, .out = r, .S = p->K, .re = calloc(4 * n + 1, sizeof(double))};
+    gyroscopic_solver s = {.p = p, .out = r, .S = p->K, .re = calloc(4 * n + 1, sizeof(double))};
     memset(r, 0, sizeof *r);
     r->n = (int)n;
     r->negative = factor_count(p->K_factor).negative_pivots;

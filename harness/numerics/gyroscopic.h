@@ -21,8 +21,9 @@
 
 typedef struct gyroscopic_problem {
     const sparse *K, *M, *G; /* same symmetric pattern; of G the upper triangle is stored */
-    factor *K_factor; /* factor_numeric done; its numbers are replaced where K is indefinite */
-    int wanted;       /* number of lowest modes */
+    matrix_factor
+        *K_factor; /* factor_numeric done; its numbers are replaced where K is indefinite */
+    int wanted;    /* number of lowest modes */
     eigen_product
         *K_product; /* y = K x with fewer digits lost than by the matrix; NULL: there is none */
     eigen_form *K_rounding; /* what rounding may change in x^T K x of it; NULL: from the matrix */

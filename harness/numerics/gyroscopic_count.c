@@ -50,7 +50,7 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
 
 /* With what gyroscopic_count frees. */
 static status count(const sparse *K, const sparse *M, const sparse *G, double omega,
-                    sparse *doubled, factor **factors, int *below, fault *f)
+                    sparse *doubled, matrix_factor **factors, int *below, fault *f)
 {
     TRY(doubled_alloc(K, doubled, f));
     fill(K, M, G, omega, doubled);
@@ -64,7 +64,7 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
                         fault *f)
 {
     sparse doubled;
-    factor *factors = NULL;
+    matrix_factor *factors = NULL;
     const status outcome = count(K, M, G, omega, &doubled, &factors, below, f);
     factor_free(factors);
     doubled_free(&doubled);

@@ -17,13 +17,13 @@ enum {
 /* Of a vector: Rayleigh's quotient squares it. */
 static const double tolerance = 1e-10;
 
-typedef struct workspace {
+typedef struct lanczos_workspace {
     int n, wanted, vectors, size;
     double *numbers, *start, *basis, *vector, *work, *value;
     int *integers, *parameter, *pointer, *select;
-} workspace;
+} lanczos_workspace;
 
-static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *f)
+static status workspace_alloc(lanczos_workspace *w, int n, int wanted, int room, fault *f)
 {
     memset(w, 0, sizeof *w);
     w->n = n;
@@ -47,7 +47,7 @@ static status workspace_alloc(workspace *w, int n, int wanted, int room, fault *
     return STATUS_OK;
 }
 
-static void workspace_free(workspace *w)
+static void workspace_free(lanczos_workspace *w)
 {
     free(w->numbers);
     free(w->basis);
@@ -91,7 +91,7 @@ static void apply(const lanczos_problem *p, double x[], double y[])
 }
 
 /* Returns ARPACK's verdict: 0 when all wanted ones converged. */
-static int iterate(const lanczos_problem *p, workspace *w, long *solutions)
+static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutions)
 {
     int ido = 0, info = 1;
     w->parameter[0] = 1;
@@ -124,8 +124,8 @@ static void reverse(size_t n, int count, double x[])
 }
 
 /* ARPACK's values and vectors, the largest first. The vectors are what is left of the basis. */
-static status take_vectors(workspace *w, int n, int wanted, int found, double mu[], double **x,
-                           fault *f)
+static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, double mu[],
+                           double **x, fault *f)
 {
     int info = 0;
     dseupd_c(1, "A", w->select, w->value, w->basis, n, 0, "G", n, "LA", wanted, tolerance, w->start,
@@ -143,8 +143,8 @@ static status take_vectors(workspace *w, int n, int wanted, int found, double mu
 }
 
 /* With what lanczos_largest frees. */
-static status solve(const lanczos_problem *p, workspace *w, int wanted, int *found, double mu[],
-                    double **x, long *solutions, fault *f)
+static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, int *found,
+                    double mu[], double **x, long *solutions, fault *f)
 {
     const int n = p->K->n;
     TRY(workspace_alloc(w, n, wanted, n - p->known, f));
@@ -181,7 +181,7 @@ static void mind_forks(void)
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f)
 {
-    workspace w;
+    lanczos_workspace w;
     *x = NULL;
     pthread_once(&forks, mind_forks);
     lock();

@@ -7,7 +7,7 @@
 
 typedef struct lanczos_problem {
     const sparse *K, *A;
-    factor *K_factor;
+    matrix_factor *K_factor;
     double sign;      /* s */
     int known;        /* eigenvectors that are taken out of the problem ... */
     const double *X;  /* ... [known x n], K-orthonormal */

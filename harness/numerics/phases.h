@@ -7,14 +7,14 @@
 
 #include "harness/numerics/clock.h"
 
-typedef enum phase {
+typedef enum newton_phase {
     PHASE_ELEMENTS,
     PHASE_ASSEMBLY,
     PHASE_FACTORISATION,
     PHASE_SOLUTION,
     PHASE_REST, /* outside of the iterations; from here on no part of one */
     PHASES
-} phase;
+} newton_phase;
 
 typedef struct phases {
     int wanted, running;
@@ -44,7 +44,7 @@ static inline void phases_start(phases *p)
 }
 
 /* What has passed since the last reading belongs to k. */
-static inline void phases_lap(phases *p, phase k)
+static inline void phases_lap(phases *p, newton_phase k)
 {
     if (!p->running)
         return;
@@ -69,7 +69,7 @@ static inline void phases_of_whole(const phases *p, double whole, double part[PH
     }
 }
 
-static inline const char *phase_name(phase k)
+static inline const char *phase_name(newton_phase k)
 {
     static const char *const name[PHASES] = {"elements", "assembly", "factorisation", "solution",
                                              "rest"};

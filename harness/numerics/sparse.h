@@ -40,7 +40,7 @@ void by_numbers_free(by_numbers *);
 double by_numbers_take(by_numbers *, const sparse *a);
 const sparse *by_numbers_upper(const by_numbers *);
 
-typedef struct factor factor;
+typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
     long entries;        /* of the factors: fill */
@@ -57,23 +57,24 @@ typedef struct factor_counts {
 /* Symbolic analysis once: fill-reducing order (AMD). Symmetric: LDL^T without pivoting, whose signs
  * give the inertia; unsymmetric: KLU. By its numbers: LDL^T of the upper triangle, bit by bit that
  * of a matrix that stores nothing else, or KLU. */
-status factor_alloc(const sparse *pattern, factor **out, fault *f);
+status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 /* For a matrix with the pattern that `of` was made for: a symmetric one takes the order of `of`,
  * which must outlive it and not be factored at the same time. */
-status factor_alloc_like(const factor *of, const sparse *pattern, factor **out, fault *f);
-void factor_free(factor *fa);
+status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
+                         fault *f);
+void factor_free(matrix_factor *fa);
 /* SINGULAR when a pivot is zero or not finite, or growth has destroyed the digits. */
-status factor_numeric(factor *fa, const sparse *a, fault *f);
+status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
 /* 1: the numbers factored last were taken for symmetric. */
-int factor_is_symmetric(const factor *fa);
+int factor_is_symmetric(const matrix_factor *fa);
 /* The upper triangle that was factored of a matrix by its numbers; NULL: none. It belongs to the
  * factor. */
-const sparse *factor_upper(const factor *fa);
-void factor_solve(factor *fa, double x[]); /* in place */
+const sparse *factor_upper(const matrix_factor *fa);
+void factor_solve(matrix_factor *fa, double x[]); /* in place */
 /* `columns` right-hand sides, each `stride` numbers after the one before it. */
-void factor_solve_many(factor *fa, int columns, int stride, double x[]);
-void factor_solve_transposed(factor *fa, double x[]); /* A^T x = b */
-factor_counts factor_count(const factor *fa);
+void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[]);
+void factor_solve_transposed(matrix_factor *fa, double x[]); /* A^T x = b */
+factor_counts factor_count(const matrix_factor *fa);
 
 /* Solutions that somebody else knows how to find. */
 typedef struct factor_operator {
@@ -84,9 +85,9 @@ typedef struct factor_operator {
 } factor_operator;
 /* factor_solve, factor_solve_transposed and factor_count are those of the operator, which the
  * factor owns; it factors no matrix. */
-status factor_of(const factor_operator *, factor **out, fault *f);
+status factor_of(const factor_operator *, matrix_factor **out, fault *f);
 /* 1-norm condition number of the factored matrix a, rows and columns scaled by the root of its
  * diagonal: Hager's estimate, a lower bound within a small factor. NAN when memory ran out. */
-double factor_condition(factor *fa, const sparse *a);
+double factor_condition(matrix_factor *fa, const sparse *a);
 
 #endif

@@ -9,15 +9,15 @@
 
 enum { SPINS = 2000 };
 
-typedef struct member {
-    team *team;
+typedef struct team_member {
+    thread_team *team;
     int index; /* 1 .. threads - 1; the caller is 0 */
     pthread_t thread;
-} member;
+} team_member;
 
-struct team {
+struct thread_team {
     int threads, started;
-    member member[TEAM_MOST];
+    team_member member[TEAM_MOST];
     pthread_mutex_t lock;
     pthread_cond_t wake;
     atomic_int round,
@@ -28,7 +28,7 @@ struct team {
     void *context;
 };
 
-static void do_part(const team *t, int index)
+static void do_part(const thread_team *t, int index)
 {
     const int first = (int)((long)t->count * index / t->threads),
               end = (int)((long)t->count * (index + 1) / t->threads);
@@ -36,7 +36,7 @@ static void do_part(const team *t, int index)
         t->work(t->context, first, end);
 }
 
-static void wait_for_round(team *t, int seen)
+static void wait_for_round(thread_team *t, int seen)
 {
     for (int i = 0; i < SPINS; i++)
         if (atomic_load_explicit(&t->round, memory_order_acquire) != seen)
@@ -49,8 +49,8 @@ static void wait_for_round(team *t, int seen)
 
 static void *live(void *argument)
 {
-    const member *self = argument;
-    team *t = self->team;
+    const team_member *self = argument;
+    thread_team *t = self->team;
     for (int seen = 0;; seen++) {
         wait_for_round(t, seen);
         if (t->end)
@@ -60,7 +60,7 @@ static void *live(void *argument)
     }
 }
 
-static void announce(team *t)
+static void announce(thread_team *t)
 {
     pthread_mutex_lock(&t->lock);
     atomic_fetch_add(&t->round, 1);
@@ -68,19 +68,19 @@ static void announce(team *t)
     pthread_mutex_unlock(&t->lock);
 }
 
-status team_alloc(int threads, team **out, fault *f)
+status team_alloc(int threads, thread_team **out, fault *f)
 {
     *out = NULL;
     if (threads <= 1)
         return STATUS_OK;
-    team *t = calloc(1, sizeof *t);
+    thread_team *t = calloc(1, sizeof *t);
     if (t == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for threads");
     t->threads = threads < TEAM_MOST ? threads : TEAM_MOST;
     pthread_mutex_init(&t->lock, NULL);
     pthread_cond_init(&t->wake, NULL);
     for (int i = 1; i < t->threads; i++) {
-        t->member[i] = (member){.team = t, .index = i};
+        t->member[i] = (team_member){.team = t, .index = i};
         if (pthread_create(&t->member[i].thread, NULL, live, &t->member[i]) != 0)
             break;
         t->started++;
@@ -93,7 +93,7 @@ status team_alloc(int threads, team **out, fault *f)
     return STATUS_OK;
 }
 
-void team_free(team *t)
+void team_free(thread_team *t)
 {
     if (t == NULL)
         return;
@@ -106,7 +106,7 @@ void team_free(team *t)
     free(t);
 }
 
-void team_run(team *t, int count, team_work *work, void *context)
+void team_run(thread_team *t, int count, team_work *work, void *context)
 {
     if (t == NULL) {
         work(context, 0, count);
@@ -189,7 +189,7 @@ static void relay_member(void *context, int first, int end)
         follow(context);
 }
 
-void team_relay(team *t, int pieces, team_fill *fill, team_take *take, void *context)
+void team_relay(thread_team *t, int pieces, team_fill *fill, team_take *take, void *context)
 {
     if (t == NULL) {
         int wanted = 1;

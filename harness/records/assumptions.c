@@ -34,7 +34,7 @@ static int of_section(const scene *s, assumption *a)
 }
 
 /* A built-in case has from its source what there is. */
-int assumptions_at(const point *p, int index, assumption *out)
+int assumptions_at(const sweep_point *p, int index, assumption *out)
 {
     int found = 0;
     if (p->type->file == NULL || p->status != STATUS_OK)
@@ -49,7 +49,7 @@ int assumptions_at(const point *p, int index, assumption *out)
     return 0;
 }
 
-void assumptions_words(const point *p, size_t size, char out[])
+void assumptions_words(const sweep_point *p, size_t size, char out[])
 {
     const size_t rest = 40; /* for the number of those that find no room */
     size_t used = 0;

@@ -22,8 +22,8 @@ typedef struct assumption {
 
 const char *assumptions_kind(int kind); /* "not known" */
 /* The index-th of the point. 0: there is none. */
-int assumptions_at(const point *p, int index, assumption *out);
+int assumptions_at(const sweep_point *p, int index, assumption *out);
 /* All of them, "kind: text", with semicolons between; what finds no room is counted. */
-void assumptions_words(const point *p, size_t size, char out[]);
+void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
 #endif

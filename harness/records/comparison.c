@@ -46,8 +46,8 @@ static int selected(const char *select, const char *name)
  * has it. *last: the series that was counted last, in the order of their names. */
 static void tell_lone(const listing *l, int which, const char **last)
 {
-    const results *here = which == 0 ? l->before : l->after,
-                  *other = which == 0 ? l->after : l->before;
+    const stored_results *here = which == 0 ? l->before : l->after,
+                         *other = which == 0 ? l->after : l->before;
     int *count = NULL;
     if (!results_part_wants(other, here, l->name))
         count = &l->out->outside[which];
@@ -61,7 +61,8 @@ static void tell_lone(const listing *l, int which, const char **last)
     *last = l->name;
 }
 
-static void run_cells(listing l, const results *before, const results *after, const char *select)
+static void run_cells(listing l, const stored_results *before, const stored_results *after,
+                      const char *select)
 {
     const char *last = NULL;
     for (int i = 0, k = 0; i < before->cells || k < after->cells;) {
@@ -82,7 +83,8 @@ static void run_cells(listing l, const results *before, const results *after, co
     }
 }
 
-static void run_series(listing l, const results *before, const results *after, const char *select)
+static void run_series(listing l, const stored_results *before, const stored_results *after,
+                       const char *select)
 {
     const char *last = NULL;
     for (int i = 0, k = 0; i < before->seriess || k < after->seriess;) {
@@ -102,7 +104,7 @@ static void run_series(listing l, const results *before, const results *after, c
     }
 }
 
-void comparison_run(FILE *to, const results *before, const results *after,
+void comparison_run(FILE *to, const stored_results *before, const stored_results *after,
                     const comparison_limits *limits, const char *select, comparison *out)
 {
     const listing l = {to, limits, out, before, after, "", 0};

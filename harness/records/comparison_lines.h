@@ -9,7 +9,7 @@ typedef struct listing {
     FILE *to;
     const comparison_limits *limits;
     comparison *out;
-    const results *before, *after;
+    const stored_results *before, *after;
     const char *name;
     int elements; /* 0: of no single mesh */
 } listing;

@@ -10,13 +10,13 @@ enum { TOLD = 1 << 14, NAME = 2048 };
 /* What one of them has alone, and what had its line. */
 typedef struct lone {
     comparison_kind kind;
-    const results *other;
+    const stored_results *other;
     char told[TOLD];  /* formulations and meshes, a line each */
     char where[NAME]; /* the last point */
 } lone;
 
 /* Begins the name of a cell beside `next` like this one, by so many characters? */
-static int is_beside(const results *r, int next, const char *name, size_t length)
+static int is_beside(const stored_results *r, int next, const char *name, size_t length)
 {
     for (int i = next - 1; i <= next; i++)
         if (i >= 0 && i < r->cells && strncmp(r->cell[i].name, name, length) == 0)

@@ -5,10 +5,10 @@
 
 enum { MOST_COLUMNS = 2 * SCHEMA_MOST_FIELDS };
 
-typedef struct column {
+typedef struct record_column {
     const schema_field *field;
     int part;
-} column;
+} record_column;
 
 static void csv_field(FILE *to, const char *text)
 {
@@ -29,7 +29,7 @@ void csv_record_text(FILE *to, const char *text)
         csv_field(to, text);
 }
 
-static int known(const column out[], int count, const char *name)
+static int known(const record_column out[], int count, const char *name)
 {
     for (int i = 0; i < count; i++)
         if (strcmp(out[i].field->name, name) == 0)
@@ -37,7 +37,7 @@ static int known(const column out[], int count, const char *name)
     return 0;
 }
 
-static int columns_of(int parts, const csv_part part[], column out[MOST_COLUMNS])
+static int columns_of(int parts, const csv_part part[], record_column out[MOST_COLUMNS])
 {
     int count = 0;
     for (int p = 0; p < parts; p++) {
@@ -45,7 +45,7 @@ static int columns_of(int parts, const csv_part part[], column out[MOST_COLUMNS]
         const int fields = schema_fields(part[p].type, KEY_AROUND, list);
         for (int i = 0; i < fields && count < MOST_COLUMNS; i++)
             if (list[i]->count == 0 && !known(out, count, list[i]->name))
-                out[count++] = (column){list[i], p};
+                out[count++] = (record_column){list[i], p};
     }
     return count;
 }
@@ -64,7 +64,7 @@ static void write_value(FILE *to, const schema_field *which, const field_value *
 
 void csv_record_head(FILE *to, int parts, const csv_part part[])
 {
-    column list[MOST_COLUMNS];
+    record_column list[MOST_COLUMNS];
     const int count = columns_of(parts, part, list);
     for (int i = 0; i < count; i++)
         fprintf(to, "%s%s", i > 0 ? "," : "", list[i].field->name);
@@ -73,7 +73,7 @@ void csv_record_head(FILE *to, int parts, const csv_part part[])
 
 void csv_record_line(FILE *to, int parts, const csv_part part[])
 {
-    column list[MOST_COLUMNS];
+    record_column list[MOST_COLUMNS];
     const int count = columns_of(parts, part, list);
     for (int i = 0; i < count; i++) {
         field_value v;

@@ -72,10 +72,10 @@ static void get_priced(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_point[] = {
-    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", AT(point, text)},
-    {"status", "", FIELD_ENUM, "of building the scene", AT(point, status),
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", AT(sweep_point, text)},
+    {"status", "", FIELD_ENUM, "of building the scene", AT(sweep_point, status),
      .word = fields_keys_word_of_status, .words = STATUSES},
-    {"reason", "", FIELD_TEXT, "why it was refused", AT(point, reason)},
+    {"reason", "", FIELD_TEXT, "why it was refused", AT(sweep_point, reason)},
     {0}};
 const record_type record_point = {"point",
                                   "points",

@@ -14,12 +14,12 @@ static void get_elements(const subject *s, field_value *out)
 const schema_field keys_of_point[] = {
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
     {"point", "", FIELD_TEXT, "default, or the first digits of the parameters' hash",
-     OF(POINT, point, name), .key = KEY},
+     OF(POINT, sweep_point, name), .key = KEY},
     {0}};
 
 const schema_field keys_of_series[] = {
-    {"parameters", "", FIELD_TEXT, "where they differ from the defaults", OF(POINT, point, text),
-     .key = KEY_AROUND},
+    {"parameters", "", FIELD_TEXT, "where they differ from the defaults",
+     OF(POINT, sweep_point, text), .key = KEY_AROUND},
     {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
      OF(SERIES, series, formulation.key), .key = KEY},
     {0}};

@@ -208,7 +208,7 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
 {
     const sweep *all = g->sweep;
     for (int i = 0; i < all->seriess; i++) {
-        const point *p = &all->point[all->series[i].point];
+        const sweep_point *p = &all->point[all->series[i].point];
         const subject s = {.sweep = all, .point = p, .record = p};
         int known = p->type != of;
         for (int k = 0; k < out->count && !known; k++)
@@ -233,7 +233,7 @@ static void gather_meanings(subject s, subjects *out)
         gather_add(out, &s);
 }
 
-void gather_assumptions(const point *p, subjects *out)
+void gather_assumptions(const sweep_point *p, subjects *out)
 {
     assumption a;
     for (subject s = {.point = p, .record = p}; assumptions_at(p, s.index, &a); s.index++)

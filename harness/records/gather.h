@@ -28,7 +28,7 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
 /* One of each formulation that was run here, in the order of the series. */
 void gather_declarations(const gathering *g, subjects *out);
 /* What is assumed of its sections. */
-void gather_assumptions(const point *p, subjects *out);
+void gather_assumptions(const sweep_point *p, subjects *out);
 subject gather_cell(const gathering *g, int series_index, int mesh);
 subject gather_verdict(const gathering *g, const verdict *v);
 subject gather_agreement(const gathering *g, const agreement *a);

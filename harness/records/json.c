@@ -31,7 +31,7 @@ static json_t *values_of(const assignment_list *l, const double value[])
 /* All truths of the continuum that hold here, with the error against each. */
 static json_t *truths_of(const subject *s, const truths *t)
 {
-    const point *p = s->point;
+    const sweep_point *p = s->point;
     subject one = *s;
     json_t *list = json_array();
     if (t != NULL)
@@ -100,7 +100,7 @@ status json_finish(json_t *root, FILE *to, fault *f)
     return bad ? fault_set(f, STATUS_FAULT, unwritten) : STATUS_OK;
 }
 
-void json_add_physics(json_t *root, const point *p)
+void json_add_physics(json_t *root, const sweep_point *p)
 {
     json_t *omitted = json_array(), *assumptions = json_array();
     const unsigned features = p->status == STATUS_OK ? features_omitted(&p->scene) : 0;

@@ -13,7 +13,7 @@ status json_finish(json_t *root, FILE *to, fault *f);
 
 /* What the scene of a point leaves out ("omitted"), and what is assumed of its sections
  * ("assumptions"). */
-void json_add_physics(json_t *root, const point *p);
+void json_add_physics(json_t *root, const sweep_point *p);
 /* Solution of one cell of a one-point sweep; t may be NULL. */
 status json_write_solution(FILE *to, const sweep *s, const truths *t, fault *f);
 /* Verdicts as text, while others are still reached. */

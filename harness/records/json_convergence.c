@@ -131,7 +131,7 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
     json_t *all = json_array();
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
-        const point *p = &s->point[one->point];
+        const sweep_point *p = &s->point[one->point];
         json_t *quantities = json_array();
         if (one->missing[0] == '\0')
             for (int q = 0; q < p->scene.quantities; q++)

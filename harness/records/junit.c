@@ -34,7 +34,7 @@ static void property(FILE *to, const char *name, double value)
         fprintf(to, "   <property name=\"%s\" value=\"%.17g\"/>\n", name, value);
 }
 
-static void property_omitted(FILE *to, const point *p)
+static void property_omitted(FILE *to, const sweep_point *p)
 {
     char words[SCENE_OMISSION_WORDS] = "";
     if (p->status == STATUS_OK)
@@ -59,7 +59,7 @@ static double seconds_of(const series *one)
     return seconds;
 }
 
-static void open_test(FILE *to, const point *p)
+static void open_test(FILE *to, const sweep_point *p)
 {
     fprintf(to, "  <testcase classname=\"%s.", p->type->name);
     escaped(to, p->text[0] != '\0' ? p->text : "default");
@@ -74,7 +74,7 @@ static int is_skipped(const verdict *v)
 static void write_verdict(FILE *to, const sweep *s, const verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     open_test(to, p);
     fprintf(to, "\" name=\"%s %s\" time=\"%.6f\">\n   <properties>\n", one->formulation.key,
             p->scene.quantity[v->quantity].name, seconds_of(one));
@@ -106,7 +106,7 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
 static void write_agreement(FILE *to, const sweep *s, const agreement *a)
 {
     const series *one = &s->series[a->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     open_test(to, p);
     fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh],
             p->scene.quantity[a->quantity].name);

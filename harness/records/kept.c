@@ -14,7 +14,7 @@
 #include "harness/records/table_reader.h"
 #include "harness/study/checksum.h"
 
-hid_t kept_group(record *r, const char *name)
+hid_t kept_group(record_file *r, const char *name)
 {
     if (name == NULL)
         return record_group(r, r->file, "/");
@@ -96,7 +96,7 @@ static status open_former(const char *path, int patience, hid_t *file, fault *f)
 }
 
 typedef struct target {
-    record *r;
+    record_file *r;
     hid_t at;
 } target;
 
@@ -121,7 +121,7 @@ static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *unu
 }
 
 /* Links that are not here yet. */
-static void copy_links(record *r, hid_t from, hid_t to)
+static void copy_links(record_file *r, hid_t from, hid_t to)
 {
     enum { NAME = 256 };
     char name[NAME];
@@ -136,14 +136,14 @@ static void copy_links(record *r, hid_t from, hid_t to)
     }
 }
 
-static void copy_all(record *r, hid_t from, hid_t to)
+static void copy_all(record_file *r, hid_t from, hid_t to)
 {
     target t = {r, to};
     copy_links(r, from, to);
     r->bad |= H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_INC, NULL, copy_attribute, &t) < 0;
 }
 
-static void copy_groups(record *r, hid_t former)
+static void copy_groups(record_file *r, hid_t former)
 {
     if (H5Lexists(former, KEPT_GROUPS, H5P_DEFAULT) <= 0)
         return;
@@ -154,7 +154,7 @@ static void copy_groups(record *r, hid_t former)
     H5Gclose(from);
 }
 
-static void copy_former(record *r, const char *name, hid_t former)
+static void copy_former(record_file *r, const char *name, hid_t former)
 {
     const int is_sweep = H5Aexists(former, KEPT_SWEEP_MARK) > 0;
     copy_groups(r, former);
@@ -168,7 +168,7 @@ static void copy_former(record *r, const char *name, hid_t former)
 }
 
 /* Of a file that verify has not written into yet. */
-static void put_schema(record *r)
+static void put_schema(record_file *r)
 {
     if (H5Aexists(r->file, "schema") > 0)
         return;
@@ -177,9 +177,9 @@ static void put_schema(record *r)
 }
 
 /* What was made in memory goes to the disk first: what others have left may be larger. */
-static status merge(record *r, const char *name, hid_t former, const char *path, fault *f)
+static status merge(record_file *r, const char *name, hid_t former, const char *path, fault *f)
 {
-    record all;
+    record_file all;
     if (r->to.stream == NULL) {
         const status opened = record_open_beside(&all, path, f);
         if (opened != STATUS_OK)
@@ -193,7 +193,8 @@ static status merge(record *r, const char *name, hid_t former, const char *path,
     return STATUS_OK;
 }
 
-static status close_merged(record *r, const char *name, const place *at, const char *path, fault *f)
+static status close_merged(record_file *r, const char *name, const file_place *at, const char *path,
+                           fault *f)
 {
     hid_t former;
     status outcome = open_former(at->path, -1, &former, f);
@@ -236,7 +237,8 @@ static int take_lock(const char *name, int patience)
     }
 }
 
-static status lock_beside(const place *at, int patience, char beside[PATH_MAX], int *lock, fault *f)
+static status lock_beside(const file_place *at, int patience, char beside[PATH_MAX], int *lock,
+                          fault *f)
 {
     const int length = snprintf(beside, PATH_MAX, "%s.lock", at->path);
     *lock = length < PATH_MAX ? take_lock(beside, patience) : -1;
@@ -262,7 +264,7 @@ status kept_check(const char *path, fault *f)
     enum { PATIENCE = 100 }; /* [0.1 s]: longer than it takes to write one */
     char beside[PATH_MAX];
     hid_t file;
-    place at;
+    file_place at;
     int lock;
     TRY(place_find(path, &at, f));
     if (at.kind != PLACE_FREE && at.kind != PLACE_FILE)
@@ -275,7 +277,8 @@ status kept_check(const char *path, fault *f)
     return outcome;
 }
 
-static status close_locked(record *r, const char *name, const place *at, const char *path, fault *f)
+static status close_locked(record_file *r, const char *name, const file_place *at, const char *path,
+                           fault *f)
 {
     char beside[PATH_MAX];
     int lock;
@@ -287,9 +290,9 @@ static status close_locked(record *r, const char *name, const place *at, const c
     return outcome;
 }
 
-status kept_close(record *r, const char *name, const char *path, fault *f)
+status kept_close(record_file *r, const char *name, const char *path, fault *f)
 {
-    place at;
+    file_place at;
     if (path == NULL)
         return record_close(r, NULL, f);
     const status found = place_find(path, &at, f);

@@ -14,10 +14,10 @@
 
 /* Where an experiment writes: its group; name NULL: the root. The caller closes it with
  * H5Gclose. */
-hid_t kept_group(record *r, const char *name);
+hid_t kept_group(record_file *r, const char *name);
 /* As record_close, with all that the file at `path` holds of other experiments than `name`. On
  * FAULT the file is as it was. */
-status kept_close(record *r, const char *name, const char *path, fault *f);
+status kept_close(record_file *r, const char *name, const char *path, fault *f);
 /* Before the work. REFUSED: HDF5 is there that is damaged, or not of results, and would be lost, or
  * another program does not let go of it; FAULT: it cannot be locked. */
 status kept_check(const char *path, fault *f);

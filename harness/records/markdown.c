@@ -31,7 +31,7 @@ static void number(FILE *to, double value)
 static void write_verdict(FILE *to, const sweep *s, const verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     fprintf(to, "| %s | ", p->type->name);
     cell(to, p->text);
     fprintf(to, " | `%s` | %s | **%s** | %s", one->formulation.key,
@@ -182,7 +182,7 @@ static void write_omitted(FILE *to, const sweep *s)
     const char *before = "";
     char last[SCENE_OMISSION_WORDS] = "";
     for (int i = 0; i < s->points; i++) {
-        const point *p = &s->point[i];
+        const sweep_point *p = &s->point[i];
         char words[SCENE_OMISSION_WORDS] = "";
         if (p->status == STATUS_OK)
             scene_omission_words(features_omitted(&p->scene), words);
@@ -207,7 +207,7 @@ static void write_assumed(FILE *to, const sweep *s)
 {
     int lines = 0;
     for (int i = 0; i < s->points; i++) {
-        const point *p = &s->point[i];
+        const sweep_point *p = &s->point[i];
         assumption a;
         for (int k = 0; assumptions_at(p, k, &a); k++) {
             if (lines++ == 0)

@@ -125,14 +125,14 @@ static int make_file(const char *name)
 }
 
 /* Owner (where we may) and permissions of the file that will be replaced. */
-static void keep_permissions(const place *to, int file)
+static void keep_permissions(const file_place *to, int file)
 {
     if (to->kind == PLACE_FILE &&
         (fchown(file, to->owner, to->group) != 0 || fchmod(file, to->mode) != 0))
         fchmod(file, to->mode);
 }
 
-static int open_stream(const place *to)
+static int open_stream(const file_place *to)
 {
     if (to->descriptor < 0)
         return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
@@ -147,7 +147,7 @@ int output_is_hdf5(const char *path)
     return dot != NULL && (strcasecmp(dot, ".h5") == 0 || strcasecmp(dot, ".hdf5") == 0);
 }
 
-static status check_form(const char *path, const place *to, output_form form, fault *f)
+static status check_form(const char *path, const file_place *to, output_form form, fault *f)
 {
     if (to->kind == PLACE_FOLDER)
         return fail(path, EISDIR, f);
@@ -254,7 +254,7 @@ status output_finish(output *out, status written, fault *f)
     return written;
 }
 
-status output_try(const char *path, output_form form, place *where, fault *f)
+status output_try(const char *path, output_form form, file_place *where, fault *f)
 {
     char temporary[PATH_MAX];
     TRY(place_find(path, where, f));
@@ -272,7 +272,7 @@ status output_try(const char *path, output_form form, place *where, fault *f)
 
 status output_partial(const char *path, char partial[PATH_MAX], fault *f)
 {
-    place to;
+    file_place to;
     const char *leaf = place_leaf(path), *dot = strrchr(leaf, '.');
     if (place_find(path, &to, f) == STATUS_OK && to.kind == PLACE_STREAM) {
         memcpy(partial, path, strlen(path) + 1);

@@ -12,7 +12,7 @@ typedef enum output_form { OUTPUT_TEXT, OUTPUT_WHOLE_FILE } output_form;
 
 typedef struct output {
     FILE *stream;
-    place to;
+    file_place to;
     char temporary[PATH_MAX]; /* empty: written directly */
 } output;
 
@@ -30,7 +30,7 @@ status output_flush(fault *f);
 /* An output that cannot be written is noticed before anything is computed: REFUSED what is no name
  * or takes no such form, FAULT what cannot be written. *where: the place, for comparison with
  * others. */
-status output_try(const char *path, output_form form, place *where, fault *f);
+status output_try(const char *path, output_form form, file_place *where, fault *f);
 /* Deletes the files and folders of this process that were written beside their places and are not
  * complete; a signal handler may call it. */
 void output_abandon(void);

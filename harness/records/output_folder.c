@@ -75,7 +75,7 @@ status output_folder_open(const char *path, output_folder *out, fault *f)
     return create(out, f);
 }
 
-status output_folder_try(const char *path, place *where, fault *f)
+status output_folder_try(const char *path, file_place *where, fault *f)
 {
     output_folder out;
     TRY(output_folder_open(path, &out, f));

@@ -8,13 +8,13 @@
 #include "harness/records/place.h"
 
 typedef struct output_folder {
-    place to;
+    file_place to;
     char temporary[PATH_MAX];
 } output_folder;
 
 /* Can it be made, at *where? REFUSED: something is there, other than an empty folder. FAULT: it
  * cannot be written. */
-status output_folder_try(const char *path, place *where, fault *f);
+status output_folder_try(const char *path, file_place *where, fault *f);
 status output_folder_open(const char *path, output_folder *out, fault *f);
 /* A folder inside it. */
 status output_folder_below(const output_folder *, const char *name, fault *f);

@@ -45,7 +45,7 @@ static int standard_descriptor(const struct stat *there)
     return -1;
 }
 
-static void set_kind(const struct stat *there, place *out)
+static void set_kind(const struct stat *there, file_place *out)
 {
     out->device = there->st_dev;
     out->inode = there->st_ino;
@@ -61,7 +61,7 @@ static void set_kind(const struct stat *there, place *out)
 }
 
 /* Nothing is at out->path: the folder it would be in. */
-static status find_folder(const char *given, place *out, fault *f)
+static status find_folder(const char *given, file_place *out, fault *f)
 {
     char folder[PATH_MAX] = ".";
     struct stat there;
@@ -80,7 +80,7 @@ static status find_folder(const char *given, place *out, fault *f)
     return STATUS_OK;
 }
 
-status place_find(const char *path, place *out, fault *f)
+status place_find(const char *path, file_place *out, fault *f)
 {
     struct stat there;
     const size_t length = strlen(path);
@@ -103,7 +103,7 @@ status place_find(const char *path, place *out, fault *f)
     return found ? STATUS_OK : find_folder(path, out, f);
 }
 
-int place_same(const place *a, const place *b)
+int place_same(const file_place *a, const file_place *b)
 {
     const int is_free = a->kind == PLACE_FREE;
     if (a->device != b->device || a->inode != b->inode || is_free != (b->kind == PLACE_FREE))

@@ -14,7 +14,7 @@ typedef enum place_kind {
     PLACE_FOLDER
 } place_kind;
 
-typedef struct place {
+typedef struct file_place {
     place_kind kind;
     int descriptor;      /* 1, 2: it is our own standard output or error; -1 */
     int shared;          /* 1: several may write there (a character device) */
@@ -24,12 +24,12 @@ typedef struct place {
     mode_t mode; /* permissions of what is there */
     uid_t owner;
     gid_t group;
-} place;
+} file_place;
 
 /* REFUSED: an empty path. FAULT: too long, or its folder is not there. */
-status place_find(const char *path, place *out, fault *f);
+status place_find(const char *path, file_place *out, fault *f);
 /* The same file, by device and inode; of free places: the same name in the same folder. */
-int place_same(const place *a, const place *b);
+int place_same(const file_place *a, const file_place *b);
 /* The part of a path behind its folder. */
 const char *place_leaf(const char *path);
 

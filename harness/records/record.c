@@ -7,14 +7,14 @@
 
 enum { GROWTH = 1 << 22, MOST_RANKS = 4 }; /* GROWTH: [bytes] by which the file in memory grows */
 
-static void check(record *r, int good)
+static void check(record_file *r, int good)
 {
     r->bad |= !good;
 }
 
 /* Access to a file of HDF5: of the oldest format, as an image of the newer ones carries a wrong
  * checksum of its head (HDF5 1.10). FAULT: nothing is held. */
-static status open_file(record *r, const char *name, hid_t access, fault *f)
+static status open_file(record_file *r, const char *name, hid_t access, fault *f)
 {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     r->scalar = H5Screate(H5S_SCALAR);
@@ -25,22 +25,22 @@ static status open_file(record *r, const char *name, hid_t access, fault *f)
     return fault_set(f, STATUS_FAULT, "no memory for results");
 }
 
-status record_open(record *r, fault *f)
+status record_open(record_file *r, fault *f)
 {
     static unsigned number; /* files in memory that are open together have names of their own */
     char name[40];
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     snprintf(name, sizeof name, "beamwork-%u", number++);
-    *r = (record){.file = -1};
+    *r = (record_file){.file = -1};
     const int good = access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0;
     const status outcome = open_file(r, name, good ? access : -1, f);
     H5Pclose(access);
     return outcome;
 }
 
-status record_open_beside(record *r, const char *path, fault *f)
+status record_open_beside(record_file *r, const char *path, fault *f)
 {
-    *r = (record){.file = -1};
+    *r = (record_file){.file = -1};
     TRY(output_open_whole(path, &r->to, f));
     const status outcome = open_file(r, r->to.temporary, H5P_DEFAULT, f);
     return outcome == STATUS_OK ? STATUS_OK : output_finish(&r->to, outcome, f);
@@ -58,7 +58,7 @@ static status write_bytes(const char *image, size_t size, const char *path, faul
     return output_close(&file, f);
 }
 
-static status write_image(const record *r, const char *path, fault *f)
+static status write_image(const record_file *r, const char *path, fault *f)
 {
     if (r->bad)
         return fault_set(f, STATUS_FAULT,
@@ -77,20 +77,20 @@ static status write_image(const record *r, const char *path, fault *f)
     return outcome;
 }
 
-static int close_file(record *r)
+static int close_file(record_file *r)
 {
     H5Sclose(r->scalar);
     return H5Fclose(r->file) >= 0;
 }
 
-status record_drop(record *r, status outcome)
+status record_drop(record_file *r, status outcome)
 {
     close_file(r);
     return r->to.stream != NULL ? output_finish(&r->to, outcome, NULL) : outcome;
 }
 
 /* The last line behind what the library has written, and the file in its place. */
-static status close_on_disk(record *r, fault *f)
+static status close_on_disk(record_file *r, fault *f)
 {
     char line[CHECKSUM_LENGTH + 1];
     status outcome =
@@ -105,12 +105,12 @@ static status close_on_disk(record *r, fault *f)
     return output_finish(&r->to, outcome, f);
 }
 
-status record_close(record *r, const char *path, fault *f)
+status record_close(record_file *r, const char *path, fault *f)
 {
     return r->to.stream != NULL ? close_on_disk(r, f) : record_drop(r, write_image(r, path, f));
 }
 
-hid_t record_group(record *r, hid_t at, const char *name)
+hid_t record_group(record_file *r, hid_t at, const char *name)
 {
     const hid_t g = H5Lexists(at, name, H5P_DEFAULT) > 0
                         ? H5Gopen2(at, name, H5P_DEFAULT)
@@ -128,31 +128,31 @@ hid_t record_text_type(size_t length)
     return type;
 }
 
-static void put(record *r, hid_t at, const char *name, hid_t type, const void *value)
+static void put(record_file *r, hid_t at, const char *name, hid_t type, const void *value)
 {
     const hid_t a = r->bad ? -1 : H5Acreate2(at, name, type, r->scalar, H5P_DEFAULT, H5P_DEFAULT);
     check(r, a >= 0 && H5Awrite(a, type, value) >= 0);
     H5Aclose(a);
 }
 
-void record_text(record *r, hid_t at, const char *name, const char *text)
+void record_text(record_file *r, hid_t at, const char *name, const char *text)
 {
     const hid_t type = record_text_type(strlen(text));
     put(r, at, name, type, text); /* an empty text is stored as its final zero */
     H5Tclose(type);
 }
 
-void record_count(record *r, hid_t at, const char *name, long value)
+void record_count(record_file *r, hid_t at, const char *name, long value)
 {
     put(r, at, name, H5T_NATIVE_LONG, &value);
 }
 
-void record_number(record *r, hid_t at, const char *name, double value)
+void record_number(record_file *r, hid_t at, const char *name, double value)
 {
     put(r, at, name, H5T_NATIVE_DOUBLE, &value);
 }
 
-void record_version(record *r, hid_t at, const char *name, const int version[2])
+void record_version(record_file *r, hid_t at, const char *name, const int version[2])
 {
     const hsize_t size = 2;
     const hid_t space = H5Screate_simple(1, &size, NULL);
@@ -163,7 +163,7 @@ void record_version(record *r, hid_t at, const char *name, const int version[2])
     H5Sclose(space);
 }
 
-void record_ascii(record *r, hid_t at, const char *name, const char *text)
+void record_ascii(record_file *r, hid_t at, const char *name, const char *text)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, strlen(text));
@@ -192,7 +192,7 @@ static hid_t layout_of(hid_t type, int rank, const hsize_t size[])
     return layout;
 }
 
-hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank,
+hid_t record_array(record_file *r, hid_t at, const char *name, hid_t type, int rank,
                    const hsize_t size[], const void *value)
 {
     const hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : r->scalar,
@@ -209,7 +209,7 @@ hid_t record_array(record *r, hid_t at, const char *name, hid_t type, int rank,
     return set;
 }
 
-hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize_t size[],
+hid_t record_values(record_file *r, hid_t at, const char *name, int rank, const hsize_t size[],
                     const double value[], const char *unit)
 {
     const hid_t set = record_array(r, at, name, H5T_NATIVE_DOUBLE, rank, size, value);
@@ -218,7 +218,8 @@ hid_t record_values(record *r, hid_t at, const char *name, int rank, const hsize
     return set;
 }
 
-hid_t record_table(record *r, hid_t at, const char *name, hid_t type, int count, const void *row)
+hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int count,
+                   const void *row)
 {
     const hsize_t size = (hsize_t)count;
     return record_array(r, at, name, type, 1, &size, row);
@@ -237,7 +238,7 @@ static char *side_by_side(int count, const char *const text[], size_t *longest)
     return all;
 }
 
-void record_texts(record *r, hid_t at, const char *name, int count, const char *const text[])
+void record_texts(record_file *r, hid_t at, const char *name, int count, const char *const text[])
 {
     size_t longest;
     char *all = side_by_side(count, text, &longest);
@@ -248,7 +249,8 @@ void record_texts(record *r, hid_t at, const char *name, int count, const char *
     H5Tclose(type);
 }
 
-void record_text_list(record *r, hid_t at, const char *name, int count, const char *const text[])
+void record_text_list(record_file *r, hid_t at, const char *name, int count,
+                      const char *const text[])
 {
     size_t longest;
     char *all = side_by_side(count, text, &longest);

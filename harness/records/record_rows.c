@@ -5,10 +5,10 @@
 #include <string.h>
 
 /* Offset of a column in a row. */
-typedef struct column {
+typedef struct rows_column {
     const schema_field *field;
     size_t offset, size;
-} column;
+} rows_column;
 
 /* [bytes] of one value; of a text: those of the longest in its column. */
 static const size_t size_of_kind[FIELD_KINDS] = {[FIELD_INT] = sizeof(int),
@@ -35,12 +35,13 @@ static size_t longest_text(const schema_field *which, int count, const subject r
 
 /* Fills the columns; size of a row. */
 static size_t lay_out(int fields, const schema_field *const list[], int count, const subject row[],
-                      column out[])
+                      rows_column out[])
 {
     size_t size = 0;
     for (int i = 0; i < fields; i++) {
         const size_t fixed = size_of_kind[list[i]->kind] * times(list[i]);
-        out[i] = (column){list[i], size, fixed > 0 ? fixed : longest_text(list[i], count, row)};
+        out[i] =
+            (rows_column){list[i], size, fixed > 0 ? fixed : longest_text(list[i], count, row)};
         size += out[i].size;
     }
     return size;
@@ -55,7 +56,7 @@ static hid_t boolean_type(void)
     return type;
 }
 
-static hid_t type_of(const column *c)
+static hid_t type_of(const rows_column *c)
 {
     const hsize_t side = (hsize_t)lround(sqrt(c->field->count)), square[2] = {side, side};
     if (c->field->count > 0)
@@ -67,7 +68,7 @@ static hid_t type_of(const column *c)
     return c->field->kind == FIELD_FLAG ? boolean_type() : record_text_type(c->size);
 }
 
-static hid_t row_type(int fields, const column list[], size_t size)
+static hid_t row_type(int fields, const rows_column list[], size_t size)
 {
     const hid_t type = H5Tcreate(H5T_COMPOUND, size);
     for (int i = 0; i < fields; i++) {
@@ -78,7 +79,7 @@ static hid_t row_type(int fields, const column list[], size_t size)
     return type;
 }
 
-static void pack(const column *c, const subject *s, char *to)
+static void pack(const rows_column *c, const subject *s, char *to)
 {
     field_value v;
     schema_read(s, c->field, &v);
@@ -95,7 +96,7 @@ static void pack(const column *c, const subject *s, char *to)
         memcpy(to, v.text, strlen(v.text));
 }
 
-static void put_attributes(record *r, hid_t set, int fields, const schema_field *const list[])
+static void put_attributes(record_file *r, hid_t set, int fields, const schema_field *const list[])
 {
     const char *unit[SCHEMA_MOST_FIELDS], *summary[SCHEMA_MOST_FIELDS];
     for (int i = 0; i < fields; i++) {
@@ -106,10 +107,10 @@ static void put_attributes(record *r, hid_t set, int fields, const schema_field 
     record_text_list(r, set, "summaries", fields, summary);
 }
 
-void record_rows(record *r, hid_t at, const char *name, int fields,
+void record_rows(record_file *r, hid_t at, const char *name, int fields,
                  const schema_field *const list[], int count, const subject row[])
 {
-    column columns[SCHEMA_MOST_FIELDS];
+    rows_column columns[SCHEMA_MOST_FIELDS];
     const size_t size = lay_out(fields, list, count, row, columns);
     char *rows = calloc((size_t)count + 1, size);
     r->bad |= rows == NULL;
@@ -127,7 +128,7 @@ void record_rows(record *r, hid_t at, const char *name, int fields,
     free(rows);
 }
 
-static void rows_with(record *r, hid_t at, const record_type *type, int keys, int count,
+static void rows_with(record_file *r, hid_t at, const record_type *type, int keys, int count,
                       const subject row[])
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -135,18 +136,19 @@ static void rows_with(record *r, hid_t at, const record_type *type, int keys, in
     record_rows(r, at, type->table, fields, list, count, row);
 }
 
-void record_rows_of_type(record *r, hid_t at, const record_type *type, int count,
+void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int count,
                          const subject row[])
 {
     rows_with(r, at, type, KEY, count, row);
 }
 
-void record_rows_alone(record *r, hid_t at, const record_type *type, int count, const subject row[])
+void record_rows_alone(record_file *r, hid_t at, const record_type *type, int count,
+                       const subject row[])
 {
     rows_with(r, at, type, KEY_AROUND, count, row);
 }
 
-static void put_field(record *r, hid_t at, const schema_field *which, const field_value *v)
+static void put_field(record_file *r, hid_t at, const schema_field *which, const field_value *v)
 {
     if (which->kind == FIELD_TEXT || which->kind == FIELD_ENUM)
         record_text(r, at, which->name, v->text);
@@ -156,7 +158,7 @@ static void put_field(record *r, hid_t at, const schema_field *which, const fiel
         record_count(r, at, which->name, v->whole);
 }
 
-void record_fields(record *r, hid_t at, const record_type *type, const subject *s)
+void record_fields(record_file *r, hid_t at, const record_type *type, const subject *s)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
     const int fields = schema_fields(type, KEY_AROUND, list);

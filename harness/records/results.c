@@ -22,12 +22,12 @@ static void *add(void *list, int *count, int step, size_t size)
     return memset(all + (size_t)(*count)++ * size, 0, size);
 }
 
-result_cell *results_add(results *r)
+result_cell *results_add(stored_results *r)
 {
     return add(&r->cell, &r->cells, 1024, sizeof *r->cell);
 }
 
-result_series *results_add_series(results *r)
+result_series *results_add_series(stored_results *r)
 {
     return add(&r->series, &r->seriess, 1024, sizeof *r->series);
 }
@@ -48,7 +48,7 @@ int results_order(const result_cell *a, const result_cell *b)
     return names != 0 ? names : (a->elements > b->elements) - (a->elements < b->elements);
 }
 
-void results_free(results *r)
+void results_free(stored_results *r)
 {
     for (int i = 0; i < r->cells; i++) {
         free(r->cell[i].name);

@@ -76,7 +76,7 @@ typedef struct results_part {
     char *fresh;                /* formulations that do not gate yet, a line each; NULL: none */
 } results_part;
 
-typedef struct results {
+typedef struct stored_results {
     results_part part;
     int cells, seriess;
     int whole;             /* 1: with cells, 0: with series only */
@@ -84,25 +84,25 @@ typedef struct results {
     int swept;             /* 1: a sweep; its cells of no mesh have the references of a point */
     result_cell *cell;     /* ascending by name and elements */
     result_series *series; /* ascending by name */
-} results;
+} stored_results;
 
 /* HDF5 or table, told apart by the first bytes. FAULT: missing, truncated, foreign or damaged, or
  * a sweep. */
-status results_read(const char *path, results *out, fault *f);
+status results_read(const char *path, stored_results *out, fault *f);
 /* The same of an experiment: "verify", "bench", or "sweep", which has no series; NULL: the first of
  * these that is there. */
-status results_read_any(const char *path, const char *experiment, results *out, fault *f);
-void results_free(results *r);
+status results_read_any(const char *path, const char *experiment, stored_results *out, fault *f);
+void results_free(stored_results *r);
 
 /* A zeroed one at the end, or NULL. */
-result_cell *results_add(results *r);
-result_series *results_add_series(results *r);
+result_cell *results_add(stored_results *r);
+result_series *results_add_series(stored_results *r);
 result_mesh *results_add_mesh(result_series *s);
 result_limit *results_add_limit(result_series *s);
 
 int results_order(const result_cell *a, const result_cell *b); /* of name, then elements */
 /* Fills the series from the cells, which are in order. FAULT: out of memory. */
-status results_series_summarise(results *r, fault *f);
+status results_series_summarise(stored_results *r, fault *f);
 
 /* Is the text one of the lines? lines NULL: no. */
 int results_part_has(const char *lines, const char *text);
@@ -110,16 +110,16 @@ int results_part_has(const char *lines, const char *text);
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
 /* Was a series that `other` alone has asked for, of the run r: any of its quantities, as the two
  * know them? */
-int results_part_wants(const results *r, const results *other, const char *series);
+int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
 /* Were other quantities of a series asked for in one run than in the other, as the two know them?
  */
-int results_part_differ(const results *a, const results *b, const char *series);
+int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
 /* Is its formulation new to the run? */
 int results_part_is_fresh(const results_part *p, const char *series);
 void results_part_free(results_part *);
 
-status results_hdf5_read(const char *path, const char *experiment, results *out, fault *f);
-status results_table_read(const char *path, FILE *from, results *out, fault *f);
-void results_table_write(FILE *to, const results *r);
+status results_hdf5_read(const char *path, const char *experiment, stored_results *out, fault *f);
+status results_table_read(const char *path, FILE *from, stored_results *out, fault *f);
+void results_table_write(FILE *to, const stored_results *r);
 
 #endif

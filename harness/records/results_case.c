@@ -16,9 +16,9 @@ status results_case_damaged(const char *path, const char *where, const char *wha
                      where, what);
 }
 
-typedef struct point_row {
+typedef struct case_point_row {
     char point[16], parameters[PARAMETERS_TEXT];
-} point_row;
+} case_point_row;
 
 typedef struct cell_row {
     char point[16], formulation[FORMULATION_KEY], status[RESULTS_STATUS];
@@ -26,11 +26,11 @@ typedef struct cell_row {
     long strain, stress, inertia, iterations, factorisations;
 } cell_row;
 
-typedef struct value_row {
+typedef struct case_value_row {
     char point[16], formulation[FORMULATION_KEY], quantity[SCENE_NAME];
     int elements;
     double value, error, near_zero;
-} value_row;
+} case_value_row;
 
 typedef struct limit_row {
     char point[16], formulation[FORMULATION_KEY], quantity[SCENE_NAME];
@@ -39,8 +39,8 @@ typedef struct limit_row {
 
 /* A text whose column has the member's name. */
 #define TEXT(row, member) #member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member
-static const table_column point_columns[] = {{TEXT(point_row, point)},
-                                             {TEXT(point_row, parameters)}};
+static const table_column point_columns[] = {{TEXT(case_point_row, point)},
+                                             {TEXT(case_point_row, parameters)}};
 static const table_column cell_columns[] = {
     {TEXT(cell_row, point)},
     {TEXT(cell_row, formulation)},
@@ -52,13 +52,13 @@ static const table_column cell_columns[] = {
     {"iterations", FIELD_LONG, offsetof(cell_row, iterations), 0},
     {"factorisations", FIELD_LONG, offsetof(cell_row, factorisations), 0}};
 static const table_column value_columns[] = {
-    {TEXT(value_row, point)},
-    {TEXT(value_row, formulation)},
-    {TEXT(value_row, quantity)},
-    {"elements", FIELD_INT, offsetof(value_row, elements), 0},
-    {"value", FIELD_DOUBLE, offsetof(value_row, value), 0},
-    {"error", FIELD_DOUBLE, offsetof(value_row, error), 0},
-    {"near_zero", FIELD_DOUBLE, offsetof(value_row, near_zero), 0}};
+    {TEXT(case_value_row, point)},
+    {TEXT(case_value_row, formulation)},
+    {TEXT(case_value_row, quantity)},
+    {"elements", FIELD_INT, offsetof(case_value_row, elements), 0},
+    {"value", FIELD_DOUBLE, offsetof(case_value_row, value), 0},
+    {"error", FIELD_DOUBLE, offsetof(case_value_row, error), 0},
+    {"near_zero", FIELD_DOUBLE, offsetof(case_value_row, near_zero), 0}};
 
 static const table_column limit_columns[] = {
     {TEXT(limit_row, point)},
@@ -68,15 +68,15 @@ static const table_column limit_columns[] = {
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
 /* The tables of one case. limits: -1: nothing was judged. */
-typedef struct tables {
+typedef struct case_tables {
     int points, cells, values, limits;
-    point_row *point;
+    case_point_row *point;
     cell_row *cell;
-    value_row *value;
+    case_value_row *value;
     limit_row *limit;
-} tables;
+} case_tables;
 
-static void free_tables(tables *t)
+static void free_tables(case_tables *t)
 {
     free(t->point);
     free(t->cell);
@@ -85,7 +85,7 @@ static void free_tables(tables *t)
 }
 
 /* NULL, or the name of the table that is damaged. */
-static const char *read_tables(hid_t at, tables *t)
+static const char *read_tables(hid_t at, case_tables *t)
 {
     void *rows;
     memset(t, 0, sizeof *t);
@@ -111,7 +111,7 @@ static const char *read_tables(hid_t at, tables *t)
 }
 
 /* The parameters of a point in words, or NULL: there is no such point. */
-static const char *parameters_of(const tables *t, const char *name)
+static const char *parameters_of(const case_tables *t, const char *name)
 {
     for (int i = 0; i < t->points; i++)
         if (strcmp(t->point[i].point, name) == 0)
@@ -119,7 +119,7 @@ static const char *parameters_of(const tables *t, const char *name)
     return NULL;
 }
 
-static int is_of(const cell_row *cell, const value_row *value)
+static int is_of(const cell_row *cell, const case_value_row *value)
 {
     return cell->elements == value->elements &&
            strcmp(cell->formulation, value->formulation) == 0 &&
@@ -127,7 +127,7 @@ static int is_of(const cell_row *cell, const value_row *value)
 }
 
 /* Values stand in the order of their cells: those of this one, from *next on. 0: out of memory. */
-static int take_values(const tables *t, const cell_row *row, int *next, result_cell *cell)
+static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
     int count = 0;
     while (*next + count < t->values && is_of(row, &t->value[*next + count]))
@@ -135,7 +135,7 @@ static int take_values(const tables *t, const cell_row *row, int *next, result_c
     cell->value = calloc((size_t)count + 1, sizeof *cell->value);
     if (cell->value != NULL)
         for (int i = 0; i < count; i++) {
-            const value_row *from = &t->value[*next + i];
+            const case_value_row *from = &t->value[*next + i];
             result_value *v = &cell->value[cell->values++];
             memcpy(v->quantity, from->quantity, sizeof v->quantity);
             v->value = from->value;
@@ -159,8 +159,8 @@ static int are_counts(const cell_row *row)
     return 1;
 }
 
-static status take_cell(const char *path, const char *of, const tables *t, const cell_row *row,
-                        int *next, results *out, fault *f)
+static status take_cell(const char *path, const char *of, const case_tables *t, const cell_row *row,
+                        int *next, stored_results *out, fault *f)
 {
     char name[NAME + PARAMETERS_TEXT + FORMULATION_KEY];
     const char *parameters = parameters_of(t, row->point);
@@ -181,7 +181,7 @@ static status take_cell(const char *path, const char *of, const tables *t, const
 }
 
 /* The row of the finest mesh of what a limit belongs to; -1: there is none. */
-static int finest_cell(const tables *t, const limit_row *limit)
+static int finest_cell(const case_tables *t, const limit_row *limit)
 {
     int finest = -1;
     for (int i = 0; i < t->cells; i++)
@@ -204,8 +204,8 @@ static int set_limit(result_cell *cell, const limit_row *limit)
 
 /* Limits at the default point, to the finest of the cells, which are those of the tables in their
  * order. */
-static status take_limits(const char *path, const char *of, const tables *t, result_cell cell[],
-                          fault *f)
+static status take_limits(const char *path, const char *of, const case_tables *t,
+                          result_cell cell[], fault *f)
 {
     for (int i = 0; i < t->limits; i++) {
         const limit_row *limit = &t->limit[i];
@@ -219,8 +219,8 @@ static status take_limits(const char *path, const char *of, const tables *t, res
 }
 
 /* With what results_case_read frees. */
-static status take_case(const char *path, hid_t at, const char *name, tables *t, results *out,
-                        fault *f)
+static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
+                        stored_results *out, fault *f)
 {
     int next = 0;
     const int first = out->cells;
@@ -236,9 +236,10 @@ static status take_case(const char *path, hid_t at, const char *name, tables *t,
     return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
 }
 
-status results_case_read(const char *path, hid_t at, const char *name, results *out, fault *f)
+status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
+                         fault *f)
 {
-    tables t;
+    case_tables t;
     const status outcome = take_case(path, at, name, &t, out, f);
     out->limits = out->limits || t.limits >= 0;
     free_tables(&t);

@@ -7,7 +7,8 @@
 #include "harness/records/results.h"
 
 /* Adds its cells. at: the group of the case, whose name is given. */
-status results_case_read(const char *path, hid_t at, const char *name, results *out, fault *f);
+status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
+                         fault *f);
 /* What of a file, and where, is not as it was written. */
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
 

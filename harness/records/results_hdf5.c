@@ -13,7 +13,8 @@
 
 enum { NAME = 200 };
 
-static status read_case(const char *path, hid_t cases, const char *name, results *out, fault *f)
+static status read_case(const char *path, hid_t cases, const char *name, stored_results *out,
+                        fault *f)
 {
     const hid_t here = H5Gopen2(cases, name, H5P_DEFAULT);
     if (here < 0)
@@ -23,7 +24,7 @@ static status read_case(const char *path, hid_t cases, const char *name, results
     return outcome;
 }
 
-static status read_cases(const char *path, hid_t cases, results *out, fault *f)
+static status read_cases(const char *path, hid_t cases, stored_results *out, fault *f)
 {
     char name[NAME];
     H5G_info_t info = {0};
@@ -38,7 +39,7 @@ static status read_cases(const char *path, hid_t cases, results *out, fault *f)
     return STATUS_OK;
 }
 
-static status read_tables(const char *path, hid_t at, results *out, fault *f)
+static status read_tables(const char *path, hid_t at, stored_results *out, fault *f)
 {
     const hid_t cases = H5Gopen2(at, "cases", H5P_DEFAULT);
     const status outcome =
@@ -140,7 +141,7 @@ static hid_t open_group(hid_t file, const char *name)
     return own;
 }
 
-static status read_group(const char *path, hid_t at, results *out, fault *f)
+static status read_group(const char *path, hid_t at, stored_results *out, fault *f)
 {
     if (H5Aexists(at, KEPT_SWEEP_MARK) > 0)
         return results_sweep_read(path, at, out, f);
@@ -148,7 +149,7 @@ static status read_group(const char *path, hid_t at, results *out, fault *f)
     return read_tables(path, at, out, f);
 }
 
-static status read_file(const char *path, const char *experiment, hid_t file, results *out,
+static status read_file(const char *path, const char *experiment, hid_t file, stored_results *out,
                         fault *f)
 {
     static const char *const of_cells[] = {"verify", "bench", KEPT_SWEEP};
@@ -168,7 +169,7 @@ static status read_file(const char *path, const char *experiment, hid_t file, re
     return outcome;
 }
 
-status results_hdf5_read(const char *path, const char *experiment, results *out, fault *f)
+status results_hdf5_read(const char *path, const char *experiment, stored_results *out, fault *f)
 {
     TRY(checksum_check(path, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);

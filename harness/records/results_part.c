@@ -39,7 +39,7 @@ int results_part_selects(const results_part *p, const char *series, const char *
 }
 
 /* Has the run a quantity of the series that this part of one leaves out? */
-static int leaves_out(const results_part *p, const results *known, const char *series)
+static int leaves_out(const results_part *p, const stored_results *known, const char *series)
 {
     for (int i = 0; p->select != NULL && i < known->cells; i++)
         for (int k = 0; strcmp(known->cell[i].name, series) == 0 && k < known->cell[i].values; k++)
@@ -53,7 +53,7 @@ static int leaves_out(const results_part *p, const results *known, const char *s
     return 0;
 }
 
-int results_part_differ(const results *a, const results *b, const char *series)
+int results_part_differ(const stored_results *a, const stored_results *b, const char *series)
 {
     if (a->part.select != NULL && b->part.select != NULL &&
         strcmp(a->part.select, b->part.select) == 0)
@@ -72,7 +72,7 @@ static int speaks_for(const char *name, const char *series)
 }
 
 /* Is any quantity selected that a run knows? */
-static int selects_any(const results_part *p, const results *known, const char *series)
+static int selects_any(const results_part *p, const stored_results *known, const char *series)
 {
     const int judged = strchr(formulation_of(series), ':') != NULL;
     for (int i = 0; i < known->cells; i++) {
@@ -92,7 +92,7 @@ static int selects_any(const results_part *p, const results *known, const char *
 }
 
 /* Has any series of the run that formulation? */
-static int has_formulation(const results *r, const char *key)
+static int has_formulation(const stored_results *r, const char *key)
 {
     for (int i = 0; i < r->seriess; i++)
         if (strcmp(formulation_of(r->series[i].name), key) == 0)
@@ -100,7 +100,7 @@ static int has_formulation(const results *r, const char *key)
     return 0;
 }
 
-int results_part_wants(const results *r, const results *other, const char *series)
+int results_part_wants(const stored_results *r, const stored_results *other, const char *series)
 {
     const results_part *p = &r->part;
     const char *key = formulation_of(series);

@@ -16,7 +16,7 @@ static int compare_series(const void *a, const void *b)
     return strcmp(((const result_series *)a)->name, ((const result_series *)b)->name);
 }
 
-static status sort_cells(const char *path, results *r, fault *f)
+static status sort_cells(const char *path, stored_results *r, fault *f)
 {
     if (r->cells > 0)
         qsort(r->cell, (size_t)r->cells, sizeof *r->cell, compare_cells);
@@ -27,7 +27,7 @@ static status sort_cells(const char *path, results *r, fault *f)
     return STATUS_OK;
 }
 
-static status sort_series(const char *path, results *r, fault *f)
+static status sort_series(const char *path, stored_results *r, fault *f)
 {
     if (r->seriess > 0)
         qsort(r->series, (size_t)r->seriess, sizeof *r->series, compare_series);
@@ -47,7 +47,7 @@ static int is_hdf5(FILE *from)
     return length == sizeof head && memcmp(head, signature, sizeof head) == 0;
 }
 
-static status read_sorted(const char *path, const char *experiment, FILE *from, results *out,
+static status read_sorted(const char *path, const char *experiment, FILE *from, stored_results *out,
                           fault *f)
 {
     const int whole = is_hdf5(from);
@@ -61,7 +61,7 @@ static status read_sorted(const char *path, const char *experiment, FILE *from, 
     return sort_series(path, out, f);
 }
 
-status results_read_any(const char *path, const char *experiment, results *out, fault *f)
+status results_read_any(const char *path, const char *experiment, stored_results *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     FILE *from = fopen(path, "rb");
@@ -74,7 +74,7 @@ status results_read_any(const char *path, const char *experiment, results *out, 
     return outcome;
 }
 
-status results_read(const char *path, results *out, fault *f)
+status results_read(const char *path, stored_results *out, fault *f)
 {
     TRY(results_read_any(path, NULL, out, f));
     if (!out->swept)

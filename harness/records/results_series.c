@@ -56,7 +56,7 @@ static int take_cell(result_series *s, const result_cell *cell)
     return take_limits(s, cell);
 }
 
-status results_series_summarise(results *r, fault *f)
+status results_series_summarise(stored_results *r, fault *f)
 {
     result_series *s = NULL;
     for (int i = 0; i < r->cells; i++) {

@@ -172,7 +172,7 @@ static const char *read_columns(sweep_file *s)
     return NULL;
 }
 
-static const char *read_request(sweep_file *s, results *out)
+static const char *read_request(sweep_file *s, stored_results *out)
 {
     char from[WORDS], select[WORDS];
     snprintf(s->name, sizeof s->name, "scene");
@@ -252,7 +252,8 @@ static void point_text(const sweep_file *s, int which, char *out, size_t size)
 }
 
 /* A cell named case/parameters/`of`, with room for its values; NULL: out of memory. */
-static result_cell *add_cell(const sweep_file *s, const char *text, const char *of, results *out)
+static result_cell *add_cell(const sweep_file *s, const char *text, const char *of,
+                             stored_results *out)
 {
     char name[2 * NAME + PARAMETERS_TEXT + NAME];
     snprintf(name, sizeof name, "%s/%s/%s", s->name, text, of);
@@ -269,7 +270,7 @@ static result_cell *add_cell(const sweep_file *s, const char *text, const char *
 }
 
 /* What the errors are against: no mesh. */
-static int add_references(const sweep_file *s, int which, const char *text, results *out)
+static int add_references(const sweep_file *s, int which, const char *text, stored_results *out)
 {
     result_cell *cell = add_cell(s, text, "reference", out);
     for (int i = 0; cell != NULL && i < s->quantities; i++)
@@ -280,7 +281,8 @@ static int add_references(const sweep_file *s, int which, const char *text, resu
     return cell != NULL;
 }
 
-static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text, results *out)
+static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text,
+                    stored_results *out)
 {
     const size_t at = row * (size_t)s->meshes + (size_t)mesh;
     const int lacks = ((const int *)s->column[LACKS])[row];
@@ -316,7 +318,7 @@ static status check_size(const sweep_file *s, fault *f)
         what, "compare sweeps of fewer points", f);
 }
 
-static status add_point(const sweep_file *s, int which, results *out, fault *f)
+static status add_point(const sweep_file *s, int which, stored_results *out, fault *f)
 {
     char text[PARAMETERS_TEXT + NAME];
     point_text(s, which, text, sizeof text);
@@ -327,7 +329,7 @@ static status add_point(const sweep_file *s, int which, results *out, fault *f)
     return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the cells of a sweep");
 }
 
-static status read_file(sweep_file *s, results *out, fault *f)
+static status read_file(sweep_file *s, stored_results *out, fault *f)
 {
     long version = 0;
     const char *bad = NULL;
@@ -349,7 +351,7 @@ static status read_file(sweep_file *s, results *out, fault *f)
     return STATUS_OK;
 }
 
-status results_sweep_read(const char *path, hid_t at, results *out, fault *f)
+status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f)
 {
     sweep_file s = {.path = path, .at = at};
     const status outcome = read_file(&s, out, f);

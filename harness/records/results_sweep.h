@@ -8,6 +8,6 @@
 
 /* Adds a cell for each point, formulation and mesh, named by the values of all parameters that the
  * file knows, in the order of their names; and one of no mesh, for the references of each point. */
-status results_sweep_read(const char *path, hid_t at, results *out, fault *f);
+status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f);
 
 #endif

@@ -34,7 +34,7 @@ static void write_limits(FILE *to, const result_series *s)
                 s->limit[i].value);
 }
 
-void results_table_write(FILE *to, const results *r)
+void results_table_write(FILE *to, const stored_results *r)
 {
     fprintf(to, "%s\n", results_table_head);
     for (int i = 0; i < r->seriess; i++) {

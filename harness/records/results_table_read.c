@@ -149,7 +149,7 @@ static int take_line(char *line)
     return ended;
 }
 
-static status take_row(char *line, const char *path, int row, results *out, fault *f)
+static status take_row(char *line, const char *path, int row, stored_results *out, fault *f)
 {
     char *field[FIELDS];
     if (take_line(line) && split(line, field)) {
@@ -167,7 +167,7 @@ static status take_row(char *line, const char *path, int row, results *out, faul
                      path, row);
 }
 
-status results_table_read(const char *path, FILE *from, results *out, fault *f)
+status results_table_read(const char *path, FILE *from, stored_results *out, fault *f)
 {
     char line[LONGEST_LINE];
     if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||

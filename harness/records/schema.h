@@ -29,7 +29,7 @@ typedef enum field_kind {
 /* A record in its surroundings; what does not apply is NULL (numbers: 0). */
 typedef struct subject {
     const sweep *sweep;
-    const point *point;
+    const sweep_point *point;
     const series *series;
     int mesh;           /* of the series */
     const void *record; /* what most offsets refer to */

@@ -13,7 +13,7 @@
 #include "harness/study/price.h"
 #include "harness/study/sentence.h"
 
-void store_environment(record *r, hid_t at, const environment *e)
+void store_environment(record_file *r, hid_t at, const environment *e)
 {
     record_text(r, at, "schema", SCHEMA_NAME);
     record_count(r, at, "schema_version", SCHEMA_VERSION);
@@ -27,7 +27,7 @@ void store_environment(record *r, hid_t at, const environment *e)
     record_count(r, at, "threads", e->threads);
 }
 
-static void put_noise(record *r, hid_t at)
+static void put_noise(record_file *r, hid_t at)
 {
     char noise[32];
     snprintf(noise, sizeof noise, "%.15g", price_noise);
@@ -63,7 +63,7 @@ static int parameter_fields(const case_type *type, schema_field out[CASE_MAX_PAR
     return i;
 }
 
-static void put_points(record *r, hid_t at, const case_type *type, const subjects *list)
+static void put_points(record_file *r, hid_t at, const case_type *type, const subjects *list)
 {
     const schema_field *fields[SCHEMA_MOST_FIELDS + CASE_MAX_PARAMETERS];
     schema_field parameter[CASE_MAX_PARAMETERS];
@@ -75,12 +75,12 @@ static void put_points(record *r, hid_t at, const case_type *type, const subject
 }
 
 /* The record of a scene is its text; of a point that was refused, or that no file can say, "". */
-static void put_scenes(record *r, hid_t at, subjects *list)
+static void put_scenes(record_file *r, hid_t at, subjects *list)
 {
     char **text = calloc((size_t)list->count + 1, sizeof *text);
     r->bad |= text == NULL;
     for (int i = 0; i < list->count && !r->bad; i++) {
-        const point *p = list->row[i].point;
+        const sweep_point *p = list->row[i].point;
         const write_head head = {p->type->name, p->type->summary, p->type->source};
         text[i] = write_scene_text(p->status == STATUS_OK ? &p->scene : NULL, &head);
         r->bad |= text[i] == NULL;
@@ -94,7 +94,7 @@ static void put_scenes(record *r, hid_t at, subjects *list)
 }
 
 /* The points of all curves, one after the other: records of curves say where each begins. */
-static void put_curves(record *r, hid_t at, const subjects *list)
+static void put_curves(record_file *r, hid_t at, const subjects *list)
 {
     size_t points = 0;
     for (int i = 0; i < list->count; i++)
@@ -114,7 +114,7 @@ static void put_curves(record *r, hid_t at, const subjects *list)
 }
 
 /* One picture of a point is enough: that of the first formulation with a solution. */
-static void put_pictures(record *r, hid_t at, const subjects *cells)
+static void put_pictures(record_file *r, hid_t at, const subjects *cells)
 {
     hid_t all = -1;
     for (int i = 0; i < cells->count && !r->bad; i++) {
@@ -135,7 +135,7 @@ static void put_pictures(record *r, hid_t at, const subjects *cells)
         H5Gclose(all);
 }
 
-static void put_records(record *r, hid_t at, const gathering *g, const record_type *type,
+static void put_records(record_file *r, hid_t at, const gathering *g, const record_type *type,
                         const case_type *of)
 {
     subjects list = {0};
@@ -155,7 +155,7 @@ static void put_records(record *r, hid_t at, const gathering *g, const record_ty
     gather_free(&list);
 }
 
-static void put_case(record *r, hid_t cases, const gathering *g, const case_type *of)
+static void put_case(record_file *r, hid_t cases, const gathering *g, const case_type *of)
 {
     if (r->bad || H5Lexists(cases, of->name, H5P_DEFAULT) > 0)
         return;
@@ -168,7 +168,7 @@ static void put_case(record *r, hid_t cases, const gathering *g, const case_type
 }
 
 /* Attribute of names, a line each. at(s, i): name i, NULL behind the last. */
-static void put_names(record *r, hid_t group, const char *attribute, const sweep *s,
+static void put_names(record_file *r, hid_t group, const char *attribute, const sweep *s,
                       const char *(*at)(const sweep *s, int i))
 {
     char *text = NULL;
@@ -197,7 +197,7 @@ static const char *given_at(const sweep *s, int i)
 }
 
 /* What a run was asked for: what lies outside was left out, not lost. */
-static void put_selection(record *r, hid_t at, const sweep *s)
+static void put_selection(record_file *r, hid_t at, const sweep *s)
 {
     if (s->cases == NULL)
         return;
@@ -207,7 +207,7 @@ static void put_selection(record *r, hid_t at, const sweep *s)
     put_names(r, at, "selection_formulations", s, given_at);
 }
 
-static void put_declarations(record *r, hid_t at, const gathering *g)
+static void put_declarations(record_file *r, hid_t at, const gathering *g)
 {
     subjects list = {0};
     gather_declarations(g, &list);
@@ -233,7 +233,7 @@ void store_case(store *to, const case_type *of)
 }
 
 /* How the run ended, as its last line says it. */
-static void put_outcome(record *r, hid_t at, const sweep *s, const judgement *j)
+static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgement *j)
 {
     char sentence[SENTENCE_OF_RUN];
     sentence_of_run(s, j, sentence, sizeof sentence);

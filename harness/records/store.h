@@ -10,7 +10,7 @@
 
 /* A file that is filled case by case, while others are still run. */
 typedef struct store {
-    record file;
+    record_file file;
     hid_t root, cases;
     const char *experiment; /* whose group is filled; NULL: the root */
     const sweep *sweep;
@@ -32,6 +32,6 @@ status store_write(const char *path, const char *experiment, const sweep *s, con
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 
 /* The attributes by which a group says of which program, commit and time it is. */
-void store_environment(record *r, hid_t at, const environment *e);
+void store_environment(record_file *r, hid_t at, const environment *e);
 
 #endif

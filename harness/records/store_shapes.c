@@ -7,7 +7,7 @@
 #include "harness/records/store_shapes.h"
 
 /* Columns [first, first + count) of the points of every state: [states x points x count]. */
-static void put_columns(record *r, hid_t at, const char *name, const shapes *s, int first,
+static void put_columns(record_file *r, hid_t at, const char *name, const shapes *s, int first,
                         int count, const char *unit, const char *columns)
 {
     enum { NUMBERS = sizeof(centreline_point) / sizeof(double) };
@@ -26,7 +26,7 @@ static void put_columns(record *r, hid_t at, const char *name, const shapes *s, 
 }
 
 /* One number of every state. */
-static void put_state_numbers(record *r, hid_t at, const shapes *s)
+static void put_state_numbers(record_file *r, hid_t at, const shapes *s)
 {
     const hsize_t size = (hsize_t)s->states;
     const char **kind = calloc((size_t)s->states + 1, sizeof(const char *));
@@ -48,7 +48,7 @@ static void put_state_numbers(record *r, hid_t at, const shapes *s)
     free(column);
 }
 
-static void put_integers(record *r, hid_t at, const char *name, int rows, int columns,
+static void put_integers(record_file *r, hid_t at, const char *name, int rows, int columns,
                          const int value[])
 {
     const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
@@ -56,7 +56,7 @@ static void put_integers(record *r, hid_t at, const char *name, int rows, int co
 }
 
 /* What connects the points: sections and ends of the members, bodies and supports of the nodes. */
-static void put_structure(record *r, hid_t at, const scene *sc)
+static void put_structure(record_file *r, hid_t at, const scene *sc)
 {
     int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member),
         *attached = calloc((size_t)sc->nodes * 2 + 1, sizeof *attached),
@@ -87,7 +87,7 @@ static void put_structure(record *r, hid_t at, const scene *sc)
     free(released);
 }
 
-static void put_sections(record *r, hid_t at, const scene *sc)
+static void put_sections(record_file *r, hid_t at, const scene *sc)
 {
     const hid_t all = record_group(r, at, "sections");
     for (int i = 0; i < sc->sections; i++) {
@@ -107,7 +107,7 @@ static void put_sections(record *r, hid_t at, const scene *sc)
 }
 
 /* Of the far ends of members along which the section changes, by the member's number. */
-static void put_far_ends(record *r, hid_t at, const scene *sc)
+static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))
         return;
@@ -128,7 +128,7 @@ static void put_far_ends(record *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s)
+hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc, const shapes *s)
 {
     const hid_t here = record_group(r, at, name);
     const hsize_t size[3] = {(hsize_t)s->states, (hsize_t)s->nodes, 3};

@@ -7,6 +7,6 @@
 #include "harness/records/record.h"
 
 /* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */
-hid_t store_shapes(record *r, hid_t at, const char *name, const scene *sc, const shapes *s);
+hid_t store_shapes(record_file *r, hid_t at, const char *name, const scene *sc, const shapes *s);
 
 #endif

@@ -57,7 +57,7 @@ static void choose_states(grid *g)
     }
 }
 
-static void put_cells(record *r, hid_t at, const grid *g)
+static void put_cells(record_file *r, hid_t at, const grid *g)
 {
     int64_t *ids = malloc(((size_t)g->ids + 1) * sizeof *ids),
             *offset = malloc(((size_t)g->cells + 1) * sizeof *offset);
@@ -158,7 +158,7 @@ static void fill_state(const grid *g, int state, double *out[FIELDS])
         }
 }
 
-static void put_fields(record *r, hid_t at, const grid *g)
+static void put_fields(record_file *r, hid_t at, const grid *g)
 {
     const size_t rows = (size_t)g->points * (size_t)g->states;
     double *all[FIELDS], *next[FIELDS];
@@ -180,7 +180,7 @@ static void put_fields(record *r, hid_t at, const grid *g)
 }
 
 /* [states] or [states x 1]: 0, step, 2 step, ... */
-static void put_offsets(record *r, hid_t at, const char *name, const grid *g, int rank,
+static void put_offsets(record_file *r, hid_t at, const char *name, const grid *g, int rank,
                         int64_t start, int64_t step)
 {
     const hsize_t size[2] = {(hsize_t)g->states, 1};
@@ -194,7 +194,7 @@ static void put_offsets(record *r, hid_t at, const char *name, const grid *g, in
 }
 
 /* The cells stay, the points of the next state follow those of the one before. */
-static void put_steps(record *r, hid_t at, const grid *g)
+static void put_steps(record_file *r, hid_t at, const grid *g)
 {
     const hid_t steps = record_group(r, at, "Steps");
     const hsize_t size = (hsize_t)g->states;
@@ -223,7 +223,7 @@ static void put_steps(record *r, hid_t at, const grid *g)
     free(value);
 }
 
-static void put_grid(record *r, const grid *g)
+static void put_grid(record_file *r, const grid *g)
 {
     const hid_t at = record_group(r, r->file, "VTKHDF");
     const int version[2] = {g->states > 1 ? 2 : 1, 0};
@@ -246,7 +246,7 @@ static void put_grid(record *r, const grid *g)
 }
 
 /* Outlines of all sections, and of the far ends of members along which they change. */
-static void make_outlines(record *r, grid *g)
+static void make_outlines(record_file *r, grid *g)
 {
     const scene *sc = g->scene;
     g->outline = calloc((size_t)sc->sections + 1, sizeof *g->outline);
@@ -271,7 +271,7 @@ static void make_outlines(record *r, grid *g)
     }
 }
 
-void vtkhdf_write(record *r, const scene *sc, const shapes *s)
+void vtkhdf_write(record_file *r, const scene *sc, const shapes *s)
 {
     grid g = {.scene = sc, .shapes = s};
     make_outlines(r, &g);

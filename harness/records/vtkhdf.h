@@ -8,6 +8,6 @@
 #include "harness/newton/shapes.h"
 #include "harness/records/record.h"
 
-void vtkhdf_write(record *r, const scene *sc, const shapes *s);
+void vtkhdf_write(record_file *r, const scene *sc, const shapes *s);
 
 #endif

@@ -12,7 +12,7 @@ enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
 static const double enough = 1e-12, tolerable = 1e-7; /* of strains times the length */
 
 /* Everything in units of the element: lengths l0, forces EI/l0^2, moments EI/l0, bimoments EI. */
-typedef struct work {
+typedef struct span_work {
     const span_grid *g;
     const span_problem *problem;
     beam_constants c;
@@ -22,9 +22,9 @@ typedef struct work {
     span_twist twist;
     double N[SPAN_GRID_POINTS][3], M[SPAN_GRID_POINTS][3];
     double flexibility[36]; /* of a section by its matrices */
-} work;
+} span_work;
 
-static void begin(work *w)
+static void begin(span_work *w)
 {
     w->l0 = w->problem->request->length;
     w->force_unit = w->c.energy / w->l0;
@@ -43,7 +43,7 @@ static void begin(work *w)
 }
 
 /* Loads at the points: [points][force, moment about p]. */
-static void loads_of(work *w, double out[N][6])
+static void loads_of(span_work *w, double out[N][6])
 {
     memset(out, 0, N * sizeof *out);
     if (w->problem->load == NULL)
@@ -76,7 +76,7 @@ static void about_origin(const span_end *end, double out[6])
 }
 
 /* N, M at the points: equilibrium of the parts before and behind. */
-static void resultants(work *w)
+static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];
     loads_of(w, load);
@@ -98,7 +98,7 @@ static void resultants(work *w)
 }
 
 /* What stresses along the fibres, which the twist turns, add to the torque for a unit of it. */
-static double wagner(const work *w, int j, double rate)
+static double wagner(const span_work *w, int j, double rate)
 {
     const beam_constants *c = &w->c;
     if (w->problem->linear)
@@ -107,7 +107,7 @@ static double wagner(const work *w, int j, double rate)
            4 * c->torque * rate * rate;
 }
 
-static int twisted(work *w, const double strains[])
+static int twisted(span_work *w, const double strains[])
 {
     const beam_constants *c = &w->c;
     span_torsion t = {.EIw = c->warping ? c->EIw : 0, .flexibility = c->F[8]};
@@ -124,7 +124,7 @@ static int twisted(work *w, const double strains[])
 }
 
 /* Of a section by its matrices: no part of the torque is that of warping. */
-static void strained_matrices(work *w, double out[])
+static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {
         double stress[6], strain[6];
@@ -141,7 +141,7 @@ static void strained_matrices(work *w, double out[])
 /* Strains that the resultants make on the line that the strains before gave. */
 static int again(void *context, const double strains[], double out[])
 {
-    work *w = context;
+    span_work *w = context;
     const beam_constants *c = &w->c;
     const element_request *request = w->problem->request;
     double kappa[3 * N], gamma[3 * N];
@@ -172,7 +172,7 @@ static int again(void *context, const double strains[], double out[])
     return 0;
 }
 
-static void take(const work *w, span_fields *out)
+static void take(const span_work *w, span_fields *out)
 {
     for (int j = 0; j < N; j++) {
         double *v = out->value[j];
@@ -191,7 +191,7 @@ static void take(const work *w, span_fields *out)
 
 status span_recover(const span_grid *g, const span_problem *problem, span_fields *out, fault *f)
 {
-    work w = {.g = g, .problem = problem};
+    span_work w = {.g = g, .problem = problem};
     double strains[UNKNOWNS] = {0}, made[UNKNOWNS];
     TRY(beam_constants_of(problem->request, &w.c, f));
     if (w.c.coupled && beam_coupled_inverse(6, w.c.C, w.flexibility) != 0)

@@ -5,7 +5,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/columns.h"
 
-static status accept_all(columns *c)
+static status accept_all(table_columns *c)
 {
     c->rows = c->group >= 0 ? columns_length(c->group, "formulation") : -1;
     if (c->rows < 0)
@@ -25,7 +25,7 @@ static status accept_all(columns *c)
 
 status accepted_read(const char *path, hid_t file, fault *f)
 {
-    columns c = {.path = path, .name = "accepted", .f = f};
+    table_columns c = {.path = path, .name = "accepted", .f = f};
     c.group = H5Lexists(file, c.name, H5P_DEFAULT) > 0 ? H5Gopen2(file, c.name, H5P_DEFAULT) : -1;
     const status outcome = accept_all(&c);
     if (c.group >= 0)

@@ -21,7 +21,7 @@ static status compare_mesh(const sweep *s, const truth *row, int index, int mesh
                            fault *f)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const solve_result *result = &one->cell[mesh].solve;
     for (int q = 0; q < p->scene.quantities; q++) {
         if (strcmp(p->scene.quantity[q].name, row->quantity) != 0 ||
@@ -38,7 +38,7 @@ static status compare_mesh(const sweep *s, const truth *row, int index, int mesh
 status agreements_add(const sweep *s, const truths *t, int index, judgement *out, fault *f)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     if (one->missing[0] != '\0' || one->without.other)
         return STATUS_OK;
     for (int r = 0; r < t->rows; r++) {

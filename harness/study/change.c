@@ -136,7 +136,8 @@ static int tells_errors(const scene_quantity *q)
     return q->what.kind == SCENE_BALANCE && q->what.of.balance == SCENE_DRIFT;
 }
 
-void change_between(const scene *s, const cell_result *before, const cell_result *now, change *out)
+void change_between(const scene *s, const cell_result *before, const cell_result *now,
+                    value_change *out)
 {
     const int values = cell_values(before) > 0 && cell_values(now) > 0;
     out->largest = values ? -1 : INFINITY;

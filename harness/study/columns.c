@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-status columns_broken(const columns *r, const char *column)
+status columns_broken(const table_columns *r, const char *column)
 {
     return fault_set(r->f, STATUS_FAULT,
                      "%s: column %s of %s is missing or damaged; build it again ('make all')",
@@ -31,7 +31,7 @@ int columns_length(hid_t group, const char *column)
     return length;
 }
 
-status columns_numbers(const columns *r, const char *column, hid_t type, void *out)
+status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out)
 {
     const hid_t set = H5Dopen2(r->group, column, H5P_DEFAULT);
     const int good =
@@ -40,7 +40,7 @@ status columns_numbers(const columns *r, const char *column, hid_t type, void *o
     return good ? STATUS_OK : columns_broken(r, column);
 }
 
-status columns_strings(const columns *r, const char *column, char **out)
+status columns_strings(const table_columns *r, const char *column, char **out)
 {
     const hid_t set = H5Dopen2(r->group, column, H5P_DEFAULT);
     const hid_t stored = length_of(set) == r->rows ? H5Dget_type(set) : -1;
@@ -56,7 +56,7 @@ status columns_strings(const columns *r, const char *column, char **out)
     return good ? STATUS_OK : columns_broken(r, column);
 }
 
-status columns_read(const columns *r, const columns_field *field, void *base, size_t stride)
+status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride)
 {
     assert(r->rows >= 0);
     const size_t size = field->is_text ? sizeof(char *) : sizeof(double);

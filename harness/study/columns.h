@@ -7,13 +7,13 @@
 
 #include "elements/shared/status.h"
 
-typedef struct columns {
+typedef struct table_columns {
     const char *path; /* of the file, for messages */
     hid_t group;
     char name[64]; /* of the group, for messages */
     int rows;
     fault *f;
-} columns;
+} table_columns;
 
 typedef struct columns_field {
     const char *column;
@@ -22,15 +22,15 @@ typedef struct columns_field {
 } columns_field;
 
 /* FAULT: the column is missing or damaged. */
-status columns_broken(const columns *r, const char *column);
+status columns_broken(const table_columns *r, const char *column);
 /* Number of rows of a column, or -1. */
 int columns_length(hid_t group, const char *column);
 /* out[rows], of the memory type `type`. */
-status columns_numbers(const columns *r, const char *column, hid_t type, void *out);
+status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out);
 /* Fixed-length strings; out[rows], each malloced. */
-status columns_strings(const columns *r, const char *column, char **out);
+status columns_strings(const table_columns *r, const char *column, char **out);
 /* One column into a field of an array of structs base[rows]. On failure the strings read so far are
  * in it. */
-status columns_read(const columns *r, const columns_field *field, void *base, size_t stride);
+status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);
 
 #endif

@@ -31,13 +31,13 @@ typedef struct script {
 } script;
 
 /* What is asked of a program of reference/derive. */
-typedef struct question {
+typedef struct derive_question {
     const char *path;
     const char *case_name, *parameters; /* NULL: none */
     FILE *input;                        /* a scene; NULL: none */
-} question;
+} derive_question;
 
-static status start(const question *q, script *s, fault *f)
+static status start(const derive_question *q, script *s, fault *f)
 {
     int out[2] = {-1, -1}, error[2] = {-1, -1};
     if (pipe(out) != 0 || pipe(error) != 0 || (s->process = fork()) < 0) {
@@ -129,7 +129,7 @@ static int stop(script *s)
 }
 
 /* With what derive_asked stops and frees. */
-static status derive(const question *q, script *s, derived_value **out, int *count, fault *f)
+static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char complaint[LINE] = "", more[LINE];
     TRY(start(q, s, f));
@@ -148,7 +148,7 @@ static status derive(const question *q, script *s, derived_value **out, int *cou
                : fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
 }
 
-static status derive_asked(const question *q, derived_value **out, int *count, fault *f)
+static status derive_asked(const derive_question *q, derived_value **out, int *count, fault *f)
 {
     script s = {0};
     *out = NULL;
@@ -171,13 +171,13 @@ static status derive_asked(const question *q, derived_value **out, int *count, f
 status derive_values(const char *path, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f)
 {
-    const question q = {path, case_name, parameters, NULL};
+    const derive_question q = {path, case_name, parameters, NULL};
     return derive_asked(&q, out, count, f);
 }
 
 status derive_scene(const char *path, FILE *scene_text, derived_value **out, int *count, fault *f)
 {
-    const question q = {path, NULL, NULL, scene_text};
+    const derive_question q = {path, NULL, NULL, scene_text};
     rewind(scene_text);
     return derive_asked(&q, out, count, f);
 }

@@ -94,7 +94,7 @@ double expense_of_scene(const scene *s, int steps, const element_type *type, int
 double expense_of_cell(const sweep *s, int series_index, int mesh)
 {
     const series *one = &s->series[series_index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
@@ -116,7 +116,7 @@ static int dearest(const void *left, const void *right)
     return a->series < b->series ? -1 : 1;
 }
 
-int expense_order(const sweep *s, int jobs, task tasks[])
+int expense_order(const sweep *s, int jobs, workload_task tasks[])
 {
     double sum = 0;
     expense *list = malloc(((size_t)s->seriess + 1) * sizeof *list);
@@ -139,7 +139,7 @@ int expense_order(const sweep *s, int jobs, task tasks[])
     qsort(list, (size_t)count, sizeof *list, dearest);
     for (int i = 0; i < count; i++)
         for (int k = s->series[list[i].series].meshes - 1; k >= 0; k--)
-            tasks[n++] = (task){.series = list[i].series, .mesh = k};
+            tasks[n++] = (workload_task){.series = list[i].series, .mesh = k};
     free(list);
     return 0;
 }

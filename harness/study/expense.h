@@ -50,6 +50,6 @@ double expense_of_cell(const sweep *s, int index, int mesh);
  * of the series, so that one after the other is whole while the rest is run. Of a series the finest
  * mesh first. Dear is what more than a hundredth of the work of one process goes into. 0: done;
  * -1: out of memory. */
-int expense_order(const sweep *s, int jobs, task tasks[]);
+int expense_order(const sweep *s, int jobs, workload_task tasks[]);
 
 #endif

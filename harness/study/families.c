@@ -12,12 +12,12 @@
 enum { MOST_SERIES = 64 };
 
 /* A limit that is known. */
-typedef struct known_limit {
+typedef struct families_known_limit {
     int series;
     const char *family;
     unsigned theory;
     double value, uncertainty;
-} known_limit;
+} families_known_limit;
 
 /* Is it known to have another limit in what the scene has? */
 static int is_known_wrong(const truths *t, unsigned features, const char *key)
@@ -41,7 +41,7 @@ static int may_vote(const sweep *s, const series *one, const truths *t)
 }
 
 static int known_limits(const sweep *s, int point_index, int quantity, const truths *t,
-                        known_limit out[MOST_SERIES])
+                        families_known_limit out[MOST_SERIES])
 {
     const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
     int count = 0;
@@ -53,7 +53,7 @@ static int known_limits(const sweep *s, int point_index, int quantity, const tru
         const double unmodelled =
             one->without.what != 0 ? one->without.change * fabs(fit.limit) : 0;
         if (isfinite(fit.limit) && isfinite(fit.limit_uncertainty))
-            out[count++] = (known_limit){
+            out[count++] = (families_known_limit){
                 i, one->formulation.type->family,
                 features_needed_of(&s->point[point_index].scene, one->formulation.type) & theories,
                 fit.limit, fit.limit_uncertainty + unmodelled};
@@ -62,18 +62,20 @@ static int known_limits(const sweep *s, int point_index, int quantity, const tru
 }
 
 /* How far two limits are apart, and what both are uncertain by. */
-typedef struct difference {
+typedef struct families_difference {
     double apart, unknown;
-} difference;
+} families_difference;
 
-static difference difference_of(const known_limit *a, const known_limit *b)
+static families_difference difference_of(const families_known_limit *a,
+                                         const families_known_limit *b)
 {
-    return (difference){fabs(a->value - b->value), a->uncertainty + b->uncertainty};
+    return (families_difference){fabs(a->value - b->value), a->uncertainty + b->uncertainty};
 }
 
-static int agree(const scene_quantity *q, const known_limit *a, const known_limit *b)
+static int agree(const scene_quantity *q, const families_known_limit *a,
+                 const families_known_limit *b)
 {
-    const difference d = difference_of(a, b);
+    const families_difference d = difference_of(a, b);
     if (a->theory != b->theory)
         return 0;
     const double size = fmax(fmax(fabs(a->value), fabs(b->value)), q->near_zero);
@@ -81,12 +83,13 @@ static int agree(const scene_quantity *q, const known_limit *a, const known_limi
 }
 
 /* What agrees with one limit: of each family the nearest. */
-static families_limit around(const scene_quantity *q, const known_limit *all, int count, int centre)
+static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
+                             int centre)
 {
     families_limit out = {.value = all[centre].value, .theory = all[centre].theory};
     double nearest[FAMILIES_MOST], best = INFINITY, beyond = 0;
     for (int i = 0; i < count; i++) {
-        const difference d = difference_of(&all[centre], &all[i]);
+        const families_difference d = difference_of(&all[centre], &all[i]);
         const double far = d.apart + d.unknown;
         int k = 0;
         if (!agree(q, &all[centre], &all[i]))
@@ -100,7 +103,7 @@ static families_limit around(const scene_quantity *q, const known_limit *all, in
         out.families += k == out.families;
     }
     for (int k = 0; k < out.families; k++) {
-        const difference d = difference_of(&all[centre], &all[out.series[k]]);
+        const families_difference d = difference_of(&all[centre], &all[out.series[k]]);
         if (strcmp(all[centre].family, all[out.series[k]].family) == 0)
             continue;
         best = fmin(best, d.apart + d.unknown);
@@ -115,7 +118,7 @@ typedef struct mean {
     double value, uncertainty, spread;
 } mean;
 
-static mean mean_of(const known_limit *all, int count, const int in[])
+static mean mean_of(const families_known_limit *all, int count, const int in[])
 {
     double sum = 0, weights = 0, squares = 0;
     mean out;
@@ -139,13 +142,13 @@ static mean mean_of(const known_limit *all, int count, const int in[])
     return out;
 }
 
-static int is_near(const known_limit *one, const mean *m)
+static int is_near(const families_known_limit *one, const mean *m)
 {
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
 /* Takes out who is furthest off beyond its uncertainty, until nobody is: in[count]. */
-static mean settle(const known_limit *all, int count, int in[])
+static mean settle(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
         const mean m = mean_of(all, count, in);
@@ -166,7 +169,7 @@ static mean settle(const known_limit *all, int count, int in[])
 
 /* The mean of those around the centre that are within their uncertainty of it, if they are of two
  * families. */
-static void refine(const scene_quantity *q, const known_limit *all, int count, int centre,
+static void refine(const scene_quantity *q, const families_known_limit *all, int count, int centre,
                    families_limit *out)
 {
     int in[MOST_SERIES], near[MOST_SERIES];
@@ -202,7 +205,7 @@ static int is_better(const families_limit *a, const families_limit *b)
 families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *t)
 {
     const scene_quantity *q = &s->point[point_index].scene.quantity[quantity];
-    known_limit all[MOST_SERIES];
+    families_known_limit all[MOST_SERIES];
     families_limit best = {.families = 0};
     int centre = -1;
     const int count = known_limits(s, point_index, quantity, t, all);
@@ -260,7 +263,7 @@ static char *source_of(const sweep *s, const families_limit *l)
 static status add_truth(const sweep *s, int point_index, int quantity, const families_limit *l,
                         truths *t, fault *f)
 {
-    const point *p = &s->point[point_index];
+    const sweep_point *p = &s->point[point_index];
     truth *row = truths_add(t, f);
     if (row == NULL)
         return STATUS_FAULT;
@@ -292,14 +295,14 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
 }
 
 /* May agreements of it become truths? */
-static int is_open(const point *p, int files_only)
+static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);
 }
 
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f)
 {
-    const point *p = &s->point[point_index];
+    const sweep_point *p = &s->point[point_index];
     for (int q = 0; is_open(p, files_only) && q < p->scene.quantities; q++) {
         const char *name = p->scene.quantity[q].name;
         if (p->scene.quantity[q].reduction == SCENE_CURVE ||

@@ -72,15 +72,15 @@ static int group_end(const state_matrices *s, int j)
 }
 
 /* Of a state: its modes of unit mass, and M times them. */
-typedef struct workspace {
+typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
     double *share;          /* [modes] of the followed shape */
     int *taken;             /* [modes] followed modes in the group that begins here */
-} workspace;
+} match_workspace;
 
 /* Mode i of before: the group that it is in most, and the mean frequency of it there. */
-static void match_one(const follow_shapes *before, int i, const state_matrices *s, workspace *w,
-                      follow_shapes *out)
+static void match_one(const follow_shapes *before, int i, const state_matrices *s,
+                      match_workspace *w, follow_shapes *out)
 {
     const size_t n = (size_t)out->rows;
     const double *old = before->shape + (size_t)i * n;
@@ -107,7 +107,7 @@ static void match_one(const follow_shapes *before, int i, const state_matrices *
     }
 }
 
-static void match_all(const follow_shapes *before, const state_matrices *s, workspace *w,
+static void match_all(const follow_shapes *before, const state_matrices *s, match_workspace *w,
                       follow_shapes *out, double *least)
 {
     const size_t n = (size_t)out->rows;
@@ -127,8 +127,8 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
                          double *least, fault *f)
 {
     const size_t n = (size_t)s->M.rows, modes = (size_t)s->modes;
-    workspace w = {.mode = malloc((2 * modes * n + modes + 1) * sizeof(double)),
-                   .taken = calloc(modes + 1, sizeof(int))};
+    match_workspace w = {.mode = malloc((2 * modes * n + modes + 1) * sizeof(double)),
+                         .taken = calloc(modes + 1, sizeof(int))};
     memset(out, 0, sizeof *out);
     if (s->M.rows != before->rows) {
         free(w.mode);

@@ -9,7 +9,7 @@
 #include "harness/study/columns.h"
 #include "harness/study/truths_file.h"
 
-static status read_all(columns *c, glossary_entry **out)
+static status read_all(table_columns *c, glossary_entry **out)
 {
     static const columns_field field[] = {
         {"term", 1, offsetof(glossary_entry, term)},
@@ -32,7 +32,7 @@ static status read_all(columns *c, glossary_entry **out)
 /* With what glossary_read closes. */
 static status read_open(const char *path, hid_t *file, glossary *out, fault *f)
 {
-    columns c = {.path = path, .name = "glossary", .f = f};
+    table_columns c = {.path = path, .name = "glossary", .f = f};
     TRY(truths_file_open(path, file, f));
     c.group = H5Lexists(*file, c.name, H5P_DEFAULT) > 0 ? H5Gopen2(*file, c.name, H5P_DEFAULT) : -1;
     const status outcome = read_all(&c, &out->entry);

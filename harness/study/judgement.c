@@ -26,7 +26,7 @@ static int is_beyond(const rule *r, const verdict *v)
 static void expect(const sweep *s, truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const char *quantity = p->scene.quantity[v->quantity].name;
     const rule_subject subject = {
         p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
@@ -75,8 +75,8 @@ static status check_cells(const sweep *s, int index, judgement *out, fault *f)
 }
 
 /* Truths that speak of this quantity, the ones ranked lower and of other models included. */
-static void mark_met(truths *t, const point *p, const formulation *chosen, const char *quantity,
-                     int judged)
+static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
+                     const char *quantity, int judged)
 {
     for (int i = truth_index_first(t, p->type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         truth *row = &t->row[i];
@@ -88,7 +88,7 @@ static void mark_met(truths *t, const point *p, const formulation *chosen, const
     }
 }
 
-static status check_unit(const point *p, const truth *row, fault *f)
+static status check_unit(const sweep_point *p, const truth *row, fault *f)
 {
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *here = &p->scene.quantity[q];
@@ -129,7 +129,7 @@ static int is_within(const verdict *v)
 static void judge_quantity(const sweep *s, truths *t, int index, int quantity, judgement *out)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const int gates = sweep_gates(s, one);
     verdict *v = &out->verdict[out->verdicts++];
     v->series = index;
@@ -174,7 +174,7 @@ static int noise_may_decide(const sweep *s, const truths *t, int index, int quan
 int judgement_doubts(const sweep *s, const truths *t, int series_index)
 {
     const series *one = &s->series[series_index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     if (one->imported != NULL)
         return 0;
     for (int q = 0; q < p->scene.quantities; q++)
@@ -196,7 +196,7 @@ static void forget_observations(truths *t)
 static void judge_series(const sweep *s, truths *t, int index, judgement *out)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
         /* a curve is drawn beside its truths; a point of it is judged by a quantity of its own */

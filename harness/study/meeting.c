@@ -7,7 +7,7 @@
 /* What a series is measured by; a curve by nothing. */
 static const truth *reference_of(const sweep *s, const truths *t, int index, int quantity)
 {
-    const point *p = &s->point[0];
+    const sweep_point *p = &s->point[0];
     return p->scene.quantity[quantity].reduction == SCENE_CURVE
                ? NULL
                : verdict_reference(t, p, &s->series[index].formulation, quantity);

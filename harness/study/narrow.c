@@ -13,7 +13,7 @@ typedef struct kept {
 
 static void mark(const sweep *s, const char *select, select_words *words, kept *out)
 {
-    const point *p = &s->point[0];
+    const sweep_point *p = &s->point[0];
     char text[SWEEP_TEXT];
     for (int i = 0; i < s->seriess; i++)
         for (int q = 0; q < p->scene.quantities; q++) {
@@ -52,7 +52,7 @@ static const char *quantity_at(const void *context, int i)
 /* The nearest of the point's quantities, else of the names that there are. */
 static status check_words(const sweep *s, const char *select, const select_words *words, fault *f)
 {
-    const point *p = &s->point[0];
+    const sweep_point *p = &s->point[0];
     char word[SELECT_WORD];
     if (!select_unmet(select, words, word))
         return STATUS_OK;
@@ -102,7 +102,7 @@ status narrow_scene(scene *s, const case_type *type, const double parameter[],
                     const formulation *chosen, const char *select, fault *f)
 {
     fault unmet = {""};
-    point p = {.type = type, .scene = *s};
+    sweep_point p = {.type = type, .scene = *s};
     series one = {.formulation = *chosen};
     sweep whole = {.points = 1, .seriess = 1, .point = &p, .series = &one};
     parameters_text(type, parameter, p.text, sizeof p.text);

@@ -38,7 +38,7 @@ static double noise_of(const scene_quantity *q, double value, const double again
     return cover * largest;
 }
 
-int noise_take(const point *p, const cell_result again[NOISE_REPETITIONS], series *one)
+int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETITIONS], series *one)
 {
     const int quantities = p->scene.quantities;
     free(one->noise);

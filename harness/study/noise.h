@@ -15,7 +15,7 @@ scene_edit noise_words(const formulation *, int repetition);
 /* Fills series.noise: twice the larger of the two differences, relative to the value or near_zero,
  * or what differences leave where a formulation needs them; NAN where a value or a repetition is
  * missing. -1: out of memory. */
-int noise_take(const point *, const cell_result again[NOISE_REPETITIONS], series *);
+int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 int noise_cells(const sweep *s); /* that were run for it */
 
 #endif

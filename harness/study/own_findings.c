@@ -31,13 +31,13 @@ enum {
 };
 
 /* Where the reading is. */
-typedef struct reader {
+typedef struct findings_reader {
     const case_type *const *run;
     truths *t;
     mistakes *m;
     const own_table_row *row;
     int good; /* of this row */
-} reader;
+} findings_reader;
 
 /* A mistake in a column of the row. */
 #define WRONG(r, column, ...)                                                                      \
@@ -48,7 +48,7 @@ static int is_pattern(const char *word)
     return strpbrk(word, "*?[") != NULL;
 }
 
-static void check_formulation(reader *r, const char *word)
+static void check_formulation(findings_reader *r, const char *word)
 {
     char bare[RULES_WORD], near[FAULT_TEXT];
     int found = 0;
@@ -60,7 +60,7 @@ static void check_formulation(reader *r, const char *word)
               own_names_near_formulation(bare, near));
 }
 
-static void check_case(reader *r, const char *word)
+static void check_case(findings_reader *r, const char *word)
 {
     char near[FAULT_TEXT];
     const case_type *type;
@@ -73,7 +73,8 @@ static void check_case(reader *r, const char *word)
 }
 
 /* Is it a quantity of the case, at the defaults or where truths are known? */
-static int case_has(const reader *r, const case_type *type, const char *quantity, scene *defaults)
+static int case_has(const findings_reader *r, const case_type *type, const char *quantity,
+                    scene *defaults)
 {
     for (int i = 0; i < r->t->rows; i++)
         if (r->t->row[i].type == type && strcmp(r->t->row[i].quantity, quantity) == 0)
@@ -82,7 +83,7 @@ static int case_has(const reader *r, const case_type *type, const char *quantity
 }
 
 /* A quantity that no case of the rule has would never be seen. */
-static void check_quantity(reader *r, const char *word)
+static void check_quantity(findings_reader *r, const char *word)
 {
     char near[FAULT_TEXT] = "", pattern[RULES_WORD];
     const case_type *type;
@@ -112,7 +113,7 @@ static const char *verdict_at(const void *context, int i)
 }
 
 /* "wrong limit|undecided" */
-static void check_verdicts(reader *r)
+static void check_verdicts(findings_reader *r)
 {
     char word[RULES_WORD], near[FAULT_TEXT];
     const char *at = r->row->field[VERDICTS];
@@ -132,7 +133,7 @@ static void check_verdicts(reader *r)
     }
 }
 
-static void check_prediction(reader *r, const char *word)
+static void check_prediction(findings_reader *r, const char *word)
 {
     char of[RULES_WORD];
     const char *slash = strchr(word, '/');
@@ -142,14 +143,15 @@ static void check_prediction(reader *r, const char *word)
               word);
 }
 
-static void check_list(reader *r, int column, void (*check)(reader *r, const char *word))
+static void check_list(findings_reader *r, int column,
+                       void (*check)(findings_reader *r, const char *word))
 {
     char word[RULES_WORD];
     for (const char *at = r->row->field[column]; (at = rules_next_word(at, word)) != NULL;)
         check(r, word);
 }
 
-static void check_name(reader *r)
+static void check_name(findings_reader *r)
 {
     const char *name = r->row->field[RULE];
     if (strchr(name, ' ') != NULL)
@@ -162,7 +164,7 @@ static void check_name(reader *r)
 }
 
 /* A rule that says neither why nor how that is known explains nothing. */
-static void check_grounds(reader *r)
+static void check_grounds(findings_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)
         WRONG(r, CAUSE,
@@ -176,7 +178,7 @@ static void check_grounds(reader *r)
               r->row->field[RULE]);
 }
 
-static void check(reader *r, double *largest)
+static void check(findings_reader *r, double *largest)
 {
     static const int needed[] = {RULE, FORMULATIONS, CASES, QUANTITIES, VERDICTS};
     static const char *const names[] = {"rule", "formulations", "cases", "quantities", "verdicts"};
@@ -211,7 +213,7 @@ static const case_type **all_cases(const case_type *const run[])
     return all;
 }
 
-static int check_condition(reader *r, const rule *one)
+static int check_condition(findings_reader *r, const rule *one)
 {
     char word[RULES_WORD] = "";
     const case_type **all = all_cases(r->run);
@@ -225,7 +227,7 @@ static int check_condition(reader *r, const rule *one)
     return !bad;
 }
 
-static status add(reader *r, double largest, fault *f)
+static status add(findings_reader *r, double largest, fault *f)
 {
     char from[FAULT_TEXT];
     char *const *field = r->row->field;
@@ -254,7 +256,7 @@ static status add(reader *r, double largest, fault *f)
     return STATUS_OK;
 }
 
-static status add_rows(const own_table *rows, reader *r, fault *f)
+static status add_rows(const own_table *rows, findings_reader *r, fault *f)
 {
     for (int i = 0; i < rows->rows; i++) {
         double largest;
@@ -271,7 +273,7 @@ status own_findings_read(const char *path, const case_type *const run[], truths 
                          fault *f)
 {
     own_table rows;
-    reader r = {.run = run, .t = t, .m = m};
+    findings_reader r = {.run = run, .t = t, .m = m};
     status outcome = own_table_read(path, head, &rows, m, f);
     if (outcome == STATUS_OK)
         outcome = add_rows(&rows, &r, f);

@@ -37,27 +37,27 @@ static const char *const names[COLUMNS] = {
     "value", "unit",       "uncertainty", "kind",   "model",    "convention", "source"};
 
 /* Where the reading is. */
-typedef struct reader {
+typedef struct truths_reader {
     const case_type *const *run;
     const case_type *only;
     truths *t;
     mistakes *m;
     const own_table_row *row;
     int good; /* of this row */
-} reader;
+} truths_reader;
 
 /* A mistake in a column of the row. */
 #define WRONG(r, column, ...)                                                                      \
     ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
 
-static void take_number(reader *r, int column, double *out)
+static void take_number(truths_reader *r, int column, double *out)
 {
     const char *text = r->row->field[column];
     if (!line_number(text, out))
         WRONG(r, column, "%s '%.40s' is no finite number", names[column], text);
 }
 
-static void take_elements(reader *r, int *out)
+static void take_elements(truths_reader *r, int *out)
 {
     char *end;
     const char *text = r->row->field[ELEMENTS];
@@ -73,7 +73,7 @@ static void take_elements(reader *r, int *out)
 }
 
 /* The quantity and its unit, of the scene at these parameters. */
-static void check_quantity(reader *r, const case_type *type, const double value[])
+static void check_quantity(truths_reader *r, const case_type *type, const double value[])
 {
     char near[FAULT_TEXT];
     fault why = {""};
@@ -92,7 +92,7 @@ static void check_quantity(reader *r, const case_type *type, const double value[
     scene_free(&s);
 }
 
-static void check_formulation(reader *r)
+static void check_formulation(truths_reader *r)
 {
     char near[FAULT_TEXT], bare[FORMULATION_KEY];
     const char *key = r->row->field[FORMULATION];
@@ -131,7 +131,7 @@ static const truth *known(const truths *t, const truth *row)
 }
 
 /* The row but for its texts, which are those of the file. */
-static void take_row(reader *r, const case_type *type, truth *out)
+static void take_row(truths_reader *r, const case_type *type, truth *out)
 {
     char *const *field = r->row->field;
     fault why = {""};
@@ -162,7 +162,7 @@ static void take_row(reader *r, const case_type *type, truth *out)
 }
 
 /* Of closed lists, and what fits together. */
-static void check_row(reader *r, const truth *row)
+static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);
     for (int i = 0; i < COLUMNS && wrong != NULL; i++)
@@ -180,7 +180,7 @@ static void check_row(reader *r, const truth *row)
               other->value, other->source);
 }
 
-static status add(reader *r, const truth *row, fault *f)
+static status add(truths_reader *r, const truth *row, fault *f)
 {
     truth *to = truths_add(r->t, f);
     if (to == NULL)
@@ -194,7 +194,7 @@ static status add(reader *r, const truth *row, fault *f)
     return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for truths");
 }
 
-static status add_rows(const own_table *rows, reader *r, fault *f)
+static status add_rows(const own_table *rows, truths_reader *r, fault *f)
 {
     for (int i = 0; i < rows->rows; i++) {
         char near[FAULT_TEXT];
@@ -223,7 +223,7 @@ status own_truths_read(const char *path, const case_type *const run[], const cas
                        truths *t, mistakes *m, fault *f)
 {
     own_table rows;
-    reader r = {.run = run, .only = only, .t = t, .m = m};
+    truths_reader r = {.run = run, .only = only, .t = t, .m = m};
     status outcome = own_table_read(path, head, &rows, m, f);
     if (outcome == STATUS_OK)
         outcome = add_rows(&rows, &r, f);

@@ -13,11 +13,11 @@
 static status add_point(sweep *s, const case_type *type, const double value[],
                         const scene_edit *edit, fault *f)
 {
-    point *more = realloc(s->point, (size_t)(s->points + 1) * sizeof *more);
+    sweep_point *more = realloc(s->point, (size_t)(s->points + 1) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for parameter points");
     s->point = more;
-    point *p = &s->point[s->points++];
+    sweep_point *p = &s->point[s->points++];
     memset(p, 0, sizeof *p);
     p->type = type;
     memcpy(p->parameter, value, (size_t)parameters_count(type) * sizeof *value);
@@ -106,7 +106,7 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
         return fault_set(f, STATUS_FAULT, "out of memory for series");
     s->series = more;
     series *one = &s->series[s->seriess++];
-    const point *p = &s->point[index];
+    const sweep_point *p = &s->point[index];
     memset(one, 0, sizeof *one);
     one->point = index;
     one->formulation = *chosen;
@@ -140,7 +140,7 @@ static void find_omission(const sweep *s, int index)
 
 void plan_omissions(sweep *s, int point_index)
 {
-    const point *p = &s->point[point_index];
+    const sweep_point *p = &s->point[point_index];
     for (int i = 0; i < s->seriess && p->status == STATUS_OK; i++)
         if (s->series[i].point == point_index && s->series[i].missing[0] == '\0' &&
             s->series[i].imported == NULL)
@@ -149,19 +149,19 @@ void plan_omissions(sweep *s, int point_index)
 
 /* Room for the formulations of a point; what does not fit is left out. */
 enum { MOST_FORMULATIONS = 64 };
-typedef struct chosen {
+typedef struct chosen_cells {
     int count;
     formulation list[MOST_FORMULATIONS];
-} chosen;
+} chosen_cells;
 
-static void choose_given(const sweep_request *request, chosen *out)
+static void choose_given(const sweep_request *request, chosen_cells *out)
 {
     for (int i = 0; i < request->formulations && out->count < MOST_FORMULATIONS; i++)
         out->list[out->count++] = request->formulation[i];
 }
 
 /* Those whose options are judged by themselves too. */
-static void choose_options(const element_type *type, chosen *out)
+static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {
         if (element_judged(type, k) == 0)
@@ -173,7 +173,7 @@ static void choose_options(const element_type *type, chosen *out)
 }
 
 /* Options that a discrete truth of the point speaks of. */
-static void choose_stored(const truths *t, const point *p, chosen *out)
+static void choose_stored(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
         const char *key = t->row[i].formulation;
@@ -185,7 +185,7 @@ static void choose_stored(const truths *t, const point *p, chosen *out)
     }
 }
 
-static void choose_all(const truths *t, const point *p, chosen *out)
+static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; formulations_at(i) != NULL && out->count < MOST_FORMULATIONS; i++)
         formulation_default(formulations_at(i), &out->list[out->count++]);
@@ -197,8 +197,8 @@ static void choose_all(const truths *t, const point *p, chosen *out)
 
 /* One that any quantity is selected of; words of the selection are met in all of them. asked:
  * [quantities or 1] becomes 1 of those that are. */
-static int is_selected(const sweep *s, const point *p, const formulation *one, select_words *words,
-                       char asked[])
+static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
+                       select_words *words, char asked[])
 {
     int selected = 0;
     for (int q = 0; q < p->scene.quantities || q == 0; q++) {
@@ -217,8 +217,8 @@ static int is_selected(const sweep *s, const point *p, const formulation *one, s
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char asked[], fault *f)
 {
-    const point *p = &s->point[index];
-    chosen those = {.count = 0};
+    const sweep_point *p = &s->point[index];
+    chosen_cells those = {.count = 0};
     if (request->formulations > 0)
         choose_given(request, &those);
     else

@@ -95,14 +95,14 @@ static int can_run(const scene *s, const element_type *type, int other)
 
 /* Those that can run, best first: as sound as the first one, and of a family two at most. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
-typedef struct candidates {
+typedef struct preference_candidates {
     int count;
     const element_type *type[CANDIDATES];
     standing here[CANDIDATES];
-} candidates;
+} preference_candidates;
 
 /* Is it one of them, or one too many of its family? */
-static int is_taken(const candidates *all, const element_type *type)
+static int is_taken(const preference_candidates *all, const element_type *type)
 {
     int same = 0;
     for (int i = 0; i < all->count; i++) {
@@ -123,7 +123,7 @@ static int as_sound(const standing *a, const standing *b)
 
 /* The best that is not taken yet; 0: there is none as sound as the first one. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
-                     int other, candidates *all)
+                     int other, preference_candidates *all)
 {
     standing *best = &all->here[all->count];
     const element_type **chosen = &all->type[all->count];
@@ -145,17 +145,17 @@ static int take_next(const scene *s, const rule_subject *where, const rule *rule
     return 1;
 }
 
-static candidates candidates_of(const scene *s, const rule_subject *where, const rule *rules,
-                                int count, int other)
+static preference_candidates candidates_of(const scene *s, const rule_subject *where,
+                                           const rule *rules, int count, int other)
 {
-    candidates out = {0};
+    preference_candidates out = {0};
     while (out.count < CANDIDATES && take_next(s, where, rules, count, other, &out)) {}
     return out;
 }
 
 /* Candidates, and the first half of the line on the choice. */
 static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
-                   candidates *all, char why[FAULT_TEXT], fault *f)
+                   preference_candidates *all, char why[FAULT_TEXT], fault *f)
 {
     *all = candidates_of(s, where, rules, count, 0);
     const int whole = all->count > 0;
@@ -179,7 +179,7 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
 status preference_formulation(const scene *s, const rule_subject *where, const rule *rules,
                               int count, formulation *out, char why[FAULT_TEXT], fault *f)
 {
-    candidates all = {0};
+    preference_candidates all = {0};
     TRY(find(s, where, rules, count, &all, why, f));
     formulation_default(all.type[0], out);
     return STATUS_OK;
@@ -200,7 +200,7 @@ typedef struct runner {
     formulation chosen;
     cell_result cell[2];         /* of the last meshes, in turn */
     double asked;                /* change that counts as none */
-    change last;                 /* from mesh to mesh */
+    value_change last;           /* from mesh to mesh */
     int tried, before, elements; /* meshes; elements of the last two */
     int unstable;                /* one met unstable states, which finer ones may not pass */
     double cost, next;           /* of the last mesh; what the next one may cost [s] */
@@ -215,7 +215,7 @@ static status begin(runner *r, const cell_request *request, const formulation *c
     r->chosen = *chosen;
     r->asked = asked;
     cell_formulation(&r->request, chosen);
-    r->last = (change){.largest = INFINITY, .which = -1};
+    r->last = (value_change){.largest = INFINITY, .which = -1};
     r->last.of_each = malloc(((size_t)quantities + 1) * sizeof *r->last.of_each);
     if (r->last.of_each == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a choice");
@@ -352,7 +352,7 @@ static void choose(const scene *s, runner of[], int count, preference *out)
 status preference_both(const cell_request *request, const rule_subject *where, const rule *rules,
                        int count, double asked, preference *out, fault *f)
 {
-    candidates all;
+    preference_candidates all;
     int begun = 0;
     status outcome = STATUS_OK;
     *out = (preference){.why_formulation = ""};

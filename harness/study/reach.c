@@ -161,7 +161,7 @@ int reach_ties(const reached list[], int count)
 
 static void add_verdict(const sweep *s, const truths *t, int index, int quantity, verdict *out)
 {
-    const point *p = &s->point[s->series[index].point];
+    const sweep_point *p = &s->point[s->series[index].point];
     *out = (verdict){.series = index, .quantity = quantity};
     verdict_reach(s, t, out);
     if (out->truth == NULL && s->series[index].imported == NULL && !s->series[index].without.other)

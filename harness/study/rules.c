@@ -41,14 +41,14 @@ static int list_has_formulation(const char *list, const char *key)
 }
 
 /* One term, without the blanks around it. */
-typedef struct term {
+typedef struct rules_term {
     unsigned feature; /* 0: it compares a parameter */
     int negated;      /* of a feature */
     char parameter[WORD], sign[3], values[WORD];
-} term;
+} rules_term;
 
 /* 0: it is no term. */
-static int term_parse(const char *text, term *out)
+static int term_parse(const char *text, rules_term *out)
 {
     char copy[WORD];
     memset(out, 0, sizeof *out);
@@ -86,7 +86,7 @@ static int is_one_of(const parameter_type *p, const char *values, double value)
     return 0;
 }
 
-static int compares(const term *t, const parameter_type *p, double value)
+static int compares(const rules_term *t, const parameter_type *p, double value)
 {
     if (t->sign[0] == '=' || t->sign[0] == '!')
         return is_one_of(p, t->values, value) == (t->sign[0] == '=');
@@ -96,7 +96,7 @@ static int compares(const term *t, const parameter_type *p, double value)
     return t->sign[0] == '<' ? value < bound : value > bound;
 }
 
-static int term_holds(const term *t, const rule_subject *s)
+static int term_holds(const rules_term *t, const rule_subject *s)
 {
     if (t->feature != 0)
         return ((s->features & t->feature) != 0) != t->negated;
@@ -107,7 +107,7 @@ static int term_holds(const term *t, const rule_subject *s)
 static int condition_holds(const char *condition, const rule_subject *s)
 {
     char word[WORD];
-    term t;
+    rules_term t;
     while ((condition = next_word(condition, ";", word)) != NULL)
         if (!term_parse(word, &t) || !term_holds(&t, s))
             return 0;
@@ -130,7 +130,7 @@ unsigned rules_features(const rule *r)
 {
     char word[WORD];
     unsigned out = 0;
-    term t;
+    rules_term t;
     for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
         if (term_parse(word, &t) && !t.negated)
             out |= t.feature;
@@ -157,7 +157,7 @@ int rules_is_observed(const rule *r)
 }
 
 /* Does some case that the rule speaks of have the term's parameter, with such values? */
-static int term_means_something(const rule *r, const term *t, const case_type *const cases[])
+static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;
     for (int k = 0; cases[k] != NULL && !found; k++) {
@@ -173,7 +173,7 @@ static int term_means_something(const rule *r, const term *t, const case_type *c
 
 int rules_bad_condition(const rule *r, const case_type *const cases[], char word[RULES_WORD])
 {
-    term t;
+    rules_term t;
     for (const char *at = r->condition; (at = next_word(at, ";", word)) != NULL;)
         if (!term_parse(word, &t) || !term_means_something(r, &t, cases))
             return 1;
@@ -185,7 +185,7 @@ const char *rules_next_word(const char *list, char word[RULES_WORD])
     return next_word(list, " ", word);
 }
 
-static status check_rule(const columns *c, const rule *r)
+static status check_rule(const table_columns *c, const rule *r)
 {
     char word[WORD];
     if (!rules_bad_condition(r, registry_cases, word))
@@ -196,7 +196,7 @@ static status check_rule(const columns *c, const rule *r)
                      c->path, r->name, word);
 }
 
-static status read_all(columns *c, rule **out)
+static status read_all(table_columns *c, rule **out)
 {
     static const columns_field field[] = {
         {"rule", 1, offsetof(rule, name)},
@@ -225,7 +225,7 @@ static status read_all(columns *c, rule **out)
 
 status rules_read(const char *path, hid_t file, rule **out, int *count, fault *f)
 {
-    columns c = {.path = path, .name = "findings", .f = f};
+    table_columns c = {.path = path, .name = "findings", .f = f};
     c.group = H5Gopen2(file, "findings", H5P_DEFAULT);
     *out = NULL;
     const status outcome = read_all(&c, out);

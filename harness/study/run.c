@@ -12,7 +12,7 @@
 static void report(progress *p, const workload *w, int last)
 {
     const double now = clock_wall_seconds();
-    const task *t = &w->tasks[last];
+    const workload_task *t = &w->tasks[last];
     const series *one = &w->s->series[t->series];
     char what[SCENE_NAME + FORMULATION_KEY + 32];
     if (!progress_is_due(p, now))
@@ -55,13 +55,13 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
 }
 
 /* The processes that run, and who may ask them to end. */
-typedef struct crew {
+typedef struct cell_crew {
     int jobs, running, interrupted;
     int asked; /* descriptor that can be read once somebody asks to end; -1: nobody can */
     worker workers[WORKERS_MOST];
-} crew;
+} cell_crew;
 
-static status start_all(const workload *w, crew *c, fault *f)
+static status start_all(const workload *w, cell_crew *c, fault *f)
 {
     for (int i = 0; i < c->jobs; i++) {
         TRY(worker_start(w, i, &c->workers[i], f));
@@ -71,7 +71,8 @@ static status start_all(const workload *w, crew *c, fault *f)
 }
 
 /* Those that have something to say; the others may be late. */
-static status attend_all(progress *p, workload *w, crew *c, const struct pollfd ends[], fault *f)
+static status attend_all(progress *p, workload *w, cell_crew *c, const struct pollfd ends[],
+                         fault *f)
 {
     for (int i = 0; i < c->jobs; i++) {
         worker *one = &c->workers[i];
@@ -85,7 +86,7 @@ static status attend_all(progress *p, workload *w, crew *c, const struct pollfd 
     return STATUS_OK;
 }
 
-static status work_off(progress *p, workload *w, crew *c, fault *f)
+static status work_off(progress *p, workload *w, cell_crew *c, fault *f)
 {
     struct pollfd ends[WORKERS_MOST + 1];
     TRY(start_all(w, c, f));
@@ -100,7 +101,7 @@ static status work_off(progress *p, workload *w, crew *c, fault *f)
     return STATUS_OK;
 }
 
-static status run_parallel(const sweep_request *request, workload *w, crew *c, fault *f)
+static status run_parallel(const sweep_request *request, workload *w, cell_crew *c, fault *f)
 {
     progress p =
         progress_begin(request->progress, request->things != NULL ? request->things : "cells",
@@ -144,8 +145,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
         interrupt_begin(&asked);
     else if (request->stop > 0)
         asked.descriptor = request->stop;
-    crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
-              .asked = asked.descriptor};
+    cell_crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
+                   .asked = asked.descriptor};
     for (int i = 0; i < c.jobs; i++)
         c.workers[i].from = -1;
     status outcome = run_parallel(request, w, &c, f);

@@ -160,14 +160,14 @@ static void failures(const judgement *j, char *text, size_t size)
 }
 
 /* Verdicts that are no pass and were expected, by a limit that was derived or by a rule alone. */
-typedef struct known {
+typedef struct known_value {
     int derived[2]; /* within the tolerance, beyond it */
     int by_rule;
-} known;
+} known_value;
 
-static known count_known(const judgement *j)
+static known_value count_known(const judgement *j)
 {
-    known out = {{0}, 0};
+    known_value out = {{0}, 0};
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
         if (v->rule == NULL || !v->matches)
@@ -200,7 +200,7 @@ static void new_ones(const judgement *j, char *text, size_t size)
 /* What is no pass and was expected, for somebody who did not expect it. */
 static void expected_findings(const judgement *j, char *text, size_t size)
 {
-    const known k = count_known(j);
+    const known_value k = count_known(j);
     const int derived = k.derived[0] + k.derived[1];
     char part[400];
     int parts = 0;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Does the quantity depend on what the formulation's options change? */
-static int option_matters(const point *p, const formulation *chosen, const char *quantity)
+static int option_matters(const sweep_point *p, const formulation *chosen, const char *quantity)
 {
     const unsigned features = formulation_bears_on(chosen);
     if (features != 0)
@@ -17,14 +17,15 @@ static int option_matters(const point *p, const formulation *chosen, const char 
     return 1;
 }
 
-void sweep_text(const point *p, const formulation *chosen, const char *quantity,
+void sweep_text(const sweep_point *p, const formulation *chosen, const char *quantity,
                 char text[SWEEP_TEXT])
 {
     snprintf(text, SWEEP_TEXT, "%s/%s/%s/%s", p->type->name,
              p->text[0] != '\0' ? p->text : "default", chosen->key, quantity);
 }
 
-int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity)
+int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chosen,
+                  const char *quantity)
 {
     if (!option_matters(p, chosen, quantity))
         return 0;
@@ -77,7 +78,7 @@ void sweep_free(sweep *s)
 cell_request sweep_cell(const sweep *s, int series_index, int mesh)
 {
     const series *one = &s->series[series_index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     cell_request out = {.scene = &p->scene, .elements = one->mesh[mesh]};
     cell_formulation(&out, &one->formulation);
     out.solve.steps_between = p->steps;

@@ -14,7 +14,7 @@
 
 enum { SERIES_MAX_MESHES = SCENE_MESHES };
 
-typedef struct point {
+typedef struct sweep_point {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     char text[PARAMETERS_TEXT]; /* differences from the defaults */
@@ -27,7 +27,7 @@ typedef struct point {
     scene scene;     /* of all its cells, with their quantities */
     status status;   /* of building the scene */
     char reason[FAULT_TEXT];
-} point;
+} sweep_point;
 
 typedef struct series {
     int point;
@@ -61,7 +61,7 @@ typedef struct sweep {
     int unfinished;   /* cells that an interrupted run left; series that need them are gone */
     int partial;      /* 1: nobody interrupted it, they are of batches that are missing */
     int points, seriess;
-    point *point;
+    sweep_point *point;
     series *series;
 } sweep;
 
@@ -108,9 +108,11 @@ typedef struct sweep_request {
 
 /* What a selection is asked about: case/parameters/formulation/quantity. */
 enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
-void sweep_text(const point *, const formulation *, const char *quantity, char text[SWEEP_TEXT]);
+void sweep_text(const sweep_point *, const formulation *, const char *quantity,
+                char text[SWEEP_TEXT]);
 /* Does the sweep's selection hold for a quantity? */
-int sweep_selects(const sweep *s, const point *p, const formulation *chosen, const char *quantity);
+int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chosen,
+                  const char *quantity);
 
 /* Do the verdicts of a series count? Those of formulations that are accepted, that somebody named
  * or loaded, and of other programs where that was asked. */

@@ -9,7 +9,7 @@
 #include "harness/study/truth.h"
 
 /* Parameters of a row, and whether they still mean what they meant when the table was packed. */
-static status check_row(const columns *r, const case_type *type, int i, const char *text,
+static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
 {
     fault why = {""};
@@ -74,7 +74,7 @@ typedef struct loose_columns {
     int *elements;
 } loose_columns;
 
-static status read_columns(const columns *r, loose_columns *loose, truth *row)
+static status read_columns(const table_columns *r, loose_columns *loose, truth *row)
 {
     static const columns_field field[] = {{"formulation", 1, offsetof(truth, formulation)},
                                           {"theory", 1, offsetof(truth, theory)},
@@ -101,7 +101,7 @@ static int is_of_same_point(const loose_columns *loose, int i)
            strcmp(loose->parameters[i], loose->parameters[i - 1]) == 0;
 }
 
-static status fill_rows(const columns *r, const case_type *type, const loose_columns *loose,
+static status fill_rows(const table_columns *r, const case_type *type, const loose_columns *loose,
                         truth *row)
 {
     parameters_words before;
@@ -123,7 +123,8 @@ static status fill_rows(const columns *r, const case_type *type, const loose_col
     return STATUS_OK;
 }
 
-static status read_loose(const columns *r, const case_type *type, loose_columns *loose, truth *row)
+static status read_loose(const table_columns *r, const case_type *type, loose_columns *loose,
+                         truth *row)
 {
     if (loose->parameters == NULL || loose->hash == NULL || loose->elements == NULL)
         return fault_set(r->f, STATUS_FAULT, "out of memory for truths");
@@ -131,7 +132,7 @@ static status read_loose(const columns *r, const case_type *type, loose_columns 
     return fill_rows(r, type, loose, row);
 }
 
-status truth_rows_read(const columns *r, const case_type *type, truth *row)
+status truth_rows_read(const table_columns *r, const case_type *type, truth *row)
 {
     assert(r->rows >= 0);
     loose_columns loose = {.parameters = calloc((size_t)r->rows + 1, sizeof *loose.parameters),

@@ -9,6 +9,6 @@
 const char *truth_rows_wrong(const truth *row);
 /* row[table->rows], zero before. FAULT: a column that makes no sense, or a row whose case has other
  * defaults by now; what was read stays for truths_free. */
-status truth_rows_read(const columns *table, const case_type *type, truth row[]);
+status truth_rows_read(const table_columns *table, const case_type *type, truth row[]);
 
 #endif

@@ -32,7 +32,7 @@ truth *truths_add(truths *t, fault *f)
     return &t->row[t->rows++];
 }
 
-static status read_table(columns *r, const case_type *type, truths *out)
+static status read_table(table_columns *r, const case_type *type, truths *out)
 {
     r->rows = r->group >= 0 ? columns_length(r->group, "value") : -1;
     if (r->rows < 0)
@@ -45,7 +45,7 @@ static status read_table(columns *r, const case_type *type, truths *out)
 
 static status read_case(const char *path, hid_t all, const case_type *type, truths *out, fault *f)
 {
-    columns r = {.path = path, .f = f};
+    table_columns r = {.path = path, .f = f};
     snprintf(r.name, sizeof r.name, "%s", type->name);
     if (H5Lexists(all, type->name, H5P_DEFAULT) <= 0)
         return STATUS_OK; /* its verdicts will be "no truth" */
@@ -81,13 +81,14 @@ static void find_strangers(hid_t all, truths *out)
 }
 
 /* What is read of a file. */
-typedef struct wanted {
+typedef struct truths_wanted {
     const char *group; /* of tables, one for every case; NULL: none */
     const case_type *only;
     int rules;
-} wanted;
+} truths_wanted;
 
-static status read_tables(const char *path, hid_t file, const wanted *what, truths *out, fault *f)
+static status read_tables(const char *path, hid_t file, const truths_wanted *what, truths *out,
+                          fault *f)
 {
     const hid_t all = H5Gopen2(file, what->group, H5P_DEFAULT);
     if (all < 0)
@@ -101,7 +102,8 @@ static status read_tables(const char *path, hid_t file, const wanted *what, trut
 }
 
 /* With what read_file closes. */
-static status read_open(const char *path, const wanted *what, hid_t *file, truths *out, fault *f)
+static status read_open(const char *path, const truths_wanted *what, hid_t *file, truths *out,
+                        fault *f)
 {
     TRY(truths_file_open(path, file, f));
     if (what->group != NULL)
@@ -112,7 +114,7 @@ static status read_open(const char *path, const wanted *what, hid_t *file, truth
     return rules_read(path, *file, &out->rule, &out->rules, f);
 }
 
-static status read_file(const char *path, const wanted *what, truths *out, fault *f)
+static status read_file(const char *path, const truths_wanted *what, truths *out, fault *f)
 {
     hid_t file;
     const status outcome = read_open(path, what, &file, out, f);
@@ -121,7 +123,7 @@ static status read_file(const char *path, const wanted *what, truths *out, fault
     return outcome;
 }
 
-static status read_new(const char *path, const wanted *what, truths *out, fault *f)
+static status read_new(const char *path, const truths_wanted *what, truths *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     status outcome = read_file(path, what, out, f);
@@ -139,17 +141,17 @@ status truths_read(const char *path, truths *out, fault *f)
 
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f)
 {
-    return read_new(path, &(wanted){.group = "truths", .only = type, .rules = 1}, out, f);
+    return read_new(path, &(truths_wanted){.group = "truths", .only = type, .rules = 1}, out, f);
 }
 
 status truths_read_rules(const char *path, truths *out, fault *f)
 {
-    return read_new(path, &(wanted){.rules = 1}, out, f);
+    return read_new(path, &(truths_wanted){.rules = 1}, out, f);
 }
 
 status truths_read_extremes(const char *path, truths *out, fault *f)
 {
-    return read_file(path, &(wanted){.group = "extremes"}, out, f);
+    return read_file(path, &(truths_wanted){.group = "extremes"}, out, f);
 }
 
 void truths_free(truths *t)

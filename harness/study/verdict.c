@@ -54,12 +54,12 @@ double verdict_error(const scene_quantity *q, double value, double truth_value)
 }
 
 /* Values of all meshes, and how the finest one failed. */
-typedef struct history {
+typedef struct verdict_history {
     int n[SERIES_MAX_MESHES];
     double value[SERIES_MAX_MESHES]; /* NAN: none */
     status failure;                  /* of the finest mesh */
     const char *reason;
-} history;
+} verdict_history;
 
 static status failure_of(const solve_result *r, const quantity_result *q)
 {
@@ -68,9 +68,9 @@ static status failure_of(const solve_result *r, const quantity_result *q)
     return r->status != STATUS_OK ? r->status : STATUS_NOT_CONVERGED;
 }
 
-static history history_of(const series *s, int quantity)
+static verdict_history history_of(const series *s, int quantity)
 {
-    history h = {.failure = STATUS_NOT_CONVERGED, .reason = ""};
+    verdict_history h = {.failure = STATUS_NOT_CONVERGED, .reason = ""};
     for (int i = 0; i < s->meshes; i++) {
         const solve_result *r = &s->cell[i].solve;
         const quantity_result *q = quantity < r->quantities ? &r->quantity[quantity] : NULL;
@@ -99,7 +99,7 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     const series *one = &s->series[series_index];
     const scene *here = &s->point[one->point].scene;
     const scene_quantity *q = &here->quantity[quantity];
-    const history h = history_of(one, quantity);
+    const verdict_history h = history_of(one, quantity);
     const element_order order =
         element_order_in(one->formulation.type, verdict_analysis(here, q), one->formulation.option);
     const limit_sequence sequence = {.count = one->meshes - left_out,
@@ -167,13 +167,14 @@ static const char *theories_of(const scene *s, const element_type *type)
     }
 }
 
-const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen, int quantity)
+const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
+                           int quantity)
 {
     return truth_of_theory(t, p->type, p->parameter, p->scene.quantity[quantity].name, "same",
                            theories_of(&p->scene, chosen->type));
 }
 
-const truth *verdict_reference(const truths *t, const point *p, const formulation *chosen,
+const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity)
 {
     const truth *row = verdict_truth(t, p, chosen, quantity);
@@ -184,7 +185,7 @@ const truth *verdict_reference(const truths *t, const point *p, const formulatio
 static void find_truths(const sweep *s, const truths *t, verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const char *name = p->scene.quantity[v->quantity].name;
     v->truth = verdict_truth(t, p, &one->formulation, v->quantity);
     v->model_truth = truth_of(t, p->type, p->parameter, name, "other");
@@ -205,7 +206,7 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const char *theories = theories_of(&p->scene, one->formulation.type);
     const char *quantity = p->scene.quantity[v->quantity].name;
     for (int i = truth_index_first(t, p->type, quantity); i < t->rows; i = truth_index_next(t, i)) {
@@ -233,7 +234,7 @@ static void say_other_model(const series *one, verdict *v)
 static int is_hindered(const sweep *s, verdict *v)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     if (one->missing[0] != '\0') {
         v->kind = v->expected = VERDICT_SKIP;
         snprintf(v->reason, sizeof v->reason, "does not offer %s", one->missing);
@@ -244,7 +245,7 @@ static int is_hindered(const sweep *s, verdict *v)
         snprintf(v->reason, sizeof v->reason, "%s", p->reason);
         return 1;
     }
-    const history h = history_of(one, v->quantity);
+    const verdict_history h = history_of(one, v->quantity);
     if (h.failure == STATUS_OK)
         return 0;
     v->kind = h.failure == STATUS_REFUSED ? VERDICT_REFUSED : VERDICT_DIVERGED;

@@ -65,10 +65,10 @@ element_analysis verdict_analysis(const scene *, const scene_quantity *);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
 /* The truth that a formulation is judged by: of the same model and of its own theory of shear; or
  * NULL. */
-const truth *verdict_truth(const truths *t, const point *p, const formulation *chosen,
+const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
 /* The same, or where there is none what formulations agree on: it informs and never gates. */
-const truth *verdict_reference(const truths *t, const point *p, const formulation *chosen,
+const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
 /* What the series shows of the quantity, both given in v: kind, fit, errors, and as expected what
  * holds without the ledger. */

@@ -25,7 +25,7 @@ typedef struct asked {
  * what of it is asked for. */
 static void add_request(identity *out, const workload *w, const asked *a)
 {
-    const point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
+    const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
     const solve_options *o = &a->request->solve;
     const void *const type = p->type;
     const double amount = a->edit.amount;
@@ -66,7 +66,7 @@ static int is_known(void *context, const model *m)
 /* The same in other words, for its values alone; without a result where they mean no scene. */
 static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
 {
-    const point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
+    const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
     scene edited;
     fault f = {""};
     request->scene = &edited;

@@ -28,7 +28,7 @@ static void list_tasks(workload *w)
         w->open[i] = is_run(w->s, i) ? one->meshes : 0;
         w->state[i] = w->open[i] > 0 ? SERIES_CELLS : SERIES_WHOLE;
         for (int k = 0; k < NOISE_REPETITIONS; k++)
-            w->tasks[task_of_noise(w, i, k)] = (task){i, one->meshes - 1, k + 1};
+            w->tasks[task_of_noise(w, i, k)] = (workload_task){i, one->meshes - 1, k + 1};
     }
     for (int i = 0; i < w->all; i++)
         w->waits[i] = w->after[i] = -1;
@@ -162,7 +162,7 @@ static void begin_noise(workload *w, int i)
 }
 
 /* Of a series; *last: the task that was the last one of it. */
-static void all_done(workload *w, int i, const task *last)
+static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
     const sweep_follower *to = w->follower;
@@ -178,7 +178,7 @@ static void all_done(workload *w, int i, const task *last)
 
 static void mark(workload *w, int i)
 {
-    const task *t = &w->tasks[i];
+    const workload_task *t = &w->tasks[i];
     w->done[i] = 1;
     w->finished++;
     if (--w->open[t->series] == 0)
@@ -242,7 +242,7 @@ double workload_share(const workload *w)
 {
     double done = 0, all = 0;
     for (int i = 0; i < w->all; i++) {
-        const task *t = &w->tasks[i];
+        const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
             continue; /* not asked for, or not yet */
         const double cost = expense_of_cell(w->s, t->series, t->mesh);

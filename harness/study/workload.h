@@ -11,10 +11,10 @@
 
 enum { WORKERS_MOST = 64 };
 
-typedef struct task {
+typedef struct workload_task {
     int series, mesh;
     int again; /* 0: the cell; k > 0: the same in other words, k - 1 of noise.h */
-} task;
+} workload_task;
 
 /* Shared by all processes: what there is to take, and what each worker is at. */
 typedef struct board {
@@ -36,15 +36,15 @@ typedef struct workload {
     const sweep_follower *follower; /* NULL: none */
     int time_limit;                 /* [s] of one cell; 0: none */
     int together;                   /* of the request */
-    int count, all;     /* tasks: the cells in the order of expense.h, then two for each series */
-    task *tasks;        /* [all] */
-    char *done;         /* [all] 1: it has its result */
-    int due, finished;  /* of those that are to be done */
-    int *open;          /* [seriess] tasks of it that are to be done */
-    char *state;        /* [seriess] enum series_state */
-    int told;           /* series that the follower was told of */
-    cell_result *again; /* [all - count] */
-    claims *known;      /* of what is solved once; NULL: every cell is solved */
+    int count, all;       /* tasks: the cells in the order of expense.h, then two for each series */
+    workload_task *tasks; /* [all] */
+    char *done;           /* [all] 1: it has its result */
+    int due, finished;    /* of those that are to be done */
+    int *open;            /* [seriess] tasks of it that are to be done */
+    char *state;          /* [seriess] enum series_state */
+    int told;             /* series that the follower was told of */
+    cell_result *again;   /* [all - count] */
+    claims *known;        /* of what is solved once; NULL: every cell is solved */
     int *waits, *after; /* [all] first task that waits for the answers of this one; the next such */
     int out_of_memory;
     size_t size; /* [bytes] of the board */

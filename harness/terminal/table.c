@@ -47,13 +47,13 @@ void table_value(FILE *to, int width, int digits, char conversion, double value)
         fprintf(to, "%*.*f", width, digits, value);
 }
 
-void table_point(FILE *to, const point *p)
+void table_point(FILE *to, const sweep_point *p)
 {
     fprintf(to, "%s%s%s", p->type->name, p->text[0] != '\0' ? ": " : "", p->text);
 }
 
 /* What the source of a case leaves out, where the case was asked for whole. */
-static unsigned omitted_by_source(const point *p)
+static unsigned omitted_by_source(const sweep_point *p)
 {
     double value[CASE_MAX_PARAMETERS];
     scene s = {0};
@@ -66,7 +66,7 @@ static unsigned omitted_by_source(const point *p)
     return omitted;
 }
 
-static void assumed(FILE *to, const point *p)
+static void assumed(FILE *to, const sweep_point *p)
 {
     assumption a;
     for (int i = 0; assumptions_at(p, i, &a); i++)
@@ -74,7 +74,7 @@ static void assumed(FILE *to, const point *p)
 }
 
 /* Members that have more elements than the mesh says. */
-static void divided(FILE *to, const point *p)
+static void divided(FILE *to, const sweep_point *p)
 {
     char words[FAULT_TEXT];
     division_words(&p->scene, 0, words, sizeof words);
@@ -82,7 +82,7 @@ static void divided(FILE *to, const point *p)
         paragraph_write(to, fprintf(to, "divided: "), INDENT, words);
 }
 
-void table_omitted(FILE *to, const point *p)
+void table_omitted(FILE *to, const sweep_point *p)
 {
     assumed(to, p);
     divided(to, p);
@@ -111,7 +111,7 @@ void table_theory(FILE *to, const scene *s, const element_type *type)
 void table_series(FILE *to, const sweep *s, int index)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     char words[OMISSION_TEXT];
     fprintf(to, "%s%s%s%s, %s\n", p->type->name, p->text[0] != '\0' ? " (" : "", p->text,
             p->text[0] != '\0' ? ")" : "", one->formulation.key);

@@ -20,19 +20,19 @@ enum {
 };
 
 /* A series that ran, and what it is measured by. */
-typedef struct column {
+typedef struct beside_column {
     const series *one;
     const truth *row; /* NULL: none */
     verdict shown;
     const char *name; /* what is left of it to be written in the header */
     char title[FORMULATION_KEY + 16];
-} column;
+} beside_column;
 
 /* A quantity of some formulations. */
 typedef struct block {
     const scene_quantity *q;
     int quantity, count;
-    column list[COLUMNS];
+    beside_column list[COLUMNS];
 } block;
 
 /* How much of a name goes on one line: to the last sign between its words that fits. */
@@ -56,7 +56,7 @@ static int write_names(FILE *to, block *b, const char *head)
         last = b->list[i].name[0] != '\0' ? i : last;
     fprintf(to, "%*s", HEAD, head);
     for (int i = 0; i <= last; i++) {
-        column *c = &b->list[i];
+        beside_column *c = &b->list[i];
         const int length = piece_of(c->name);
         fprintf(to, " %*.*s", COLUMN - 1, length, c->name);
         c->name += length;
@@ -75,7 +75,7 @@ static const solve_result *result_of(const series *one, int elements)
 }
 
 /* The error, or the value where nothing is known to measure it by; why there is none. */
-static void write_cell(FILE *to, const block *b, const column *c, int elements)
+static void write_cell(FILE *to, const block *b, const beside_column *c, int elements)
 {
     const solve_result *r = result_of(c->one, elements);
     const double x =
@@ -91,7 +91,7 @@ static void write_cell(FILE *to, const block *b, const column *c, int elements)
     fprintf(to, "%*s", COLUMN, text);
 }
 
-static void write_limit(FILE *to, const block *b, const column *c)
+static void write_limit(FILE *to, const block *b, const beside_column *c)
 {
     char text[ROUNDING_TEXT];
     if (c->row != NULL)
@@ -102,7 +102,7 @@ static void write_limit(FILE *to, const block *b, const column *c)
 }
 
 /* In percent of what the error is relative to, as the error is. */
-static void write_uncertainty(FILE *to, const block *b, const column *c)
+static void write_uncertainty(FILE *to, const block *b, const beside_column *c)
 {
     const double own = c->shown.fit.limit_uncertainty;
     const double shown =
@@ -113,14 +113,14 @@ static void write_uncertainty(FILE *to, const block *b, const column *c)
     fprintf(to, "%*s", COLUMN, unit);
 }
 
-static void write_order(FILE *to, const block *b, const column *c)
+static void write_order(FILE *to, const block *b, const beside_column *c)
 {
     (void)b;
     table_value(to, COLUMN, 2, 'f', c->shown.fit.order);
 }
 
 static void write_row(FILE *to, const block *b, const char *head,
-                      void (*cell)(FILE *, const block *, const column *))
+                      void (*cell)(FILE *, const block *, const beside_column *))
 {
     fprintf(to, "%*s", HEAD, head);
     for (int i = 0; i < b->count; i++)
@@ -152,7 +152,7 @@ static void write_sentences(FILE *to, const block *b)
 {
     for (int i = 0; i < b->count; i++) {
         char text[2 * FAULT_TEXT];
-        const column *c = &b->list[i];
+        const beside_column *c = &b->list[i];
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
             continue; /* of the latter once, at the end */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
@@ -188,7 +188,7 @@ static void add_truth(char *line, size_t size, const truth *row)
 /* Name, unit and what the formulations are measured by, each once. */
 static void write_heading(FILE *to, const sweep *s, const truths *t, int quantity)
 {
-    const point *p = &s->point[0];
+    const sweep_point *p = &s->point[0];
     const scene_quantity *q = &p->scene.quantity[quantity];
     char line[LINE] = "";
     const truth *last = NULL;
@@ -217,10 +217,11 @@ static void write_quantity(FILE *to, const sweep *s, const truths *t, int quanti
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         if (one->missing[0] == '\0') {
-            column *c = &b.list[b.count++];
-            *c = (column){.one = one,
-                          .row = verdict_reference(t, &s->point[0], &one->formulation, quantity),
-                          .shown = {.series = i, .quantity = quantity}};
+            beside_column *c = &b.list[b.count++];
+            *c = (beside_column){
+                .one = one,
+                .row = verdict_reference(t, &s->point[0], &one->formulation, quantity),
+                .shown = {.series = i, .quantity = quantity}};
             snprintf(c->title, sizeof c->title, "%s%s", one->formulation.key,
                      one->without.other ? " (other model)" : "");
             verdict_reach(s, t, &c->shown);

@@ -104,17 +104,17 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
 }
 
 /* What is cheapest for a quantity at every level. */
-typedef struct answer {
+typedef struct cheapest_answer {
     int quantity, told; /* 1: its lines are written */
     char *text[REACH_LEVELS];
-} answer;
+} cheapest_answer;
 
 static int same_text(const char *a, const char *b)
 {
     return a != NULL && b != NULL && strcmp(a, b) == 0;
 }
 
-static int same_answer(const answer *a, const answer *b)
+static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
 {
     int same = 1;
     for (int i = 0; i < REACH_LEVELS; i++)
@@ -124,7 +124,7 @@ static int same_answer(const answer *a, const answer *b)
 
 /* "u_x, F_y within 10, 1 %: collocation, n = 1": a line for the quantities whose answers are those
  * of the first, and in it neighbouring levels that say the same. */
-static void write_together(FILE *out, const scene *here, answer a[], int count)
+static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {
         paragraph words;
@@ -149,7 +149,7 @@ static void write_together(FILE *out, const scene *here, answer a[], int count)
 int table_cheapest(FILE *to, const sweep *s, const judgement *j, int at, int every, reached list[])
 {
     const scene *here = &s->point[at].scene;
-    answer *a = calloc((size_t)here->quantities + 1, sizeof *a);
+    cheapest_answer *a = calloc((size_t)here->quantities + 1, sizeof *a);
     int count = 0;
     for (int q = 0; a != NULL && q < here->quantities && (every || count == 0); q++) {
         if (!has_truth(s, j, at, q))

@@ -63,7 +63,7 @@ static void limit_line(FILE *to, const verdict *v, const scene_quantity *q, cons
 static void quantity_block(FILE *to, const sweep *s, const truths *t, int index, int quantity)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const scene_quantity *q = &p->scene.quantity[quantity];
     const truth *row = verdict_reference(t, p, &one->formulation, quantity);
     verdict v = {.series = index, .quantity = quantity};

@@ -11,10 +11,10 @@
 enum { INDENT = 2 };
 
 /* Records [first, end) of one motion, the begin first. */
-typedef struct extent {
+typedef struct motion_extent {
     const motion_record *record;
     int first, end;
-} extent;
+} motion_extent;
 
 static double length_at(const motion_record *r, int of)
 {
@@ -36,7 +36,7 @@ static void method(FILE *to, const scene_motion *how)
         fprintf(to, " to %g of the largest motion", how->tolerance);
 }
 
-static void steps_line(FILE *to, const extent *e, const scene_motion *how)
+static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how)
 {
     const double end = how->path.value[how->path.stations - 1];
     const outcome_step *begin = &e->record[e->first].at, *last = &e->record[e->end - 1].at;
@@ -71,7 +71,7 @@ static void steps_line(FILE *to, const extent *e, const scene_motion *how)
     paragraph_end(&words, at, INDENT);
 }
 
-static void energy_line(FILE *to, const extent *e)
+static void energy_line(FILE *to, const motion_extent *e)
 {
     const outcome_step *last = &e->record[e->end - 1].at;
     double drift = 0, when = 0, size = 0;
@@ -97,7 +97,7 @@ static void energy_line(FILE *to, const extent *e)
 }
 
 /* Energy that the integrator has lost, the largest part of what there was. */
-static void damping_line(FILE *to, const extent *e)
+static void damping_line(FILE *to, const motion_extent *e)
 {
     account so_far = {.largest = 0};
     double part = 0, lost = 0, of = 0, when = 0;
@@ -120,7 +120,7 @@ static void damping_line(FILE *to, const extent *e)
 }
 
 /* How far a vector moves from what it is at the begin. */
-static double change_of(const extent *e, int of)
+static double change_of(const motion_extent *e, int of)
 {
     const double *begin = e->record[e->first].at.balance + of;
     double largest = 0;
@@ -134,7 +134,7 @@ static double change_of(const extent *e, int of)
     return largest;
 }
 
-static void momentum_line(FILE *to, const extent *e)
+static void momentum_line(FILE *to, const motion_extent *e)
 {
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
@@ -167,7 +167,7 @@ static void jump_lines(FILE *to, const scene *s, double path)
 
 void table_motion(FILE *to, const scene *s, const solve_result *r)
 {
-    extent e = {.record = r->motion};
+    motion_extent e = {.record = r->motion};
     for (e.first = 0; e.first < r->motions; e.first = e.end) {
         e.end = e.first + 1;
         while (e.end < r->motions && r->motion[e.end].analysis == r->motion[e.first].analysis)

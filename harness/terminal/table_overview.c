@@ -14,11 +14,11 @@ typedef struct head {
 } head;
 
 /* The columns from..to-1, side by side. */
-typedef struct block {
+typedef struct overview_block {
     int from, to;
     int name;   /* width of the cases' names */
     head *head; /* [columns] */
-} block;
+} overview_block;
 
 /* Length of the first piece of a name: words as far as they fit into `limit`; a longer word is cut,
  * to be joined by a hyphen. */
@@ -60,7 +60,7 @@ static head head_of(const char *name, int limit, const char *mark)
 }
 
 /* Width of a block whose names have words of at most `limit`; its heads are filled. */
-static int width_with(const overview *o, screen look, block *b, int limit)
+static int width_with(const overview *o, screen look, overview_block *b, int limit)
 {
     char text[OVERVIEW_TEXT];
     int sum = b->name;
@@ -77,7 +77,7 @@ static int width_with(const overview *o, screen look, block *b, int limit)
 }
 
 /* Names as whole as the screen allows; as many columns as fit, at least one. */
-static void lay_out(const overview *o, screen look, block *b)
+static void lay_out(const overview *o, screen look, overview_block *b)
 {
     for (b->to = o->columns; b->to > b->from + 1; b->to--)
         for (int limit = WIDEST_WORD; limit >= NARROWEST_WORD; limit--)
@@ -86,7 +86,7 @@ static void lay_out(const overview *o, screen look, block *b)
     width_with(o, look, b, NARROWEST_WORD);
 }
 
-static void print_head(FILE *to, const block *b)
+static void print_head(FILE *to, const overview_block *b)
 {
     int lines = 0;
     for (int c = b->from; c < b->to; c++)
@@ -114,7 +114,7 @@ static screen_ink ink_of(const overview_cell *c)
     return c->mark == OVERVIEW_NOTHING ? SCREEN_FAINT : SCREEN_PLAIN;
 }
 
-static void print_row(FILE *to, screen look, const overview *o, const block *b, int row)
+static void print_row(FILE *to, screen look, const overview *o, const overview_block *b, int row)
 {
     int blanks = b->name - paragraph_columns(o->row[row]->name);
     fprintf(to, "%s", o->row[row]->name);
@@ -128,7 +128,7 @@ static void print_row(FILE *to, screen look, const overview *o, const block *b, 
     fputc('\n', to);
 }
 
-static void print_block(FILE *to, screen look, const overview *o, const block *b)
+static void print_block(FILE *to, screen look, const overview *o, const overview_block *b)
 {
     print_head(to, b);
     for (int r = 0; r < o->rows; r++)
@@ -210,7 +210,8 @@ static void print_legend(FILE *to, screen look, const overview *o)
 
 void table_overview(FILE *to, screen look, const overview *o)
 {
-    block b = {.name = width_of_names(o), .head = calloc((size_t)o->columns + 1, sizeof(head))};
+    overview_block b = {.name = width_of_names(o),
+                        .head = calloc((size_t)o->columns + 1, sizeof(head))};
     if (b.head == NULL || o->rows == 0) {
         free(b.head);
         return;

@@ -13,7 +13,7 @@
 static void failed_series(FILE *to, const sweep *s, int index, int *lines)
 {
     const series *one = &s->series[index];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const solve_result *last = NULL;
     char meshes[16 * SERIES_MAX_MESHES] = "";
     for (int k = 0; k < one->meshes && one->missing[0] == '\0'; k++) {
@@ -81,7 +81,7 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
             }
         if (count == 0 || before)
             continue;
-        const point *p = &s->point[s->series[v->series].point];
+        const sweep_point *p = &s->point[s->series[v->series].point];
         fprintf(to, "\n%s", p->type->name);
         paragraph_say(
             to, (int)strlen(p->type->name), 2,

@@ -19,7 +19,7 @@ static const double least_rounding = 1e-11, /* of any value that is computed */
     noise = 1e-4;                           /* of round-off in the scale of values that are zero */
 
 /* Analytic models beside the elements; they judge nothing. */
-static void predictions(FILE *to, const point *p, const truths *t)
+static void predictions(FILE *to, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < p->scene.quantities; i++) {
         const scene_quantity *q = &p->scene.quantity[i];
@@ -59,7 +59,7 @@ static double uncertainty_of(const scene *s, int index, const solve_result *r)
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
     const series *one = &s->series[0];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const scene_quantity *q = &p->scene.quantity[index];
     const quantity_result *v = &one->cell[0].solve.quantity[index];
     const truth *row = t != NULL ? verdict_truth(t, p, &one->formulation, index) : NULL;
@@ -96,7 +96,7 @@ static void count_steps(const counters *c, char text[FAULT_TEXT])
 }
 
 /* Why curves end early. */
-static void unfinished_curves(FILE *to, const point *p, const solve_result *r)
+static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++) {
         const quantity_result *v = &r->quantity[i];
@@ -111,7 +111,7 @@ static void unfinished_curves(FILE *to, const point *p, const solve_result *r)
 void table_solution(FILE *to, const sweep *s, const truths *t)
 {
     const series *one = &s->series[0];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const cell_result *c = &one->cell[0];
     char steps[FAULT_TEXT], ends[FAULT_TEXT];
     table_series(to, s, 0);

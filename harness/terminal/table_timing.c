@@ -130,7 +130,7 @@ static void parts(FILE *to, const sweep *s, int at)
     }
     fprintf(to, "  %-*s%5s", NAME, "[us] in an iteration", "n");
     for (int k = 0; k < PHASES; k++)
-        fprintf(to, " %13s", phase_name((phase)k));
+        fprintf(to, " %13s", phase_name((newton_phase)k));
     fputc('\n', to);
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < meshes_run(&s->series[i], at); k++)
@@ -141,7 +141,7 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
 {
     reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
     for (int p = 0; p < s->points && list != NULL; p++) {
-        const point *here = &s->point[p];
+        const sweep_point *here = &s->point[p];
         if (!every_mesh && strcmp(here->name, "default") != 0)
             continue;
         fprintf(to, "%s%s%s\n", here->type->name, here->text[0] != '\0' ? " " : "", here->text);

@@ -37,7 +37,7 @@ static void print_element(FILE *to, const element_type *type)
 }
 
 /* The command that shows a series again; quantity: one of them, or NULL. */
-static void print_command(FILE *to, const point *p, const series *one, const char *quantity)
+static void print_command(FILE *to, const sweep_point *p, const series *one, const char *quantity)
 {
     paragraph words;
     const char *path = scene_file_path(p->type);
@@ -75,7 +75,8 @@ static void print_heading(FILE *to, int number, const char *format, ...)
 }
 
 /* "case (parameters), formulation" and what else is told. */
-static void print_subject(FILE *to, int number, const point *p, const series *one, const char *more)
+static void print_subject(FILE *to, int number, const sweep_point *p, const series *one,
+                          const char *more)
 {
     const char *open = p->text[0] != '\0' ? " (" : "", *close = p->text[0] != '\0' ? ")" : "";
     print_heading(to, number, "%s%s%s%s, %s, %s", p->type->name, open, p->text, close,
@@ -103,7 +104,7 @@ static void print_numbers(FILE *to, const series *one, const verdict *v)
 static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *v, int number)
 {
     const series *one = &s->series[v->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     const scene_quantity *q = &p->scene.quantity[v->quantity];
     char sentence[2 * FAULT_TEXT], what[SCENE_NAME + 48];
     snprintf(what, sizeof what, "%s [%s]", q->name, q->unit);
@@ -125,7 +126,7 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
 static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int number)
 {
     const series *one = &s->series[a->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     print_subject(to, number, p, one, p->scene.quantity[a->quantity].name);
     paragraph_say(to, 0, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
                   one->mesh[a->mesh], a->value, a->truth->value, a->truth->source);
@@ -135,7 +136,7 @@ static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int
 static void print_flaw(FILE *to, const sweep *s, const flaw *c, int number)
 {
     const series *one = &s->series[c->series];
-    const point *p = &s->point[one->point];
+    const sweep_point *p = &s->point[one->point];
     char what[32];
     snprintf(what, sizeof what, "n = %d", one->mesh[c->mesh]);
     print_subject(to, number, p, one, what);

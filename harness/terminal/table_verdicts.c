@@ -11,30 +11,30 @@
 enum { NAME = 23, LIMIT = 16, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
 
 /* One point's part of the table. */
-typedef struct block {
+typedef struct verdicts_block {
     FILE *to;
     const sweep *s;
-    const point *at;
+    const sweep_point *at;
     int count;
     const verdict **verdict; /* [count] of the point, set to NULL once they are printed */
     int name;                /* width of the names; a longer one has a line of its own */
     int rules;
     const rule *rule[MOST_RULES]; /* that were named, numbered from 1 */
-} block;
+} verdicts_block;
 
-static const series *series_of(const block *b, const verdict *v)
+static const series *series_of(const verdicts_block *b, const verdict *v)
 {
     return &b->s->series[v->series];
 }
 
-static void print_columns(const block *b)
+static void print_columns(const verdicts_block *b)
 {
     fprintf(b->to, "    %-*s %*s %*s %*s %12s %s\n", b->name, "formulation", LIMIT, "limit", DOUBT,
             "+-", ORDER, "order", "error", "verdict");
 }
 
 /* What another model says of a quantity that has a truth. */
-static void print_other_model(const block *b, const truth *other)
+static void print_other_model(const verdicts_block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
     rounding_known(other->value, other->uncertainty, value);
@@ -42,7 +42,7 @@ static void print_other_model(const block *b, const truth *other)
 }
 
 /* A quantity and the truth that the verdict and those below it are judged by. */
-static void print_quantity(const block *b, const scene_quantity *q, const verdict *v)
+static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;
     fprintf(b->to, "  %s [%s]", q->name, q->unit);
@@ -61,7 +61,7 @@ static void print_quantity(const block *b, const scene_quantity *q, const verdic
 }
 
 /* Its number; 0: there is none, or no room for it. */
-static int number_of_rule(block *b, const rule *r)
+static int number_of_rule(verdicts_block *b, const rule *r)
 {
     int i = 0;
     while (i < b->rules && b->rule[i] != r)
@@ -88,7 +88,7 @@ static void add_difference(const verdict *v, char *text, size_t size)
 }
 
 /* What stands in the last column. */
-static void verdict_words(block *b, const verdict *v, char *text, size_t size)
+static void verdict_words(verdicts_block *b, const verdict *v, char *text, size_t size)
 {
     const int number = v->matches ? number_of_rule(b, v->rule) : 0;
     int used = snprintf(text, size, "%s", verdict_name(v->kind));
@@ -102,7 +102,7 @@ static void verdict_words(block *b, const verdict *v, char *text, size_t size)
         add_difference(v, text + used, size - (size_t)used);
 }
 
-static void print_verdict(block *b, const verdict *v)
+static void print_verdict(verdicts_block *b, const verdict *v)
 {
     const char *name = series_of(b, v)->formulation.key;
     const int column = 4 + b->name + LIMIT + DOUBT + ORDER + 3 + 12 + 1;
@@ -124,7 +124,7 @@ static void print_verdict(block *b, const verdict *v)
 }
 
 /* The verdicts of a quantity, those judged by the same truth together. */
-static void print_judged(block *b, int quantity)
+static void print_judged(verdicts_block *b, int quantity)
 {
     const scene_quantity *q = &b->at->scene.quantity[quantity];
     for (int i = 0; i < b->count; i++) {
@@ -144,7 +144,7 @@ static void print_judged(block *b, int quantity)
 }
 
 /* What was not judged, for one reason together. */
-static void print_skipped(block *b)
+static void print_skipped(verdicts_block *b)
 {
     for (int i = 0; i < b->count; i++) {
         const verdict *first = b->verdict[i];
@@ -169,7 +169,7 @@ static void print_skipped(block *b)
 }
 
 /* What series leave out, those that leave out the same together. */
-static void print_omissions(const block *b)
+static void print_omissions(const verdicts_block *b)
 {
     const sweep *s = b->s;
     for (int i = 0; i < s->seriess; i++) {
@@ -192,13 +192,13 @@ static void print_omissions(const block *b)
     }
 }
 
-static void print_rules(const block *b)
+static void print_rules(const verdicts_block *b)
 {
     for (int i = 0; i < b->rules; i++)
         paragraph_say(b->to, 0, 2, "[%d] %s: %s", i + 1, b->rule[i]->name, b->rule[i]->cause);
 }
 
-static void print_point(block *b, const judgement *j, int index)
+static void print_point(verdicts_block *b, const judgement *j, int index)
 {
     b->count = b->rules = b->name = 0;
     b->at = &b->s->point[index];
@@ -227,7 +227,8 @@ static void print_point(block *b, const judgement *j, int index)
 
 void table_verdicts(FILE *to, const sweep *s, const judgement *j)
 {
-    block b = {.to = to, .s = s, .verdict = calloc((size_t)j->verdicts + 1, sizeof(verdict *))};
+    verdicts_block b = {
+        .to = to, .s = s, .verdict = calloc((size_t)j->verdicts + 1, sizeof(verdict *))};
     for (int i = 0; i < s->points && b.verdict != NULL; i++)
         print_point(&b, j, i);
     free(b.verdict);

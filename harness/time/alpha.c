@@ -14,9 +14,9 @@
 #include "harness/time/stage.h"
 
 typedef struct alpha {
-    scheme base;
-    stage stage;
-    work *work;
+    motion_scheme base;
+    motion_stage stage;
+    outer_work *work;
     massive massive;
     size_t strains;                  /* of elements that are damped: elements x strains, or 0 */
     double *mean;                    /* [strains] their rates over a step */
@@ -107,7 +107,7 @@ static status check_turns(const alpha *s, double time, fault *f)
     return STATUS_OK;
 }
 
-static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
     alpha *s = (alpha *)base;
@@ -136,7 +136,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     return error_of(s, from, to, h, error, f);
 }
 
-static void release(scheme *base)
+static void release(motion_scheme *base)
 {
     alpha *s = (alpha *)base;
     stage_free(&s->stage);
@@ -146,7 +146,7 @@ static void release(scheme *base)
     free(s);
 }
 
-status alpha_alloc(const scheme_request *request, scheme **out, fault *f)
+status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
 {
     const model_size size = model_sizes(request->c->model);
     const size_t n = (size_t)(size.free + size.driven) + 1;

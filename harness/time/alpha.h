@@ -9,6 +9,6 @@
 
 /* The error of a step is that of its positions, h^2 |beta + (alpha_m - alpha_f)/2 - 1/6| (a1 - a).
  */
-status alpha_alloc(const scheme_request *, scheme **, fault *);
+status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
 #endif

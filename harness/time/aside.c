@@ -2,8 +2,8 @@
 
 #include "harness/newton/history.h"
 
-status aside_step(analysis_context *c, scheme *s, const instant *from, double time, instant *at,
-                  fault *f)
+status aside_step(analysis_context *c, motion_scheme *s, const instant *from, double time,
+                  instant *at, fault *f)
 {
     step_record record = {.path = time, .increment = time - from->time};
     double error = 0;

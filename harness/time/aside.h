@@ -6,7 +6,7 @@
 #include "harness/time/scheme.h"
 
 /* From where the motion's step began; its work is counted, its iterations are not kept. */
-status aside_step(analysis_context *, scheme *, const instant *from, double time, instant *at,
-                  fault *);
+status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
+                  instant *at, fault *);
 
 #endif

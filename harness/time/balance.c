@@ -29,7 +29,7 @@ static status stored(const model *m, const model_state *s, double *out, fault *f
     return STATUS_OK;
 }
 
-status balance_of(const model *m, const carried *masses, const instant *at,
+status balance_of(const model *m, const carried_masses *masses, const instant *at,
                   double out[SCENE_BALANCES], fault *f)
 {
     inertia_balance moving;

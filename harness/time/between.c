@@ -17,11 +17,11 @@ enum { PARTS = 5, BALL = 3 };
 
 /* Of one coordinate: its increment over the step, and rates and their derivatives at both ends, by
  * the length of the step. */
-typedef struct ends {
+typedef struct between_ends {
     double whole, rate[2], second[2];
-} ends;
+} between_ends;
 
-status between_alloc(const equations *eq, between *b, fault *f)
+status between_alloc(const equations *eq, step_between *b, fault *f)
 {
     const model *m = eq->m;
     const model_size size = model_sizes(m);
@@ -36,13 +36,13 @@ status between_alloc(const equations *eq, between *b, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
 }
 
-void between_free(between *b)
+void between_free(step_between *b)
 {
     free(b->part);
     free(b->room);
 }
 
-static void put(const between *b, int coordinate, const ends *e)
+static void put(const step_between *b, int coordinate, const between_ends *e)
 {
     double *part = b->part + PARTS * (size_t)coordinate;
     const double D = e->whole, r = e->rate[0], t = e->rate[1], p = e->second[0], q = e->second[1];
@@ -54,13 +54,14 @@ static void put(const between *b, int coordinate, const ends *e)
 }
 
 /* An additive coordinate that is `whole` further at the end. */
-static void put_plain(const between *b, int c, double whole, double h)
+static void put_plain(const step_between *b, int c, double whole, double h)
 {
     const instant *from = b->from, *to = b->to;
     if (c == NONE)
         return;
     put(b, c,
-        &(ends){whole, {h * from->v[c], h * to->v[c]}, {h * h * from->a[c], h * h * to->a[c]}});
+        &(between_ends){
+            whole, {h * from->v[c], h * to->v[c]}, {h * h * from->a[c], h * h * to->a[c]}});
 }
 
 /* Rates t' and t'' of the vector t of a turn, of body rates W, W'. */
@@ -78,7 +79,7 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
 }
 
 /* Vector of the turn over the step, in the vertex's axes at its begin. */
-static void turn_of(const between *b, int vertex, double t[3])
+static void turn_of(const step_between *b, int vertex, double t[3])
 {
     double back[4], q[4];
     rotation_conjugate(&b->from->state->q[4 * vertex], back);
@@ -86,7 +87,7 @@ static void turn_of(const between *b, int vertex, double t[3])
     rotation_log(q, t);
 }
 
-static void put_turn(const between *b, int vertex, double h)
+static void put_turn(const step_between *b, int vertex, double h)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     const instant *end[2] = {b->from, b->to};
@@ -102,20 +103,21 @@ static void put_turn(const between *b, int vertex, double h)
     }
     for (int k = 0; k < 3; k++)
         if (at[k] != NONE)
-            put(b, at[k], &(ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
+            put(b, at[k],
+                &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
 }
 
 /* Ends that are free to turn have no rates of it: evenly. */
-static void put_ball(const between *b, int vertex)
+static void put_ball(const step_between *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     double t[3];
     turn_of(b, vertex, t);
     for (int k = 0; k < 3; k++)
-        put(b, at[k], &(ends){t[k], {t[k], t[k]}, {0, 0}});
+        put(b, at[k], &(between_ends){t[k], {t[k], t[k]}, {0, 0}});
 }
 
-static void put_release(const between *b, int vertex, double h)
+static void put_release(const step_between *b, int vertex, double h)
 {
     const model *m = b->m;
     const mesh_release *r = release_of(m, vertex);
@@ -131,7 +133,7 @@ static void put_release(const between *b, int vertex, double h)
         put_ball(b, vertex);
 }
 
-void between_take(between *b, between_degree degree, const instant *from, const instant *to)
+void between_take(step_between *b, between_degree degree, const instant *from, const instant *to)
 {
     const model *m = b->m;
     const double h = to->time - from->time;
@@ -159,7 +161,7 @@ void between_take(between *b, between_degree degree, const instant *from, const 
 }
 
 /* Body rates of the turns, from those of their vectors. */
-static void turn_rates(const between *b, int vertex, const double inc[], const double rate[],
+static void turn_rates(const step_between *b, int vertex, const double inc[], const double rate[],
                        const double second[], instant *at)
 {
     const int *index = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
@@ -187,7 +189,7 @@ static void blend(size_t count, double s, const double from[], const double to[]
         out[i] = (1 - s) * from[i] + s * to[i];
 }
 
-static void blend_elements(const between *b, double s, model_state *at)
+static void blend_elements(const step_between *b, double s, model_state *at)
 {
     const model *m = b->m;
     const model_state *from = b->from->state, *to = b->to->state;
@@ -198,7 +200,7 @@ static void blend_elements(const between *b, double s, model_state *at)
     blend(inner, s, from->inner, to->inner, at->inner);
 }
 
-void between_places(const between *b, double time, instant *at)
+void between_places(const step_between *b, double time, instant *at)
 {
     const model *m = b->m;
     const int all = model_all_coordinates(m);
@@ -224,7 +226,7 @@ void between_places(const between *b, double time, instant *at)
     at->ends_known = 0;
 }
 
-void between_at(const between *b, double time, instant *at)
+void between_at(const step_between *b, double time, instant *at)
 {
     between_places(b, time, at);
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);

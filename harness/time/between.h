@@ -13,23 +13,23 @@ typedef enum between_degree {
     BETWEEN_QUINTIC /* of accelerations too: order 6 */
 } between_degree;
 
-typedef struct between {
+typedef struct step_between {
     const equations *eq;
     const model *m;
     const instant *from, *to;
     between_degree degree;
     double *part; /* [free + driven] x 5: of s, s^2 .. s^5; s = 0 .. 1 along the step */
     double *room; /* [3 x (free + driven)] */
-} between;
+} step_between;
 
-status between_alloc(const equations *, between *, fault *);
-void between_free(between *);
+status between_alloc(const equations *, step_between *, fault *);
+void between_free(step_between *);
 /* Of the step; both instants stay as they are as long as it is read. */
-void between_take(between *, between_degree, const instant *from, const instant *to);
+void between_take(step_between *, between_degree, const instant *from, const instant *to);
 /* Places and rates at a time of the step, or next to it [s]. */
-void between_places(const between *, double time, instant *at);
+void between_places(const step_between *, double time, instant *at);
 /* With all of a state. Strains, stresses and inner unknowns
  * run linearly from end to end: fit for pictures, not for forces. */
-void between_at(const between *, double time, instant *at);
+void between_at(const step_between *, double time, instant *at);
 
 #endif

@@ -59,13 +59,13 @@ static void take(const body_mass *g, int row, int column, double mass)
         g->M[g->count * i + j] += mass * g->unit[i] * g->unit[j];
 }
 
-static double add_mass(const model *m, const carried *all, int index, const model_state *s,
+static double add_mass(const model *m, const carried_masses *all, int index, const model_state *s,
                        const body_mass *g)
 {
     const int vertex = all->mass[index].frame;
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     inertia_parts p;
-    released of;
+    released_masses of;
     double motion[6 * KINEMATICS_MOST], K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
     inertia_frame(m, all, index, s, g->zero, NULL, &p);
     released_columns(m, s, vertex, &of);
@@ -107,7 +107,7 @@ static double add_element(const model *m, int element, int body, const model_sta
     return largest;
 }
 
-double body_mass_warps(const model *m, const carried *all, int warp, const model_state *s)
+double body_mass_warps(const model *m, const carried_masses *all, int warp, const model_state *s)
 {
     double mass = all->warping[model_warp(m, warp)];
     for (int i = 0; i < model_elements(m) && all->spread; i++)
@@ -122,7 +122,7 @@ double body_mass_warps(const model *m, const carried *all, int warp, const model
     return mass;
 }
 
-double body_mass_of(const model *m, const carried *all, int body, const model_state *s,
+double body_mass_of(const model *m, const carried_masses *all, int body, const model_state *s,
                     body_mass *g)
 {
     double largest = 0;

@@ -18,9 +18,10 @@ typedef struct body_mass {
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
 /* Of one body in a state; returns the largest mass in it [kg]. */
-double body_mass_of(const model *, const carried *, int body, const model_state *, body_mass *);
+double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
+                    body_mass *);
 /* Of a warping amplitude [kg m^4]. */
-double body_mass_warps(const model *, const carried *, int warp, const model_state *);
+double body_mass_warps(const model *, const carried_masses *, int warp, const model_state *);
 /* Rank of M, in which `none` is zero. */
 int body_mass_rank(body_mass *, double none);
 

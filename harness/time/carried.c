@@ -110,7 +110,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
 }
 
 /* Frames without mass are left out. */
-static void keep_heavy(const model *m, carried_mass of[], carried *out)
+static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {
         double size = of[i].mass;
@@ -124,7 +124,7 @@ static void keep_heavy(const model *m, carried_mass of[], carried *out)
     }
 }
 
-static status alloc(const model *m, int spread, carried *out, fault *f)
+static status alloc(const model *m, int spread, carried_masses *out, fault *f)
 {
     memset(out, 0, sizeof *out);
     out->spread = spread;
@@ -142,17 +142,17 @@ static status alloc(const model *m, int spread, carried *out, fault *f)
     return STATUS_OK;
 }
 
-status carried_alloc(const model *m, carried *out, fault *f)
+status carried_alloc(const model *m, carried_masses *out, fault *f)
 {
     return alloc(m, 0, out, f);
 }
 
-status carried_alloc_spread(const model *m, carried *out, fault *f)
+status carried_alloc_spread(const model *m, carried_masses *out, fault *f)
 {
     return alloc(m, 1, out, f);
 }
 
-void carried_free(carried *c)
+void carried_free(carried_masses *c)
 {
     free(c->mass);
     free(c->warping);

@@ -49,8 +49,8 @@ status checks_of(const analysis_context *c, int analysis, fault *f)
     return drive_check(c->model, f);
 }
 
-status checks_massless(const analysis_context *c, const carried *masses, const scene_motion *how,
-                       const model_state *begin, fault *f)
+status checks_massless(const analysis_context *c, const carried_masses *masses,
+                       const scene_motion *how, const model_state *begin, fault *f)
 {
     int massless;
     TRY(massless_count(c->model, masses, begin, &massless, f));

@@ -11,7 +11,7 @@ status checks_of(const analysis_context *, int analysis, fault *);
 /* What has no inertia is found from balance body by body, and not beside masses that elements
  * spread. Without numerical damping accelerations of what has no inertia grow until they overflow.
  */
-status checks_massless(const analysis_context *, const carried *, const scene_motion *,
+status checks_massless(const analysis_context *, const carried_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
 #endif

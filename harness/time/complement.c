@@ -75,13 +75,13 @@ void complement_keep(complement *c, const model_state *s)
 }
 
 /* An element on its way. */
-typedef struct way {
+typedef struct complement_way {
     const equations *eq;
     const model *m;
     int element;
     double near;                                 /* stresses agree [N] */
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
-} way;
+} complement_way;
 
 /* Near enough: what is nearer converges as fast from the strains as from the stresses. */
 static double near_of(int n, const double sigma[])
@@ -104,7 +104,7 @@ static double gap_of(int n, const double goal[], const double sigma[], double ga
     return isfinite(sum) ? largest : NAN;
 }
 
-static int evaluate(way *w)
+static int evaluate(complement_way *w)
 {
     w->eq->run->counters.stress_evaluations++;
     return model_type(w->m)->stress(model_kind_of(w->m, w->element)->data, w->e, NULL,
@@ -112,7 +112,7 @@ static int evaluate(way *w)
 }
 
 /* e += C^-1 gap. Strains that meet no stiffness (no warping) stay. */
-static int move(way *w, double gap[])
+static int move(complement_way *w, double gap[])
 {
     const int n = model_strains(w->m);
     int pivot[MOST];
@@ -134,7 +134,7 @@ static int move(way *w, double gap[])
 }
 
 /* Newton, as long as he contracts. */
-static int arrive(way *w, const double goal[])
+static int arrive(complement_way *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
     const double contracts = 0.3;
@@ -152,12 +152,12 @@ static int arrive(way *w, const double goal[])
 }
 
 /* From where it is, in parts of the way from its stresses to the goal. */
-static int follow(way *w, const double goal[])
+static int follow(complement_way *w, const double goal[])
 {
     const int n = model_strains(w->m);
     const double shortest = 1.0 / 256, longest = 0.5;
     double part = longest, begin[MOST], target[MOST], gap[MOST];
-    way at = *w;
+    complement_way at = *w;
     if (!evaluate(&at))
         return 0;
     memcpy(begin, at.sigma, sizeof begin);
@@ -203,7 +203,7 @@ static const double *goal_of(const complement *c, const model_state *s, int elem
 static void find(const complement *c, int element, const double sigma[], double e[])
 {
     const size_t n = (size_t)model_strains(c->m);
-    way w = {
+    complement_way w = {
         .eq = c->eq, .m = c->m, .element = element, .near = near_of(model_strains(c->m), sigma)};
     memcpy(w.e, e, n * sizeof *e);
     if (arrive(&w, sigma)) {

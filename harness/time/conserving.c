@@ -113,7 +113,7 @@ static status accept(void *of, fault *f)
                         : STATUS_OK;
 }
 
-static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
     conserving *s = (conserving *)base;
@@ -148,7 +148,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     return STATUS_OK;
 }
 
-static void release(scheme *base)
+static void release(motion_scheme *base)
 {
     conserving *s = (conserving *)base;
     sparse_free_values(&s->S);
@@ -223,7 +223,7 @@ static status allocate(conserving *s, fault *f)
     return factor_alloc(pattern, &s->factor, f);
 }
 
-status conserving_alloc(const scheme_request *request, scheme **out, fault *f)
+status conserving_alloc(const scheme_request *request, motion_scheme **out, fault *f)
 {
     const model_size size = model_sizes(request->c->model);
     *out = NULL;
@@ -232,7 +232,7 @@ status conserving_alloc(const scheme_request *request, scheme **out, fault *f)
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
-    s->base = (scheme){.order = 3, .adds = 1, .step = step, .free = release};
+    s->base = (motion_scheme){.order = 3, .adds = 1, .step = step, .free = release};
     s->of = *request;
     s->free = size.free;
     s->all = size.free + size.driven;

@@ -17,6 +17,6 @@
 
 /* REFUSED: several angles of a node in sequence; no rotation has inertia. Rates of what has none
  * are those of the mean of a step. */
-status conserving_alloc(const scheme_request *, scheme **, fault *);
+status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
 #endif

@@ -107,7 +107,7 @@ static void to_coordinates(const conserving *s, const instant *from, const model
         release_widen(el, v->K);
     for (int j = 0; j < el->nodes; j++) {
         const int at = NODE_COORDINATES * j;
-        place p;
+        frame_place p;
         if (place_plain(m, el->vertex[j]))
             continue;
         place_of(s, from->state, now, el->vertex[j], F + at, &p);

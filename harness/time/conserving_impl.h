@@ -14,11 +14,11 @@
 typedef struct evaluation evaluation; /* deformable.h */
 
 typedef struct conserving {
-    scheme base;
+    motion_scheme base;
     scheme_request of;
     int free, all;
     sparse S;
-    factor *factor;
+    matrix_factor *factor;
     double *step; /* [free + driven] dr, Cayley vectors c, da; of single angles and of what released
                      ends keep to themselves the increments, of balls c */
     double *residual, *column, *row, *dx; /* [free + driven]; the tangent is S + column row^T */

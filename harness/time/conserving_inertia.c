@@ -131,7 +131,7 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
 void conserving_inertia(conserving *s, const instant *from, const model_state *now, double h)
 {
     const model *m = s->of.c->model;
-    const carried *all = s->of.masses;
+    const carried_masses *all = s->of.masses;
     for (int k = 0; k < all->masses; k++) {
         const carried_mass *one = &all->mass[k];
         carried_step p;

@@ -161,7 +161,7 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
 static void released_rates(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
-    const carried *all = s->of.masses;
+    const carried_masses *all = s->of.masses;
     for (int k = 0; k < all->masses; k++) {
         const carried_mass *one = &all->mass[k];
         const int *at = model_vertex(m, one->frame)->coordinate;
@@ -189,7 +189,7 @@ static void released_rates(const conserving *s, const instant *from, double h, i
 void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
-    const carried *all = s->of.masses;
+    const carried_masses *all = s->of.masses;
     for (int i = 0, k = 0; i < model_first_release(m); i++) {
         const carried_mass plain = {.frame = i};
         const int *at = model_vertex(m, i)->coordinate;

@@ -18,7 +18,7 @@ static void own_increments(const conserving *s, const instant *from, const model
         local[k] = el->index[k] == NONE ? 0 : s->dx[el->index[k]];
     for (int j = 0; j < el->nodes && !el->plain; j++) {
         double moved[PLACE_MOST], *at = local + NODE_COORDINATES * j;
-        place p;
+        frame_place p;
         if (place_plain(m, el->vertex[j]))
             continue;
         place_of(s, from->state, now, el->vertex[j], NULL, &p);

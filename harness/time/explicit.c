@@ -31,7 +31,7 @@ static int advance(explicit_scheme *s, const instant *from, double h)
                                  &of_motion);
 }
 
-static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
     explicit_scheme *s = (explicit_scheme *)base;
@@ -53,7 +53,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     return STATUS_OK;
 }
 
-static void release(scheme *base)
+static void release(motion_scheme *base)
 {
     explicit_scheme *s = (explicit_scheme *)base;
     if (s->stepper != NULL)
@@ -83,7 +83,7 @@ static status allocate(explicit_scheme *s, fault *f)
     return STATUS_OK;
 }
 
-status explicit_alloc(const scheme_request *request, scheme **out, fault *f)
+status explicit_alloc(const scheme_request *request, motion_scheme **out, fault *f)
 {
     const model_size size = model_sizes(request->c->model);
     explicit_scheme *s = calloc(1, sizeof *s);
@@ -91,7 +91,7 @@ status explicit_alloc(const scheme_request *request, scheme **out, fault *f)
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
     *out = &s->base;
-    s->base = (scheme){.order = 8, .degree = BETWEEN_QUINTIC, .step = step, .free = release};
+    s->base = (motion_scheme){.order = 8, .degree = BETWEEN_QUINTIC, .step = step, .free = release};
     s->of = *request;
     s->free = size.free;
     s->all = size.free + size.driven;

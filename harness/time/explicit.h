@@ -8,6 +8,6 @@
 #include "harness/time/scheme.h"
 
 /* REFUSED: a coordinate has no inertia. */
-status explicit_alloc(const scheme_request *, scheme **, fault *);
+status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
 
 #endif

@@ -7,7 +7,7 @@
 #include "harness/time/scheme.h"
 
 typedef struct explicit_scheme {
-    scheme base;
+    motion_scheme base;
     scheme_request of;
     gsl_odeiv2_step *stepper;
     int free, all;
@@ -28,9 +28,9 @@ int explicit_rates(double t, const double y[], double dydt[], void *context);
 
 /* explicit_mass.c: a[free] = M^-1 of the residual, which has what the driven accelerations of a
  * take. SINGULAR: a sequence of angles is where two of them turn about one axis. */
-status explicit_accelerate(const model *, const carried *, const model_state *, const double v[],
-                           const double residual[], double a[], fault *);
+status explicit_accelerate(const model *, const carried_masses *, const model_state *,
+                           const double v[], const double residual[], double a[], fault *);
 /* REFUSED: a coordinate of the undeformed model has no inertia. */
-status explicit_check(const model *, const carried *, fault *);
+status explicit_check(const model *, const carried_masses *, fault *);
 
 #endif

@@ -12,7 +12,7 @@
 #include "harness/time/inertia.h"
 
 /* Masses of the free coordinates of one frame: count, index[count], M[count x count]. */
-static int block(const model *m, const carried *masses, int index, const model_state *s,
+static int block(const model *m, const carried_masses *masses, int index, const model_state *s,
                  const double v[], int of[6], double M[36])
 {
     const int *at = model_vertex(m, masses->mass[index].frame)->coordinate;
@@ -33,7 +33,7 @@ static int block(const model *m, const carried *masses, int index, const model_s
     return count;
 }
 
-status explicit_accelerate(const model *m, const carried *masses, const model_state *s,
+status explicit_accelerate(const model *m, const carried_masses *masses, const model_state *s,
                            const double v[], const double residual[], double a[], fault *f)
 {
     for (int k = 0; k < masses->masses; k++) {
@@ -99,7 +99,7 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
 }
 
 /* Which free coordinates have inertia, whatever the others of their frame do. */
-static void mark(const model *m, const carried *masses, const double rest[], int heavy[])
+static void mark(const model *m, const carried_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
         int of[6];
@@ -117,7 +117,7 @@ static void mark(const model *m, const carried *masses, const double rest[], int
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
-status explicit_check(const model *m, const carried *masses, fault *f)
+status explicit_check(const model *m, const carried_masses *masses, fault *f)
 {
     const size_t all = (size_t)model_all_coordinates(m) + 1;
     if (model_releases(m) > 0)

@@ -13,8 +13,8 @@ void extent_begin(extent *e, const model *m)
     e->bent = metric_distance(m, kinematics_rest(m), e->begin, NULL);
 }
 
-extent extent_with(const extent *so_far, const model *m, const scheme *s, const instant *from,
-                   const instant *to, double h, double error)
+extent extent_with(const extent *so_far, const model *m, const motion_scheme *s,
+                   const instant *from, const instant *to, double h, double error)
 {
     const double memory = 10, /* [rad] */
         distance = metric_distance(m, so_far->begin, to->state, s->light),
@@ -29,7 +29,7 @@ extent extent_with(const extent *so_far, const model *m, const scheme *s, const 
     return out;
 }
 
-double extent_error(const extent *so_far, const scheme *s, double h, double error)
+double extent_error(const extent *so_far, const motion_scheme *s, double h, double error)
 {
     return s->adds ? so_far->density * pow(h, s->order) : error;
 }

@@ -21,12 +21,12 @@ extern const double extent_guess;
 
 void extent_begin(extent *, const model *);
 /* With a step of h [s]. */
-extent extent_with(const extent *, const model *, const scheme *, const instant *from,
+extent extent_with(const extent *, const model *, const motion_scheme *, const instant *from,
                    const instant *to, double h, double error);
 /* Where the errors of steps add up to that of the motion, the error of a step of h [s] by what the
  * estimates were within the last ten radians of the motion: that of positions vanishes where rates
  * turn, and what rates are off by is largest there. */
-double extent_error(const extent *, const scheme *, double h, double error);
+double extent_error(const extent *, const motion_scheme *, double h, double error);
 /* The error that a part of the motion may have by a tolerance of all: what coordinates are rounded
  * by is none. */
 double extent_allows(const extent *, double part, double tolerance);

@@ -10,7 +10,7 @@ typedef struct frames {
     const model *m;
     outcome_path *to;
     double begin, end; /* [s] of the motion */
-    between inside;
+    step_between inside;
     instant at;
 } frames;
 

@@ -59,8 +59,8 @@ void inertia_force(const model *m, const carried_mass *one, const model_state *s
     inertia_force_at(one, &r, F);
 }
 
-void inertia_subtract(const model *m, const carried *all, const model_state *s, const double v[],
-                      const double a[], double out[])
+void inertia_subtract(const model *m, const carried_masses *all, const model_state *s,
+                      const double v[], const double a[], double out[])
 {
     if (all->spread)
         spread_subtract(m, s, v, a, out);
@@ -133,7 +133,7 @@ static void identity(double A[9])
     memcpy(A, one, sizeof one);
 }
 
-void inertia_frame(const model *m, const carried *all, int index, const model_state *s,
+void inertia_frame(const model *m, const carried_masses *all, int index, const model_state *s,
                    const double v[], const double a[], inertia_parts *out)
 {
     const carried_mass *one = &all->mass[index];
@@ -173,7 +173,7 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
     const int body = model_vertex(m, vertex)->body;
-    released of;
+    released_masses of;
     double of_body[9], of_ball[9], one[9], motion[6 * KINEMATICS_MOST], rates[36],
         K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
     released_columns(m, s, vertex, &of);
@@ -191,7 +191,7 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
             assemble_subtract(S, of.index[i], of.index[j], -K[of.count * i + j]);
 }
 
-void inertia_add_tangent(const equations *eq, const carried *all, const model_state *s,
+void inertia_add_tangent(const equations *eq, const carried_masses *all, const model_state *s,
                          const double v[], const double a[], const inertia_relation *with,
                          sparse *S)
 {
@@ -227,7 +227,7 @@ void inertia_add_tangent(const equations *eq, const carried *all, const model_st
     }
 }
 
-void inertia_of(const model *m, const carried *all, const model_state *s, const double v[],
+void inertia_of(const model *m, const carried_masses *all, const model_state *s, const double v[],
                 const double ends[], inertia_balance *out)
 {
     memset(out, 0, sizeof *out);

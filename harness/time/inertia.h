@@ -15,13 +15,13 @@ void inertia_force(const model *, const carried_mass *, const model_state *, con
                    const double a[], double F[6]);
 /* out[free + driven] -= forces of inertia at rates v and their derivatives a (NULL: zero, which
  * leaves those of the velocities). */
-void inertia_subtract(const model *, const carried *, const model_state *, const double v[],
+void inertia_subtract(const model *, const carried_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
 /* S += derivative of the forces of inertia by the coordinates; of rotations in the exponential
  * chart, like every other part of a tangent. */
-void inertia_add_tangent(const equations *, const carried *, const model_state *, const double v[],
-                         const double a[], const inertia_relation *, sparse *S);
+void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
+                         const double v[], const double a[], const inertia_relation *, sparse *S);
 
 /* Of one frame: derivatives of its force and moment [6 x 6, row-major]. */
 typedef struct inertia_parts {
@@ -30,8 +30,8 @@ typedef struct inertia_parts {
     double turn[9]; /* columns: spatial turn by each coordinate of rotation */
     double rate[9]; /* likewise angular velocity by the rate of each */
 } inertia_parts;
-void inertia_frame(const model *, const carried *, int index, const model_state *, const double v[],
-                   const double a[], inertia_parts *out);
+void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
+                   const double v[], const double a[], inertia_parts *out);
 /* out = A diag(translation 1, B); then rows of rotation by their coordinates: K <- diag(1, turn^T)
  * K. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
@@ -43,7 +43,7 @@ typedef struct inertia_balance {
 } inertia_balance;
 /* ends[released ends x 6]: velocities of the centres of their masses, and in their axes angular
  * velocities; NULL: those of v. */
-void inertia_of(const model *, const carried *, const model_state *, const double v[],
+void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
 #endif

@@ -6,7 +6,7 @@
 #include "harness/time/explicit.h"
 #include "harness/time/radau.h"
 
-status integrator_alloc(const scheme_request *r, scheme **out, fault *f)
+status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
 {
     *out = NULL;
     if (r->how->scheme == SCENE_EXPLICIT && damping_acts(r->c->scene))
@@ -27,7 +27,7 @@ status integrator_alloc(const scheme_request *r, scheme **out, fault *f)
     return fault_set(f, STATUS_REFUSED, "this integrator is not available");
 }
 
-void integrator_free(scheme *s)
+void integrator_free(motion_scheme *s)
 {
     if (s != NULL)
         s->free(s);

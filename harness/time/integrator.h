@@ -5,7 +5,7 @@
 #include "harness/time/scheme.h"
 
 /* REFUSED: it cannot integrate this model, and why. */
-status integrator_alloc(const scheme_request *, scheme **, fault *);
-void integrator_free(scheme *);
+status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
+void integrator_free(motion_scheme *);
 
 #endif

@@ -123,8 +123,8 @@ static status check_drivers(const model *m, const double inc[], fault *f)
     return STATUS_OK;
 }
 
-static status accelerate(stage *s, double h, instant *now, instant *room, double *inc, double *zero,
-                         fault *f)
+static status accelerate(motion_stage *s, double h, instant *now, instant *room, double *inc,
+                         double *zero, fault *f)
 {
     const model *m = s->c->model;
     stage_rates r = {.b = 1 / (softness * h * h),
@@ -146,8 +146,8 @@ static status accelerate(stage *s, double h, instant *now, instant *room, double
     return STATUS_OK;
 }
 
-static status begin(stage *s, const scene_motion *how, instant *now, instant *room, double *inc,
-                    double *zero, fault *f)
+static status begin(motion_stage *s, const scene_motion *how, instant *now, instant *room,
+                    double *inc, double *zero, fault *f)
 {
     const model *m = s->c->model;
     int massless;
@@ -166,10 +166,10 @@ static status begin(stage *s, const scene_motion *how, instant *now, instant *ro
     return STATUS_OK;
 }
 
-status launch_again(analysis_context *c, const carried *masses, const scene_motion *how,
+status launch_again(analysis_context *c, const carried_masses *masses, const scene_motion *how,
                     instant *now, instant *room, fault *f)
 {
-    stage s;
+    motion_stage s;
     TRY(stage_alloc(c, masses, &s, f));
     s.begins = 1;
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
@@ -188,14 +188,14 @@ static void set_field(const model *m, const model_state *s, const scene_start *f
             start_vertex(m, s, i, field, v);
 }
 
-status launch(analysis_context *c, const carried *masses, const scene_motion *how, instant *now,
-              instant *room, fault *f)
+status launch(analysis_context *c, const carried_masses *masses, const scene_motion *how,
+              instant *now, instant *room, fault *f)
 {
     const scene_rotating_frame rest = {{0}, {0}};
     return launch_turning(c, masses, how, &rest, now, room, f);
 }
 
-status launch_turning(analysis_context *c, const carried *masses, const scene_motion *how,
+status launch_turning(analysis_context *c, const carried_masses *masses, const scene_motion *how,
                       const scene_rotating_frame *frame, instant *now, instant *room, fault *f)
 {
     const model *m = c->model;

@@ -8,15 +8,15 @@
 
 /* Behind a kink or a jump of what acts: accelerations and massless coordinates that belong to it,
  * velocities as they are. */
-status launch_again(analysis_context *, const carried *, const scene_motion *, instant *now,
+status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
                     instant *room, fault *);
 /* now: the state and the time are given; `room` is work space. frame: the axes that the state is at
  * rest in turn so [rad/s, m]; omega zero: they do not. REFUSED: something is driven or held
  * otherwise than that turns. */
-status launch_turning(analysis_context *, const carried *, const scene_motion *,
+status launch_turning(analysis_context *, const carried_masses *, const scene_motion *,
                       const scene_rotating_frame *frame, instant *now, instant *room, fault *);
 /* From axes at rest. */
-status launch(analysis_context *, const carried *, const scene_motion *, instant *now,
+status launch(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
               instant *room, fault *);
 
 #endif

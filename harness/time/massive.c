@@ -24,8 +24,8 @@ static int is_whole(const model *m, int i, int block)
 }
 
 /* Column k of the projections of all bodies at once: they do not depend on each other. */
-static status column(const model *m, const carried *masses, const model_state *s, int block, int k,
-                     double dx[], massive *h, fault *f)
+static status column(const model *m, const carried_masses *masses, const model_state *s, int block,
+                     int k, double dx[], massive *h, fault *f)
 {
     memset(dx, 0, (size_t)model_unknowns(m) * sizeof *dx);
     for (int i = 0; i < model_first_release(m); i++)
@@ -52,7 +52,8 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-status massive_of(const model *m, const carried *masses, const model_state *s, massive *h, fault *f)
+status massive_of(const model *m, const carried_masses *masses, const model_state *s, massive *h,
+                  fault *f)
 {
     int count;
     TRY(massless_count(m, masses, s, &count, f));

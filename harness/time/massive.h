@@ -12,7 +12,7 @@ typedef struct massive {
 } massive;
 
 /* Of the masses in a state, once. */
-status massive_of(const model *, const carried *, const model_state *, massive *, fault *);
+status massive_of(const model *, const carried_masses *, const model_state *, massive *, fault *);
 void massive_free(massive *);
 /* Root of the sum of weight[c] e[c]^2 over the free coordinates, without what has no inertia, which
  * e loses. */

@@ -16,10 +16,10 @@
 static const double nothing = 1e-14;
 
 /* What is done with the masses of a body. */
-typedef enum task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } task;
+typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
 
 typedef struct wish {
-    task task;
+    massless_task task;
     const double *given; /* [free] diagonal of a stiffness; forces */
     double *changed;     /* [free] forces; increments; accelerations */
     double stiffest;
@@ -73,8 +73,8 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
 }
 
 /* Rank of a body's M. */
-static int visit(const model *m, const carried *all, int body, const model_state *s, body_mass *g,
-                 wish *of)
+static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
+                 body_mass *g, wish *of)
 {
     const double none = nothing * body_mass_of(m, all, body, s, g);
     const int n = g->count, rank = body_mass_rank(g, none);
@@ -90,7 +90,7 @@ static int visit(const model *m, const carried *all, int body, const model_state
     return rank;
 }
 
-static int warping(const model *m, const carried *all, const model_state *s, wish *of)
+static int warping(const model *m, const carried_masses *all, const model_state *s, wish *of)
 {
     int heavy = 0;
     for (int i = 0; i < model_warps(m); i++) {
@@ -110,8 +110,8 @@ static int warping(const model *m, const carried *all, const model_state *s, wis
 }
 
 /* Free coordinates less the rank of their masses: *out. */
-static status walk(const model *m, const carried *all, const model_state *s, wish *of, int *out,
-                   fault *f)
+static status walk(const model *m, const carried_masses *all, const model_state *s, wish *of,
+                   int *out, fault *f)
 {
     int heavy = 0;
     body_mass g;
@@ -124,21 +124,22 @@ static status walk(const model *m, const carried *all, const model_state *s, wis
     return STATUS_OK;
 }
 
-status massless_count(const model *m, const carried *all, const model_state *s, int *out, fault *f)
+status massless_count(const model *m, const carried_masses *all, const model_state *s, int *out,
+                      fault *f)
 {
     wish of = {.task = COUNT};
     return walk(m, all, s, &of, out, f);
 }
 
-status massless_forces(const model *m, const carried *all, const model_state *s, double force[],
-                       fault *f)
+status massless_forces(const model *m, const carried_masses *all, const model_state *s,
+                       double force[], fault *f)
 {
     wish of = {.task = KEEP_FORCES, .changed = force};
     int count;
     return walk(m, all, s, &of, &count, f);
 }
 
-status massless_motion(const model *m, const carried *all, const model_state *s, double dx[],
+status massless_motion(const model *m, const carried_masses *all, const model_state *s, double dx[],
                        fault *f)
 {
     wish of = {.task = KEEP_MOTION, .changed = dx};
@@ -146,7 +147,7 @@ status massless_motion(const model *m, const carried *all, const model_state *s,
     return walk(m, all, s, &of, &count, f);
 }
 
-status massless_stiffest(const model *m, const carried *all, const model_state *s,
+status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
                          const double diagonal[], double *out, fault *f)
 {
     wish of = {.task = STIFFEST, .given = diagonal};
@@ -183,7 +184,8 @@ void massless_own_axes(const model *m, const model_state *s, double a[])
     turn_axes(m, s, 0, a);
 }
 
-status massless_drop(const model *m, const carried *all, const model_state *s, double a[], fault *f)
+status massless_drop(const model *m, const carried_masses *all, const model_state *s, double a[],
+                     fault *f)
 {
     const size_t size = (size_t)model_unknowns(m) * sizeof *a;
     double *light = malloc(size + 1);
@@ -199,7 +201,7 @@ status massless_drop(const model *m, const carried *all, const model_state *s, d
     return outcome;
 }
 
-status massless_accelerate(const model *m, const carried *all, const model_state *s,
+status massless_accelerate(const model *m, const carried_masses *all, const model_state *s,
                            const double force[], double a[], fault *f)
 {
     wish of = {.task = ACCELERATE, .given = force, .changed = a};

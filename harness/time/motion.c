@@ -30,16 +30,16 @@ enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
 /* All that a motion is integrated with. */
-typedef struct motion {
+typedef struct motion_course {
     analysis_context *c;
     const scene_motion *how;
     int analysis, follows;
     double path;             /* parameter of the state that it starts from; NAN: it has none */
     const outcome_end *from; /* where the motion stopped that this one goes on from; NULL: none */
-    carried masses;
+    carried_masses masses;
     run_damping damping;
-    work work;
-    scheme *scheme;
+    outer_work work;
+    motion_scheme *scheme;
     instant now, next;
     double h, least; /* [s] next step; the shortest */
     stations stations;
@@ -54,9 +54,10 @@ typedef struct motion {
     double rounding;        /* [J] energy that is none */
     int quiet;              /* steps since what acts was last smooth no longer */
     int unjudged;           /* steps whose balance was not yet looked at */
-} motion;
+} motion_course;
 
-static status balance_at(motion *w, const instant *at, double balance[SCENE_BALANCES], fault *f)
+static status balance_at(motion_course *w, const instant *at, double balance[SCENE_BALANCES],
+                         fault *f)
 {
     TRY(balance_of(w->c->model, &w->masses, at, balance, f));
     if (w->out->steps == 0 && w->from == NULL)
@@ -66,7 +67,7 @@ static status balance_at(motion *w, const instant *at, double balance[SCENE_BALA
 }
 
 /* The present instant, where a step has ended, becomes one of the records. */
-static status record_step(motion *w, const step_record *record, double error, fault *f)
+static status record_step(motion_course *w, const step_record *record, double error, fault *f)
 {
     outcome_step one = {.time = w->now.time,
                         .step = record->increment,
@@ -85,7 +86,8 @@ static status record_step(motion *w, const step_record *record, double error, fa
 }
 
 /* last: what acts is smooth no longer behind it, or nothing follows. */
-static status keep_step(motion *w, const step_record *record, double error, int last, fault *f)
+static status keep_step(motion_course *w, const step_record *record, double error, int last,
+                        fault *f)
 {
     TRY(history_add_step(w->c->result, record, f));
     w->c->run->counters.steps++;
@@ -99,7 +101,7 @@ static status keep_step(motion *w, const step_record *record, double error, int 
 }
 
 /* [s] of the last motion of the scene that goes on from this one. */
-static double end_of_all(const motion *w)
+static double end_of_all(const motion_course *w)
 {
     const scene *s = w->c->scene;
     int last = w->analysis;
@@ -112,7 +114,7 @@ static double end_of_all(const motion *w)
 
 /* 1: its error allows the step; the next one has the length that this one should have had. Where
  * errors of steps add up to that of the motion, each step has its share by time. */
-static int allowed(motion *w, double step, double error)
+static int allowed(motion_course *w, double step, double error)
 {
     w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
     if (w->how->tolerance <= 0)
@@ -128,7 +130,7 @@ static int allowed(motion *w, double step, double error)
 }
 
 /* The first steps behind a jump of what acts make energy by alpha however short they are. */
-static int looks(const motion *w)
+static int looks(const motion_course *w)
 {
     return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
@@ -136,7 +138,7 @@ static int looks(const motion *w)
 /* Steps make energy from nothing where modes are not resolved; shorter ones make less. *grows: more
  * than may be, by this step or with those before it. Steps that stay as they are are not looked at.
  */
-static status watch(motion *w, int *grows, fault *f)
+static status watch(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
     if (!looks(w))
@@ -152,7 +154,7 @@ static status watch(motion *w, int *grows, fault *f)
 }
 
 /* What the next step is after one that was taken. */
-static void lengthen(motion *w, double step, double whole, int rejected)
+static void lengthen(motion_course *w, double step, double whole, int rejected)
 {
     if (w->how->tolerance > 0 && step < whole)
         w->h = fmax(w->h, whole); /* a step that was cut says nothing against longer ones */
@@ -161,7 +163,7 @@ static void lengthen(motion *w, double step, double whole, int rejected)
 }
 
 /* One step, shorter until it succeeds. */
-static status take_step(motion *w, double target, fault *f)
+static status take_step(motion_course *w, double target, fault *f)
 {
     for (int rejected = 0;; rejected++) {
         const double left = target - w->now.time, whole = w->h;
@@ -200,7 +202,7 @@ static status take_step(motion *w, double target, fault *f)
 }
 
 /* What acts is another from here on. */
-static status jump(motion *w, fault *f)
+static status jump(motion_course *w, fault *f)
 {
     TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
     peaks_jump(&w->peaks);
@@ -209,7 +211,7 @@ static status jump(motion *w, fault *f)
 
 /* Of the instant that a step has come to. The first ones behind the begin and behind a jump of what
  * acts are judged by those that follow, unless jumps are too many for that. */
-static status judge(motion *w, double end, fault *f)
+static status judge(motion_course *w, double end, fault *f)
 {
     if (w->quiet <= ACCOUNT_STEPS && w->unjudged < 2 * ACCOUNT_STEPS && w->now.time < end) {
         w->unjudged++;
@@ -219,7 +221,7 @@ static status judge(motion *w, double end, fault *f)
     return account_judge(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
 }
 
-static status integrate(motion *w, fault *f)
+static status integrate(motion_course *w, fault *f)
 {
     const scene_path *path = &w->how->path;
     const double end = path->value[path->stations - 1];
@@ -241,7 +243,7 @@ static status integrate(motion *w, fault *f)
 }
 
 /* Where the motion before it stopped; of another scheme or step: in the same scene only. */
-static status go_on(motion *w, fault *f)
+static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
                                      ? w->how
@@ -260,7 +262,7 @@ static status go_on(motion *w, fault *f)
 }
 
 /* Where it goes on from, in another run or in the scene. */
-static status find_end(motion *w, fault *f)
+static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);
     if (w->from != NULL || w->follows == SCENE_NONE ||
@@ -270,7 +272,7 @@ static status find_end(motion *w, fault *f)
 }
 
 /* The state that the motion starts from, at time 0, and how the axes turn that it is at rest in. */
-static status begin(motion *w, scene_rotating_frame *frame, fault *f)
+static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
     memset(frame, 0, sizeof *frame);
@@ -296,7 +298,7 @@ static status begin(motion *w, scene_rotating_frame *frame, fault *f)
     return STATUS_OK;
 }
 
-static status solve(motion *w, fault *f)
+static status solve(motion_course *w, fault *f)
 {
     const step_record start = {.increment = 0};
     scene_rotating_frame frame;
@@ -344,7 +346,7 @@ static status solve(motion *w, fault *f)
     return integrate(w, f);
 }
 
-static void release(motion *w)
+static void release(motion_course *w)
 {
     instant_free(&w->now);
     instant_free(&w->next);
@@ -367,7 +369,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
 {
     const history_mark begin = history_here(c->result);
     const counters before = c->run->counters;
-    motion w;
+    motion_course w;
     memset(&w, 0, sizeof w);
     w.c = c;
     w.path = NAN;

@@ -21,8 +21,8 @@ typedef struct peak {
 typedef struct peaks {
     analysis_context *c;
     int analysis;
-    scheme *scheme;
-    const carried *masses;
+    motion_scheme *scheme;
+    const carried_masses *masses;
     outcome_motion *out;
     int count, ends; /* quantities; ends since what acts was last smooth no longer, or begun */
     peak *one;       /* [count] */

@@ -17,7 +17,7 @@ int place_plain(const model *m, int vertex)
 }
 
 /* What is being built, with the derivatives by the columns as [3 x columns]. */
-typedef struct chain {
+typedef struct place_chain {
     const model *m;
     const model_state *from, *now;
     int vertex;
@@ -29,7 +29,7 @@ typedef struct chain {
     double x[3][3], dx[3][3 * PLACE_MOST];
     double rho[3], drho[3 * PLACE_MOST], moved[3 * PLACE_MOST]; /* rho_m; of rho_1 */
     double sigma[3], dsigma[3 * PLACE_MOST];                    /* shift of the mean, (a s)_m */
-} chain;
+} place_chain;
 
 /* out[3 x columns] = times A B */
 static void product(int columns, double times, const double A[9], const double B[], double out[])
@@ -41,7 +41,7 @@ static void product(int columns, double times, const double A[9], const double B
 }
 
 /* out <- times (T_c dc) x v */
-static void sweep(const chain *by, int columns, double times, const double v[3], double out[])
+static void sweep(const place_chain *by, int columns, double times, const double v[3], double out[])
 {
     double T[9], V[9], B[9];
     cayley_tangent(by->c, T);
@@ -50,7 +50,7 @@ static void sweep(const chain *by, int columns, double times, const double v[3],
     product(columns, -times, B, by->dc, out);
 }
 
-static void beside(chain *by, int columns)
+static void beside(place_chain *by, int columns)
 {
     double after[3];
     kinematics_offset(by->m, by->from, by->vertex, by->rho);
@@ -63,7 +63,7 @@ static void beside(chain *by, int columns)
 
 /* One turn more, about b: x[3] and dx[3 x columns], c and dc behind it. */
 static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
-                 chain *by)
+                 place_chain *by)
 {
     const double tau = 2 * tan(angle / 2), along = vec3_dot(by->c, b), part = 1 - tau * along / 4,
                  stretch = 1 + tau * tau / 4;
@@ -88,7 +88,7 @@ static void turn(const double b[3], double angle, int column, double x[3], doubl
 }
 
 /* c of the body: three coordinates, or a sequence of angles. */
-static void begin(const double step[], chain *by, place *p)
+static void begin(const double step[], place_chain *by, frame_place *p)
 {
     const int at = model_vertex(by->m, by->vertex)->body;
     const mesh_vertex *body = model_vertex(by->m, at);
@@ -113,7 +113,7 @@ static void begin(const double step[], chain *by, place *p)
 }
 
 /* All turns that the end keeps to itself. */
-static void turns(const double step[], chain *by, place *p)
+static void turns(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
     const int *own = model_vertex(by->m, by->vertex)->coordinate + SCENE_RX;
@@ -135,8 +135,8 @@ static void turns(const double step[], chain *by, place *p)
 
 /* The direction of a slide, b and a at the ends of the step: (b + a)/2 - c x (a - b)/4, and its
  * derivative: the shift moves by c x its mean and by that times the change of the coordinate. */
-static void direction(const double before[3], const double after[3], const chain *by, int columns,
-                      double along[3], double change[])
+static void direction(const double before[3], const double after[3], const place_chain *by,
+                      int columns, double along[3], double change[])
 {
     double apart[3], crossed[3], skew[9], turned[9], swept[3 * PLACE_MOST], more[3 * PLACE_MOST];
     for (int i = 0; i < 3; i++)
@@ -154,7 +154,7 @@ static void direction(const double before[3], const double after[3], const chain
 }
 
 /* What the end slides by: shift of the mean, and its columns. */
-static void slides(const double step[], chain *by, place *p)
+static void slides(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
     const int *own = model_vertex(by->m, by->vertex)->coordinate, n = p->columns;
@@ -182,7 +182,7 @@ static void slides(const double step[], chain *by, place *p)
 
 /* Columns `column`.. of work: forces at a lever from what turns by A, and moments. */
 static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
-                    place *p)
+                    frame_place *p)
 {
     double skew[9], levered[9];
     cayley_skew(lever, skew);
@@ -195,7 +195,7 @@ static void work_on(const double lever[3], const double A[9], int moments, int c
 }
 
 /* curved[rows `row`..] += A^T B, B[3 x columns] */
-static void add_curved(const double A[9], const double B[], int row, int columns, place *p)
+static void add_curved(const double A[9], const double B[], int row, int columns, frame_place *p)
 {
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < columns; k++)
@@ -206,7 +206,8 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 /* Rows of single turns: x . M'. */
-static void turning_rows(const chain *by, const double moment[3], const double dmoment[], place *p)
+static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
+                         frame_place *p)
 {
     const int n = p->columns;
     for (int k = 0; k < by->release->turns; k++) {
@@ -224,7 +225,7 @@ static void turning_rows(const chain *by, const double moment[3], const double d
 }
 
 /* Rows of the angles of the body, whose mean axes turn with those before them: a' . M. */
-static void angle_rows(const chain *by, const double moment[3], place *p)
+static void angle_rows(const place_chain *by, const double moment[3], frame_place *p)
 {
     const int n = p->columns,
               angles = model_vertex(by->m, model_vertex(by->m, by->vertex)->body)->angles;
@@ -235,7 +236,7 @@ static void angle_rows(const chain *by, const double moment[3], place *p)
 }
 
 /* All rows, by what the chain came to. */
-static void finish(const chain *by, place *p)
+static void finish(const place_chain *by, frame_place *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;
     double force[9], more[3 * PLACE_MOST], dmoment[3 * PLACE_MOST], moment[3];
@@ -267,16 +268,16 @@ static void finish(const chain *by, place *p)
 }
 
 void place_of(const conserving *s, const model_state *from, const model_state *now, int vertex,
-              const double F[6], place *p)
+              const double F[6], frame_place *p)
 {
     static const double none[6] = {0};
     const model *m = s->of.c->model;
-    chain by = {.m = m,
-                .from = from,
-                .now = now,
-                .vertex = vertex,
-                .release = release_of(m, vertex),
-                .F = F != NULL ? F : none};
+    place_chain by = {.m = m,
+                      .from = from,
+                      .now = now,
+                      .vertex = vertex,
+                      .release = release_of(m, vertex),
+                      .F = F != NULL ? F : none};
     memset(p, 0, sizeof *p);
     p->columns = FIRST_TURN + (by.release != NULL ? by.release->turns + by.release->slides : 0);
     begin(s->step, &by, p);
@@ -293,7 +294,7 @@ void place_step(const conserving *s, const model_state *from, const model_state 
 {
     const model *m = s->of.c->model;
     const int *at = model_vertex(m, vertex)->coordinate;
-    place p;
+    frame_place p;
     double all[6];
     if (place_plain(m, vertex)) {
         for (int i = 0; i < 3; i++) {

@@ -13,7 +13,7 @@ static int index_of(int column, int at, int own)
 }
 
 /* out[columns] = A^T of, A[6 x columns] */
-static void transposed(const place *p, const double A[], const double of[SIX], double out[])
+static void transposed(const frame_place *p, const double A[], const double of[SIX], double out[])
 {
     memset(out, 0, (size_t)p->columns * sizeof *out);
     for (int i = 0; i < SIX; i++)
@@ -21,7 +21,7 @@ static void transposed(const place *p, const double A[], const double of[SIX], d
             out[k] += A[i * p->columns + k] * of[i];
 }
 
-static void along(const place *p, const double A[], int at, int own, int stride, double v[])
+static void along(const frame_place *p, const double A[], int at, int own, int stride, double v[])
 {
     double of[SIX], out[PLACE_MOST];
     for (int i = 0; i < SIX; i++)
@@ -31,17 +31,17 @@ static void along(const place *p, const double A[], int at, int own, int stride,
         v[index_of(k, at, own) * stride] = out[k];
 }
 
-void place_forces(const place *p, int at, int own, double forces[])
+void place_forces(const frame_place *p, int at, int own, double forces[])
 {
     along(p, p->work, at, own, 1, forces);
 }
 
-void place_row(const place *p, int at, int own, double row[])
+void place_row(const frame_place *p, int at, int own, double row[])
 {
     along(p, p->moved, at, own, 1, row);
 }
 
-void place_matrix(const place *p, int n, int at, int own, double K[])
+void place_matrix(const frame_place *p, int n, int at, int own, double K[])
 {
     for (int r = 0; r < n; r++)
         along(p, p->moved, at, own, 1, K + r * n);
@@ -78,7 +78,7 @@ void place_add(conserving *s, const model_state *from, const model_state *now, i
     for (int i = 0; i < SIX * SIX; i++)
         all[i / SIX * n + i % SIX] = K[i];
     if (!place_plain(m, vertex)) {
-        place p;
+        frame_place p;
         place_of(s, from, now, vertex, F, &p);
         for (int i = 0; i < n * n; i++)
             p.curved[i] = -p.curved[i];

@@ -18,13 +18,13 @@
 #include "harness/time/stage.h"
 
 /* What an iteration of the stages works on. */
-typedef struct solution {
+typedef struct radau_solution {
     radau *r;
     const instant *from;
     double h;
-} solution;
+} radau_solution;
 
-static void advance(const solution *of, const step_record *record, newton_correction *out)
+static void advance(const radau_solution *of, const step_record *record, newton_correction *out)
 {
     radau *r = of->r;
     const model *m = r->of.c->model;
@@ -46,7 +46,7 @@ static void advance(const solution *of, const step_record *record, newton_correc
 static status correct(void *of, int iteration, newton_correction *out, step_record *record,
                       fault *f)
 {
-    const solution *one = of;
+    const radau_solution *one = of;
     radau *r = one->r;
     const int fresh = iteration == 1 || !stage_stands(&r->arrival);
     TRY(radau_equations(r, fresh, one->from, one->h, record, f));
@@ -62,7 +62,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 
 static void prepare(void *of, int iteration, double correction)
 {
-    radau *r = ((const solution *)of)->r;
+    radau *r = ((const radau_solution *)of)->r;
     for (int i = 0; i < STAGES; i++)
         complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
 }
@@ -95,7 +95,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     }
     radau_rates(r, from, h);
     instant_recall(from, &r->arrival);
-    solution one = {r, from, h};
+    radau_solution one = {r, from, h};
     const newton_use use = newton_in_time(r->of.c, &one, correct, prepare);
     TRY(newton_iterate(r->of.c, &use, &r->arrival, record, f));
     instant_remember(&r->arrival, to);
@@ -112,7 +112,7 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     return STATUS_OK;
 }
 
-static status step(scheme *base, const instant *from, double h, instant *to, double *error,
+static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
                    step_record *record, fault *f)
 {
     radau *r = (radau *)base;
@@ -122,7 +122,7 @@ static status step(scheme *base, const instant *from, double h, instant *to, dou
     return solve(r, from, h, to, error, record, f);
 }
 
-static void release(scheme *base)
+static void release(motion_scheme *base)
 {
     radau *r = (radau *)base;
     for (int i = 0; i < STAGES; i++) {
@@ -176,7 +176,7 @@ static status allocate(radau *r, fault *f)
     return factor_alloc(pattern, &r->single, f);
 }
 
-status radau_alloc(const scheme_request *request, scheme **out, fault *f)
+status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)
 {
     const radau begin = {
         .base = {.order = 4, .degree = BETWEEN_QUINTIC, .step = step, .free = release},

@@ -8,6 +8,6 @@
 #include "harness/time/scheme.h"
 
 /* With an estimate of the error of each step, of order 3, from one more factorisation. */
-status radau_alloc(const scheme_request *, scheme **, fault *);
+status radau_alloc(const scheme_request *, motion_scheme **, fault *);
 
 #endif

@@ -50,7 +50,7 @@ static void add_released(radau *r, int index, double h, int i)
     const model *m = r->of.c->model;
     const int vertex = r->of.masses->mass[index].frame, body = model_vertex(m, vertex)->body;
     inertia_parts p;
-    released of;
+    released_masses of;
     inertia_frame(m, r->of.masses, index, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
     released_columns(m, r->stage[i].state, vertex, &of);
     for (int k = 0; k < STAGES; k++) {

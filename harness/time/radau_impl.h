@@ -17,16 +17,16 @@ typedef struct radau_stage {
 } radau_stage;
 
 typedef struct radau {
-    scheme base;
+    motion_scheme base;
     const scheme_request of;
     double node[STAGES], weights[STAGES], B[STAGES * STAGES];
     radau_stage stage[STAGES];
     sparse K;
     stages_matrix S;
-    factor *factor, *single; /* of S; of the matrix of the estimate */
-    double *residual;        /* [STAGES x free] */
-    double *dx;              /* [free + driven] */
-    double *weight;          /* [free + driven] */
+    matrix_factor *factor, *single; /* of S; of the matrix of the estimate */
+    double *residual;               /* [STAGES x free] */
+    double *dx;                     /* [free + driven] */
+    double *weight;                 /* [free + driven] */
     arrival arrival;
     int free, all;
     long counted, counted_single;

@@ -32,7 +32,7 @@ static void add_cross_twice(const double w[3], const double r[3], double out[3])
     add_cross(w, once, 1, out);
 }
 
-void released_columns(const model *m, const model_state *s, int vertex, released *out)
+void released_columns(const model *m, const model_state *s, int vertex, released_masses *out)
 {
     const mesh_release *r = release_of(m, vertex);
     const int body = model_vertex(m, vertex)->body;
@@ -43,14 +43,14 @@ void released_columns(const model *m, const model_state *s, int vertex, released
 }
 
 /* Column of T, its turn or its shift. */
-static void column_of(const released *of, int column, int turn, double out[3])
+static void column_of(const released_masses *of, int column, int turn, double out[3])
 {
     for (int i = 0; i < 3; i++)
         out[i] = of->T[(3 * turn + i) * of->count + column];
 }
 
-static void add_turns(const mesh_release *r, const released *of, const double v[], const double a[],
-                      frame_rates *out)
+static void add_turns(const mesh_release *r, const released_masses *of, const double v[],
+                      const double a[], frame_rates *out)
 {
     if (r->turns == BALL) {
         double w[3], wd[3];
@@ -78,7 +78,7 @@ void released_rates(const model *m, const model_state *s, int vertex, const doub
                     const double a[], frame_rates *out)
 {
     const mesh_release *r = release_of(m, vertex);
-    released of;
+    released_masses of;
     frame_rates at;
     double p[3], end[3], place[3], q[3], sliding[3] = {0, 0, 0};
     released_columns(m, s, vertex, &of);
@@ -123,7 +123,7 @@ void released_moving(const double own[6], double mass, const double moment[3], f
 void released_add_force(const model *m, const model_state *s, int vertex, const double F[6],
                         double out[])
 {
-    released of;
+    released_masses of;
     released_columns(m, s, vertex, &of);
     for (int k = 0; k < of.count; k++)
         for (int i = 0; i < 6; i++)
@@ -131,7 +131,7 @@ void released_add_force(const model *m, const model_state *s, int vertex, const 
 }
 
 /* out[6 x count]: columns `first` to first + 2 become T B */
-static void turn_columns(const released *of, int first, const double B[9], double out[])
+static void turn_columns(const released_masses *of, int first, const double B[9], double out[])
 {
     for (int i = 0; i < 6 && first != NONE; i++)
         for (int j = 0; j < 3; j++) {
@@ -142,8 +142,8 @@ static void turn_columns(const released *of, int first, const double B[9], doubl
         }
 }
 
-void released_motion(const released *of, double plain, const double body[9], const double ball[9],
-                     double out[6 * KINEMATICS_MOST])
+void released_motion(const released_masses *of, double plain, const double body[9],
+                     const double ball[9], double out[6 * KINEMATICS_MOST])
 {
     for (int i = 0; i < 6 * of->count; i++)
         out[i] = plain * of->T[i];
@@ -151,7 +151,7 @@ void released_motion(const released *of, double plain, const double body[9], con
     turn_columns(of, of->ball, ball, out);
 }
 
-void released_project(const released *of, const double A[36], const double motion[],
+void released_project(const released_masses *of, const double A[36], const double motion[],
                       double out[KINEMATICS_MOST * KINEMATICS_MOST])
 {
     const int n = of->count;

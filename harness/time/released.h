@@ -7,14 +7,14 @@
 #include "harness/time/forms.h"
 
 /* What such an end, or any other vertex, depends on. */
-typedef struct released {
+typedef struct released_masses {
     int count, own;             /* the first of its own coordinates among them */
     int body, ball;             /* first of three turns whose rates are an angular velocity in the
                                    axes of the body, of the end; -1: none */
     int index[KINEMATICS_MOST]; /* [count] coordinates */
     double T[6 * KINEMATICS_MOST]; /* [6 x count] its spatial motion by increments of them */
-} released;
-void released_columns(const model *, const model_state *, int vertex, released *);
+} released_masses;
+void released_columns(const model *, const model_state *, int vertex, released_masses *);
 
 /* As forms_rates and forms_add_force have it of nodes. */
 void released_rates(const model *, const model_state *, int vertex, const double v[],
@@ -28,10 +28,10 @@ void released_moving(const double own[6], double mass, const double moment[3], f
 
 /* out[6 x count]: T, whose columns are multiplied: by `plain`, those of turns in the axes of body
  * and end by matrices [3 x 3] from the right. */
-void released_motion(const released *, double plain, const double body[9], const double ball[9],
-                     double out[6 * KINEMATICS_MOST]);
+void released_motion(const released_masses *, double plain, const double body[9],
+                     const double ball[9], double out[6 * KINEMATICS_MOST]);
 /* out[count x count] += T^T A motion */
-void released_project(const released *, const double A[36], const double motion[],
+void released_project(const released_masses *, const double A[36], const double motion[],
                       double out[KINEMATICS_MOST * KINEMATICS_MOST]);
 
 #endif

@@ -21,16 +21,16 @@ static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
 
 /* One resultant, times a sign; its magnitude where the sign is zero. */
-typedef struct chosen {
+typedef struct chosen_resultants {
     scene_resultant resultant;
     double sign;
-} chosen;
+} chosen_resultants;
 
 static double measured(void *context, int element, double x, const double resultants[])
 {
     (void)element;
     (void)x;
-    const chosen *what = context;
+    const chosen_resultants *what = context;
     const double value = resultants[value_of[what->resultant]];
     return what->sign != 0 ? what->sign * value : fabs(value);
 }
@@ -42,7 +42,7 @@ static status internal_of(const equations *eq, const scene_internal *what, const
     if (what->along != SCENE_ALONG_PLACE) {
         static const double sign[] = {
             [SCENE_ALONG_MAX] = 1, [SCENE_ALONG_MIN] = -1, [SCENE_ALONG_LARGEST] = 0};
-        chosen of = {what->resultant, sign[what->along]};
+        chosen_resultants of = {what->resultant, sign[what->along]};
         TRY(internal_largest(eq, s, what->member, measured, &of, out, f));
         *out *= of.sign < 0 ? -1 : 1;
         return STATUS_OK;

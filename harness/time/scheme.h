@@ -9,14 +9,14 @@
 
 typedef struct scheme_request {
     analysis_context *c;
-    const carried *masses;
+    const carried_masses *masses;
     const scene_motion *how;
-    work *work;   /* of what acts from outside: for instant.work */
-    int estimate; /* 1: the error of each step is wanted */
+    outer_work *work; /* of what acts from outside: for instant.work */
+    int estimate;     /* 1: the error of each step is wanted */
 } scheme_request;
 
-typedef struct scheme scheme;
-struct scheme {
+typedef struct motion_scheme motion_scheme;
+struct motion_scheme {
     int order;             /* of the error of one step that is estimated, in its size */
     int adds;              /* 1: the estimates add up to the error of the motion; 0: they are of a
                               lower order and far above it */
@@ -25,9 +25,9 @@ struct scheme {
     between_degree degree; /* inside a step; quintic: accelerations are as exact as rates */
     /* One step of h [s]; *error: estimate of what it adds to positions, in the measure of
      * metric.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
-    status (*step)(scheme *, const instant *from, double h, instant *to, double *error,
+    status (*step)(motion_scheme *, const instant *from, double h, instant *to, double *error,
                    step_record *, fault *);
-    void (*free)(scheme *);
+    void (*free)(motion_scheme *);
 };
 
 #endif

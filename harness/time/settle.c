@@ -32,7 +32,7 @@ static double *diagonal_of(const sparse *S, double out[])
 }
 
 /* What acts, at the accelerations that are known; K: NULL: not wanted. */
-static status forces(stage *s, instant *now, sparse *K, fault *f)
+static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
@@ -44,18 +44,18 @@ static status forces(stage *s, instant *now, sparse *K, fault *f)
 }
 
 /* What an iteration works on. */
-typedef struct solution {
-    stage *s;
+typedef struct settle_solution {
+    motion_stage *s;
     const double *zero;
     instant *now;
     double b, *moved;
-} solution;
+} settle_solution;
 
 static status correct(void *of, int iteration, newton_correction *out, step_record *record,
                       fault *f)
 {
-    solution *one = of;
-    stage *s = one->s;
+    settle_solution *one = of;
+    motion_stage *s = one->s;
     instant *now = one->now;
     const model *m = s->c->model;
     (void)iteration;
@@ -78,9 +78,9 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     return STATUS_OK;
 }
 
-static status balance(stage *s, const double zero[], instant *now, double moved[], fault *f)
+static status balance(motion_stage *s, const double zero[], instant *now, double moved[], fault *f)
 {
-    solution one = {s, zero, now, 0, moved};
+    settle_solution one = {s, zero, now, 0, moved};
     step_record record = {.path = now->time};
     const newton_use use = newton_in_time(s->c, &one, correct, NULL);
     instant_recall(now, &s->arrival);
@@ -117,8 +117,8 @@ static int creeping(const model *m, double h, unsigned char of[])
 }
 
 /* Balance where positions that damping holds give way by a part of what they move in h. */
-static status give_way(stage *s, const double zero[], double h, double softness, instant *now,
-                       double moved[], fault *f)
+static status give_way(motion_stage *s, const double zero[], double h, double softness,
+                       instant *now, double moved[], fault *f)
 {
     const model *m = s->c->model;
     memcpy(now->strain2, now->state->e,
@@ -130,7 +130,7 @@ static status give_way(stage *s, const double zero[], double h, double softness,
 /* First the rates, which a way tells that is long enough to have digits, and as if nothing had been
  * moved the balance of what no damping holds. What iterations had left between D(x) and e would be
  * a way, too. */
-static status creep(stage *s, const double zero[], double h, instant *now, double moved[],
+static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
                     const unsigned char of[], fault *f)
 {
     const double telling = 1e-6, nothing = 1e-9;
@@ -155,7 +155,7 @@ static status creep(stage *s, const double zero[], double h, instant *now, doubl
     return damping_now(&s->c->eq, now, f);
 }
 
-static status find_balance(stage *s, const double zero[], double h, instant *now, fault *f)
+static status find_balance(motion_stage *s, const double zero[], double h, instant *now, fault *f)
 {
     const model *m = s->c->model;
     double *moved = calloc((size_t)s->free + 1, sizeof *moved);
@@ -170,7 +170,7 @@ static status find_balance(stage *s, const double zero[], double h, instant *now
     return outcome;
 }
 
-status settle(stage *s, const double zero[], double h, instant *now, fault *f)
+status settle(motion_stage *s, const double zero[], double h, instant *now, fault *f)
 {
     const model *m = s->c->model;
     memset(now->a, 0, (size_t)s->free * sizeof *now->a);

@@ -9,6 +9,6 @@
  * whose gyroscopic moments it takes; then accelerations follow, 0 of what has none. What damping
  * holds where it is for longer than a part of the step h [s] stays there and takes the rates that
  * make the balance. zero[free + driven]. NOT_CONVERGED: there is no such balance. */
-status settle(stage *, const double zero[], double h, instant *now, fault *);
+status settle(motion_stage *, const double zero[], double h, instant *now, fault *);
 
 #endif

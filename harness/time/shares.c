@@ -43,7 +43,7 @@ static void add_spread(const model *m, const model_state *s, const shares_motion
 status shares_node(const model *m, const model_state *s, const shares_motion *motion, int node,
                    double F[6], fault *f)
 {
-    carried all;
+    carried_masses all;
     double place[3], rho[3];
     TRY(motion->spread ? carried_alloc_spread(m, &all, f) : carried_alloc(m, &all, f));
     kinematics_position(m, s, node, place);

@@ -218,7 +218,7 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
             }
             continue;
         }
-        released of;
+        released_masses of;
         double motion[6 * KINEMATICS_MOST];
         released_columns(m, p->state, el->vertex[k], &of);
         released_motion(&of, plain, moves != NULL ? turn : one, moves != NULL ? moves[k].ball : one,

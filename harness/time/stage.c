@@ -13,7 +13,7 @@
 #include "harness/time/increment.h"
 #include "harness/time/kinks.h"
 
-status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *f)
+status stage_alloc(analysis_context *c, const carried_masses *masses, motion_stage *s, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const sparse *pattern;
@@ -35,7 +35,7 @@ status stage_alloc(analysis_context *c, const carried *masses, stage *s, fault *
     return factor_alloc(pattern, &s->factor, f);
 }
 
-void stage_free(stage *s)
+void stage_free(motion_stage *s)
 {
     free(s->residual);
     free(s->dx);
@@ -50,7 +50,7 @@ int stage_stands(const arrival *a)
     return a->correction <= near && a->stress_change <= near && a->correction <= slow * a->before;
 }
 
-static void rates_of(const stage *s, stage_rates *r)
+static void rates_of(const motion_stage *s, stage_rates *r)
 {
     for (int i = 0; i < s->free; i++) {
         r->v[i] = r->v0[i] + r->g * r->inc[i];
@@ -58,7 +58,7 @@ static void rates_of(const stage *s, stage_rates *r)
     }
 }
 
-status stage_direction(stage *s, int fresh, fault *f)
+status stage_direction(motion_stage *s, int fresh, fault *f)
 {
     if (fresh)
         TRY(context_factor(s->c, s->factor, &s->S, f));
@@ -71,8 +71,8 @@ status stage_direction(stage *s, int fresh, fault *f)
 
 /* dx, from the equations of the present state. fresh 0: with the factors of the iteration before.
  */
-static status direction(stage *s, int fresh, double time, const stage_rates *r, model_state *now,
-                        step_record *record, fault *f)
+static status direction(motion_stage *s, int fresh, double time, const stage_rates *r,
+                        model_state *now, step_record *record, fault *f)
 {
     const model *m = s->c->model;
     model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
@@ -92,19 +92,19 @@ static status direction(stage *s, int fresh, double time, const stage_rates *r, 
 }
 
 /* What an iteration of a stage works on. */
-typedef struct solution {
-    stage *s;
+typedef struct stage_solution {
+    motion_stage *s;
     const model_state *from;
     double time;
     stage_rates *r;
     model_state *now;
-} solution;
+} stage_solution;
 
 static status correct(void *of, int iteration, newton_correction *out, step_record *record,
                       fault *f)
 {
-    const solution *one = of;
-    stage *s = one->s;
+    const stage_solution *one = of;
+    motion_stage *s = one->s;
     const model *m = s->c->model;
     const int fresh = iteration == 1 || !stage_stands(&s->arrival);
     TRY(direction(s, fresh, one->time, one->r, one->now, record, f));
@@ -119,14 +119,14 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 
 static void prepare(void *of, int iteration, double correction)
 {
-    const solution *one = of;
+    const stage_solution *one = of;
     complement_strains(one->s->complement, one->now, iteration, correction);
 }
 
-status stage_solve(stage *s, const model_state *from, double time, stage_rates *r, model_state *now,
-                   step_record *record, fault *f)
+status stage_solve(motion_stage *s, const model_state *from, double time, stage_rates *r,
+                   model_state *now, step_record *record, fault *f)
 {
-    solution one = {s, from, time, r, now};
+    stage_solution one = {s, from, time, r, now};
     const newton_use use = newton_in_time(s->c, &one, correct, prepare);
     increment_apply(s->c->model, from, r->inc, time, now);
     rates_of(s, r);

@@ -17,24 +17,24 @@
  * below as many iterations as with factors of their own. */
 int stage_stands(const arrival *);
 
-typedef struct stage {
+typedef struct motion_stage {
     analysis_context *c;
-    const carried *masses;
+    const carried_masses *masses;
     sparse S;
-    factor *factor;
+    matrix_factor *factor;
     double *residual, *dx; /* [free + driven] */
     arrival arrival;
     complement *complement;
     int all, free;
     int begins; /* 1: at a kink what acts behind it counts, 0: what acts before */
     long counted;
-} stage;
+} motion_stage;
 
-status stage_alloc(analysis_context *, const carried *, stage *, fault *);
-void stage_free(stage *);
+status stage_alloc(analysis_context *, const carried_masses *, motion_stage *, fault *);
+void stage_free(motion_stage *);
 
 /* S dx = residual; fresh 0: with the factors that there are. */
-status stage_direction(stage *, int fresh, fault *);
+status stage_direction(motion_stage *, int fresh, fault *);
 
 /* All arrays [free + driven]. */
 typedef struct stage_rates {
@@ -44,7 +44,7 @@ typedef struct stage_rates {
 } stage_rates;
 /* `now` has the strains and stresses of `from`, or better ones, and comes to the state at `time`.
  * NOT_CONVERGED: why; then `now` is of no use. */
-status stage_solve(stage *, const model_state *from, double time, stage_rates *, model_state *now,
-                   step_record *, fault *);
+status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
+                   model_state *now, step_record *, fault *);
 
 #endif

@@ -29,7 +29,7 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
 
 /* Columns of stage k after each other; returns the entries. NULL row: they are counted. */
 static int fill(const equations *eq, const sparse *single, const int frame_of[],
-                const carried *masses, stages_matrix *out, int *row)
+                const carried_masses *masses, stages_matrix *out, int *row)
 {
     const model *m = eq->m;
     const int n = out->n, full = model_releases(m) > 0 || eq->run->damping != NULL ||
@@ -58,8 +58,8 @@ static int fill(const equations *eq, const sparse *single, const int frame_of[],
     return count;
 }
 
-static status make(const equations *eq, const carried *masses, const sparse *single, int frame_of[],
-                   stages_matrix *out, fault *f)
+static status make(const equations *eq, const carried_masses *masses, const sparse *single,
+                   int frame_of[], stages_matrix *out, fault *f)
 {
     const model *m = eq->m;
     for (int c = 0; c < model_unknowns(m); c++)
@@ -84,7 +84,7 @@ static status make(const equations *eq, const carried *masses, const sparse *sin
     return STATUS_OK;
 }
 
-status stages_alloc(const equations *eq, const carried *masses, const sparse *single,
+status stages_alloc(const equations *eq, const carried_masses *masses, const sparse *single,
                     stages_matrix *out, fault *f)
 {
     const model *m = eq->m;

@@ -18,8 +18,8 @@ typedef struct stages_matrix {
 } stages_matrix;
 
 /* single: pattern of one block, whole. */
-status stages_alloc(const equations *, const carried *, const sparse *single, stages_matrix *,
-                    fault *);
+status stages_alloc(const equations *, const carried_masses *, const sparse *single,
+                    stages_matrix *, fault *);
 void stages_free(stages_matrix *);
 /* The block of a stage on the diagonal becomes K; the others zero it first. */
 void stages_put(stages_matrix *, int stage, const sparse *K);

@@ -10,10 +10,10 @@
 typedef struct stations {
     analysis_context *c;
     int analysis;
-    const carried *masses;
-    scheme *scheme;
+    const carried_masses *masses;
+    motion_scheme *scheme;
     outcome_motion *out;
-    between inside;
+    step_between inside;
     instant at;
 } stations;
 

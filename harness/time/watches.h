@@ -22,11 +22,11 @@ typedef struct watched {
 typedef struct watches {
     analysis_context *c;
     int analysis;
-    scheme *scheme;
+    motion_scheme *scheme;
     outcome_motion *out;
     int count;
     watched *one; /* [count] */
-    between inside;
+    step_between inside;
     instant at;
 } watches;
 

@@ -22,14 +22,14 @@ static int is_driven(const model *m, const mesh_element *el)
     return 0;
 }
 
-status work_alloc(const equations *eq, const carried *masses, work *w, fault *f)
+status work_alloc(const equations *eq, const carried_masses *masses, outer_work *w, fault *f)
 {
     const model *m = eq->m;
-    *w = (work){.eq = eq,
-                .m = m,
-                .masses = masses,
-                .force = calloc(2 * (size_t)model_all_coordinates(m) + 1, sizeof *w->force),
-                .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
+    *w = (outer_work){.eq = eq,
+                      .m = m,
+                      .masses = masses,
+                      .force = calloc(2 * (size_t)model_all_coordinates(m) + 1, sizeof *w->force),
+                      .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
     if (w->force == NULL || w->element == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the work of a motion");
     w->holding = w->force + model_all_coordinates(m);
@@ -39,14 +39,14 @@ status work_alloc(const equations *eq, const carried *masses, work *w, fault *f)
     return STATUS_OK;
 }
 
-void work_free(work *w)
+void work_free(outer_work *w)
 {
     free(w->force);
     free(w->element);
 }
 
 /* Sum over the coordinates; moments of frames whose rates are in their own axes are spatial. */
-static double product(const work *w, const model_state *s, const double along[])
+static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
     double sum = dense_dot(model_all_coordinates(m), w->force, along);
@@ -68,7 +68,7 @@ static double product(const work *w, const model_state *s, const double along[])
 }
 
 /* All that acts on driven coordinates from outside, loads too: what stresses and inertia take. */
-static void hold(work *w, const model_state *s, const double v[], const double a[])
+static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;
     const int all = model_all_coordinates(m);
@@ -81,8 +81,8 @@ static void hold(work *w, const model_state *s, const double v[], const double a
            (size_t)model_driven(m) * sizeof *w->force);
 }
 
-double work_power(work *w, const model_state *s, const double v[], const double a[], double time,
-                  const double along[])
+double work_power(outer_work *w, const model_state *s, const double v[], const double a[],
+                  double time, const double along[])
 {
     const model *m = w->m;
     memset(w->force, 0, (size_t)model_all_coordinates(m) * sizeof *w->force);
@@ -94,7 +94,7 @@ double work_power(work *w, const model_state *s, const double v[], const double 
     return product(w, s, along);
 }
 
-double work_trapezoid(work *w, const instant *from, const instant *to, const double inc[])
+double work_trapezoid(outer_work *w, const instant *from, const instant *to, const double inc[])
 {
     return (work_power(w, from->state, from->v, from->a, from->time, inc) +
             work_power(w, to->state, to->v, to->a, kinks_before(w->m, to->time), inc)) /

@@ -23,7 +23,7 @@ static char *written(const scene *s, const case_type *type, size_t *size)
     return text;
 }
 
-static void check_point(const point *p)
+static void check_point(const sweep_point *p)
 {
     size_t size = 0;
     char *text = written(&p->scene, p->type, &size);

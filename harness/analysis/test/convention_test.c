@@ -9,9 +9,9 @@
 #include "harness/tools/kit/cells.h"
 
 /* Last station's matrices of a sheet case with collocation elements. */
-typedef struct matrices {
+typedef struct convention_matrices {
     double C[36], K[36];
-} matrices;
+} convention_matrices;
 
 static void solve(const char *case_name, const char *const assignment[], const char *chosen,
                   cell_result *out)
@@ -22,12 +22,12 @@ static void solve(const char *case_name, const char *const assignment[], const c
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "%s solved: %s", case_name, f.text);
 }
 
-static matrices of(const char *case_name, const char *convention, const char *more,
-                   const char *and_more)
+static convention_matrices of(const char *case_name, const char *convention, const char *more,
+                              const char *and_more)
 {
     const char *const assignment[] = {convention, more, and_more, NULL};
     cell_result r;
-    matrices out = {{NAN}, {NAN}};
+    convention_matrices out = {{NAN}, {NAN}};
     solve(case_name, assignment, "collocation", &r);
     gsl_test(r.solve.matrix_sets != 1 ||
                  strcmp(strchr(convention, '=') + 1,
@@ -52,7 +52,7 @@ static double asymmetry(const double A[36])
 
 static void inverse(void)
 {
-    const matrices m = of("sheet_wagner", "moment_convention=spatial", NULL, NULL);
+    const convention_matrices m = of("sheet_wagner", "moment_convention=spatial", NULL, NULL);
     double worst = 0;
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++) {
@@ -69,12 +69,14 @@ static void inverse(void)
 /* N 4.1's cases: how much the convention matters. */
 static void sheets(void)
 {
-    const matrices near = of("sheet_cantilever", "moment_convention=spatial", NULL, NULL),
-                   near_sym = of("sheet_cantilever", "moment_convention=symmetrised", NULL, NULL),
-                   far = of("sheet_cantilever", "moment_convention=spatial", "tip_deflection=0.05",
-                            NULL),
-                   far_sym = of("sheet_cantilever", "moment_convention=symmetrised",
-                                "tip_deflection=0.05", NULL);
+    const convention_matrices near =
+                                  of("sheet_cantilever", "moment_convention=spatial", NULL, NULL),
+                              near_sym = of("sheet_cantilever", "moment_convention=symmetrised",
+                                            NULL, NULL),
+                              far = of("sheet_cantilever", "moment_convention=spatial",
+                                       "tip_deflection=0.05", NULL),
+                              far_sym = of("sheet_cantilever", "moment_convention=symmetrised",
+                                           "tip_deflection=0.05", NULL);
     const int zz = 6 * 2 + 2;
     gsl_test_abs(near_sym.C[zz] / near.C[zz] - 1, 3.31e-5, 1e-7,
                  "C_zz at 0.15 L: symmetrised against spatial");
@@ -90,10 +92,12 @@ static void reciprocity(void)
                                                                              "wagner=0"};
     static const double apart[] = {0.14635, 0.31830}, changed[] = {0.07425, 0.15996};
     for (int i = 0; i < 2; i++) {
-        const matrices spatial = of("sheet_wagner", "moment_convention=spatial", tip[i], wagner[i]),
-                       half = of("sheet_wagner", "moment_convention=semitangential", tip[i],
-                                 wagner[i]),
-                       sym = of("sheet_wagner", "moment_convention=symmetrised", tip[i], wagner[i]);
+        const convention_matrices spatial = of("sheet_wagner", "moment_convention=spatial", tip[i],
+                                               wagner[i]),
+                                  half = of("sheet_wagner", "moment_convention=semitangential",
+                                            tip[i], wagner[i]),
+                                  sym = of("sheet_wagner", "moment_convention=symmetrised", tip[i],
+                                           wagner[i]);
         gsl_test_abs(spatial.C[thy_Fx] / spatial.C[ux_My] - 1, apart[i], 1e-5,
                      "%s, spatial: thy by Fx and ux by My", tip[i]);
         gsl_test_abs(sym.C[ux_My] / spatial.C[ux_My] - 1, changed[i], 1e-5,
@@ -173,14 +177,14 @@ static status tilted_hinge(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-static matrices of_hinge(const char *rotation, const char *convention, double force,
-                         int in_other_axes)
+static convention_matrices of_hinge(const char *rotation, const char *convention, double force,
+                                    int in_other_axes)
 {
     case_type type = *case_find("cross_flexure", NULL);
     cell_request request = cells_of(&type, "collocation", 2);
     fault f = {""};
     cell_result r;
-    matrices out = {{NAN}, {NAN}};
+    convention_matrices out = {{NAN}, {NAN}};
     cells_set(&request, (const char *const[]){rotation, convention, NULL});
     request.parameter[TILTED] = force;
     request.parameter[TURNED] = in_other_axes;
@@ -239,9 +243,11 @@ static void partly_free_turns(void)
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 2; k++)
             for (int tilted = 0; tilted < 2; tilted++) {
-                const matrices here = of_hinge(rotation[i], convention[k], 0.5 * tilted, 0),
-                               there = of_hinge(rotation[i], convention[k], 0.5 * tilted, 1);
-                matrices expected;
+                const convention_matrices here =
+                                              of_hinge(rotation[i], convention[k], 0.5 * tilted, 0),
+                                          there =
+                                              of_hinge(rotation[i], convention[k], 0.5 * tilted, 1);
+                convention_matrices expected;
                 in_other_axes(here.C, expected.C);
                 in_other_axes(here.K, expected.K);
                 gsl_test(!(block_difference(there.C, expected.C) <= 1e-7),

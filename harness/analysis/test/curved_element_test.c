@@ -19,13 +19,13 @@
 
 enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, POINTS = 32 };
 
-typedef struct subject {
+typedef struct element_subject {
     const formulation *chosen;
     double length, turn[3], strain[3];
     element_data *data;
     int nodes, strains;
     double inner[INNER];
-} subject;
+} element_subject;
 
 static section rectangle(void)
 {
@@ -36,7 +36,7 @@ static section rectangle(void)
 
 /* Turns up to `most` [rad]. Wagner torque and initial torsion are not offered together. */
 static status prepare(const formulation *chosen, const section *c, double most, uint64_t *state,
-                      subject *out, fault *f)
+                      element_subject *out, fault *f)
 {
     const element_type *type = chosen->type;
     memset(out, 0, sizeof *out);
@@ -64,7 +64,8 @@ static status prepare(const formulation *chosen, const section *c, double most, 
 }
 
 /* r = int_0^x R (e_x + strain) dt and R = exp(x turn~), by quadrature. */
-static void along_arc(const subject *s, double x, const double strain[3], double r[3], double R[9])
+static void along_arc(const element_subject *s, double x, const double strain[3], double r[3],
+                      double R[9])
 {
     double t[POINTS], w[POINTS], q[4];
     const double direction[3] = {1 + strain[0], strain[1], strain[2]};
@@ -84,7 +85,7 @@ static void along_arc(const subject *s, double x, const double strain[3], double
 }
 
 /* Nodes of the stress-free element, moved as a rigid body. */
-static void place(const subject *s, const double motion[6], node_state x[])
+static void place(const element_subject *s, const double motion[6], node_state x[])
 {
     const double none[3] = {0};
     double q[4], turned[9];
@@ -105,7 +106,7 @@ static void place(const subject *s, const double motion[6], node_state x[])
     }
 }
 
-static status stress_at(subject *s, const double e[], stress_output *out)
+static status stress_at(element_subject *s, const double e[], stress_output *out)
 {
     static double memory[MEMORY];
     const element_type *type = s->chosen->type;
@@ -114,7 +115,7 @@ static status stress_at(subject *s, const double e[], stress_output *out)
 }
 
 /* Largest stress, of what a strain of one would give. */
-static double stress_of_arc(subject *s, const double motion[6])
+static double stress_of_arc(element_subject *s, const double motion[6])
 {
     node_state x[ELEMENT_MAX_NODES];
     double e[STRAINS], sigma[STRAINS], C[STRAINS * STRAINS], worst = 0;
@@ -133,7 +134,7 @@ static double stress_of_arc(subject *s, const double motion[6])
 
 /* Largest difference between the derivative of the energy and the stress about the arc, of the
  * stress there. */
-static double error_of_stress(subject *s)
+static double error_of_stress(element_subject *s)
 {
     const double h = 1e-5 * s->length;
     double e[STRAINS], sigma[STRAINS], largest = 0, worst = 0;
@@ -155,7 +156,7 @@ static double error_of_stress(subject *s)
 
 /* The same of the tangent along the strain that the prestress makes, and the geometric
  * stiffness. */
-static double error_of_geometric(subject *s)
+static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;
     double e[STRAINS] = {0}, v[STRAINS], sigma[STRAINS] = {0}, C[3][STRAINS * STRAINS],
@@ -185,12 +186,12 @@ static void arcs(const formulation *chosen, const section *c)
     uint64_t state = 20240101;
     double stress = 0, derived = 0, geometric = 0;
     fault f = {""};
-    subject straight;
+    element_subject straight;
     const int whole = prepare(chosen, c, 0, &state, &straight, &f) == STATUS_OK &&
                       chosen->type->inner == NULL && error_of_geometric(&straight) < 1e-6;
     free(straight.data);
     for (int i = 0; i < ARCS; i++) {
-        subject s;
+        element_subject s;
         const status outcome = prepare(chosen, c, most * (i + 1) / ARCS, &state, &s, &f);
         gsl_test(outcome != STATUS_OK, "%s: arc %d: %s", chosen->key, i, f.text);
         if (outcome == STATUS_OK) {

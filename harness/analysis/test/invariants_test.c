@@ -70,21 +70,22 @@ static void short_path(const case_type *type, int size, char words[])
 }
 
 /* One formulation on one case. */
-typedef struct subject {
+typedef struct invariants_subject {
     const case_type *type;
     const element_type *formulation;
     ask_tally *tally;
     int coarse; /* elements per member that the case needs: 2, where those can follow it */
-} subject;
+} invariants_subject;
 
-static void ask_about(const subject *s, int n, int keep_all, scene_edit edit, answer *out)
+static void ask_about(const invariants_subject *s, int n, int keep_all, scene_edit edit,
+                      answer *out)
 {
     char path[SCENE_NAME];
     short_path(s->type, sizeof path, path);
     ask(&(question){s->type, path, s->formulation, n, keep_all, edit}, out);
 }
 
-static int found(const subject *s, int n, int keep_all, scene_edit edit, answer *out)
+static int found(const invariants_subject *s, int n, int keep_all, scene_edit edit, answer *out)
 {
     ask_about(s, n, keep_all, edit, out);
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
@@ -92,7 +93,7 @@ static int found(const subject *s, int n, int keep_all, scene_edit edit, answer 
 
 /* Two elements cannot follow every path (a circle): the coarsest mesh that does, as the next one
  * does, and their answers.  0: none of them answers. */
-static int found_coarsest(subject *s, answer *out, answer *next)
+static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
         ask_about(s, s->coarse, 0, unchanged, out);
@@ -104,7 +105,8 @@ static int found_coarsest(subject *s, answer *out, answer *next)
 }
 
 /* An edit of the scene changes nothing. */
-static void same(const subject *s, const char *what, const answer *before, int n, scene_edit edit)
+static void same(const invariants_subject *s, const char *what, const answer *before, int n,
+                 scene_edit edit)
 {
     static answer after;
     const char *whose;
@@ -117,7 +119,7 @@ static void same(const subject *s, const char *what, const answer *before, int n
 
 /* Amplitudes of warping that are kept where nothing warps make the twist of some formulations a
  * cubic: a better mesh, and the same continuum.  Of twice the coarsest one there is an answer. */
-static void keep_all(const subject *s, const answer *fine)
+static void keep_all(const invariants_subject *s, const answer *fine)
 {
     static answer finer, full;
     const answer *const lean[2] = {fine, &finer};
@@ -140,7 +142,7 @@ static void keep_all(const subject *s, const answer *fine)
 static void one_case(const case_type *type, const element_type *e, ask_tally *tally)
 {
     static answer coarse, fine;
-    subject s = {type, e, tally, 0};
+    invariants_subject s = {type, e, tally, 0};
     if (!found_coarsest(&s, &coarse, &fine))
         return;
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);

@@ -33,13 +33,13 @@ static void sequences(void)
         {"no number", 4, {1, 0.1, NAN, NAN}, REFINEMENT_LOST},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        refinement r = {0};
+        solution_refinement r = {0};
         for (int k = 0; k < row[i].count; k++)
             gsl_test_int((int)refinement_next(&r, row[i].correction[k]),
                          (int)(k == row[i].count - 1 ? row[i].end : REFINEMENT_GOES_ON),
                          "%s: correction %d", row[i].what, k);
     }
-    refinement r = {0};
+    solution_refinement r = {0};
     double correction = 1;
     int steps = 1;
     while (refinement_next(&r, correction *= 0.9) == REFINEMENT_GOES_ON && steps < 1000)

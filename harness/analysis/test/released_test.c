@@ -10,14 +10,14 @@
 
 static const double young = 2e11, side = 0.02, length = 1;
 
-typedef struct request {
+typedef struct released_request {
     double force, moment; /* loads at the driven node, parts of EI/l^2, EI/l */
     unsigned driven;      /* components of the tip */
-} request;
+} released_request;
 
 /* A cantilever, its tip driven away; all entries of the compliance that Fx .. Mz make of the driven
  * components. */
-static void make(scene *s, const request *what)
+static void make(scene *s, const released_request *what)
 {
     static const double to[6] = {-0.002, 0.06, -0.03, 0.04, 0.05, 0.1}, y[3] = {0, 1, 0.3},
                         path[2] = {0, 1};
@@ -47,7 +47,7 @@ static void make(scene *s, const request *what)
     }
 }
 
-static void solve(const element_type *type, const request *what, answer *out)
+static void solve(const element_type *type, const released_request *what, answer *out)
 {
     scene s;
     scene_init(&s, "released");
@@ -70,13 +70,13 @@ static double apart(const answer *a, const answer *b)
 
 int main(void)
 {
-    static const request driven[] = {{0, 0, 0x3f}, {0.5, 0, 0x38}};
+    static const released_request driven[] = {{0, 0, 0x3f}, {0.5, 0, 0x38}};
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         ask_tally t = {.values = 0};
         for (int k = 0; k < 2; k++) {
             answer without, with;
-            request loaded = driven[k];
+            released_request loaded = driven[k];
             loaded.moment += 0.9;
             loaded.force += (loaded.driven & 7U) != 0 ? 0.6 : 0;
             solve(type, &driven[k], &without);

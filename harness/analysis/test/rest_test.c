@@ -20,10 +20,10 @@ static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };
 
-typedef struct tally {
+typedef struct rest_tally {
     int points, checked, not_offered;
     int of[FORMULATIONS]; /* checked, of each formulation */
-} tally;
+} rest_tally;
 
 static double dimension(const scene *s)
 {
@@ -112,7 +112,7 @@ static double largest(const scene *s, const solve_result *r, const char **whose)
     return worst;
 }
 
-static void rests(const point *p, const formulation *chosen, int elements)
+static void rests(const sweep_point *p, const formulation *chosen, int elements)
 {
     const char *whose = "nothing";
     scene s;
@@ -156,7 +156,7 @@ static int choices_of(const element_type *type, formulation list[CHOICES])
     return count;
 }
 
-static void every_formulation(const point *p, tally *t)
+static void every_formulation(const sweep_point *p, rest_tally *t)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         formulation list[CHOICES];
@@ -182,7 +182,7 @@ int main(void)
     truths known;
     sweep plan;
     fault f = {""};
-    tally t = {0};
+    rest_tally t = {0};
     gsl_test(truths_read(path, &known, &f) != STATUS_OK, "truths: %s", f.text);
     if (plan_sweep(&all, &known, &plan, &f) != STATUS_OK) {
         gsl_test(1, "plan: %s", f.text);

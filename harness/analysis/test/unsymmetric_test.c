@@ -9,12 +9,12 @@
 
 /* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` planes that do
  * not touch, the stiffness of the second one `ratio` times that of the first; P follows the tip. */
-typedef struct column {
+typedef struct checked_column {
     sparse K, M, C;
-} column;
+} checked_column;
 
 static void add_plane(int elements, int planes, int plane, double P, double stiffness, double tip,
-                      double eta, column *c)
+                      double eta, checked_column *c)
 {
     double k[16], g[16], m[16];
     const int n = 2 * elements;
@@ -35,7 +35,7 @@ static void add_plane(int elements, int planes, int plane, double P, double stif
 }
 
 static void column_init(int elements, int planes, double P, double ratio, double tip, double eta,
-                        column *c)
+                        checked_column *c)
 {
     const int n = 2 * elements * planes;
     double *full = calloc((size_t)n * (size_t)n, sizeof *full);
@@ -52,16 +52,16 @@ static void column_init(int elements, int planes, double P, double ratio, double
     free(full);
 }
 
-static void column_free(column *c)
+static void column_free(checked_column *c)
 {
     matrices_free(&c->K);
     matrices_free(&c->M);
     matrices_free(&c->C);
 }
 
-static void solve(const column *c, int damped, int wanted, unsymmetric_result *r)
+static void solve(const checked_column *c, int damped, int wanted, unsymmetric_result *r)
 {
-    factor *fa = NULL;
+    matrix_factor *fa = NULL;
     fault f = {""};
     factor_alloc(&c->K, &fa, &f);
     gsl_test_int((int)factor_numeric(fa, &c->K, &f), STATUS_OK, "%s", f.text);
@@ -74,7 +74,7 @@ static void solve(const column *c, int damped, int wanted, unsymmetric_result *r
  */
 static double difference(double P, int elements, double tip)
 {
-    column c;
+    checked_column c;
     unsymmetric_result r;
     column_init(elements, 1, P, 1, tip, 0, &c);
     solve(&c, 0, 4, &r);
@@ -125,7 +125,7 @@ static void near_flutter(void)
         for (int planes = 1; planes <= 2; planes++) {
             static const double ratio[] = {1, 1 + 1e-9, 1 + 1e-4};
             for (int k = 0; k < 3; k++) {
-                column c;
+                checked_column c;
                 unsymmetric_result r;
                 column_init(32, planes, load[i], ratio[k], 0, 0, &c);
                 solve(&c, 0, 4 * planes, &r);
@@ -156,7 +156,7 @@ static void damped(void)
 {
     static const double load[] = {10.9, 10.97, 20};
     for (int i = 0; i < 3; i++) {
-        column c;
+        checked_column c;
         unsymmetric_result r;
         double growth = -INFINITY;
         column_init(16, 1, load[i], 1, 0, 1e-3, &c);
@@ -174,7 +174,7 @@ static void damped(void)
 static void unloaded(void)
 {
     static const double root[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735};
-    column c;
+    checked_column c;
     unsymmetric_result r;
     column_init(32, 2, 0, 1, 0, 0, &c);
     solve(&c, 0, 8, &r);

@@ -14,9 +14,9 @@ static const parameter_type table[] = {
 };
 static const case_type strip = {.name = "strip", .parameters = {table}};
 
-static axis read_good(const char *text)
+static sweep_axis read_good(const char *text)
 {
-    axis a;
+    sweep_axis a;
     fault f = {""};
     gsl_test(axis_read(&strip, text, &a, &f) != STATUS_OK, "%s is read: %s", text, f.text);
     return a;
@@ -24,7 +24,7 @@ static axis read_good(const char *text)
 
 static void values_are(const char *text, axis_kind kind, int count, const double right[])
 {
-    axis a = read_good(text);
+    sweep_axis a = read_good(text);
     gsl_test(a.kind != kind, "%s: kind %s", text, axis_kind_name(a.kind));
     gsl_test_int(a.count, count, "%s: values", text);
     for (int i = 0; i < a.count && i < count; i++)
@@ -35,7 +35,7 @@ static void values_are(const char *text, axis_kind kind, int count, const double
 /* The ends are the numbers that stand there, not sums. */
 static void ends_are_exact(void)
 {
-    axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
+    sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
     gsl_test(axis_value(&a, 0) != 0.2 || axis_value(&a, 7) != 0.9, "equal parts");
     gsl_test(axis_value(&b, 0) != 0.2 || axis_value(&b, 7) != 0.9, "equal ratios");
     axis_free(&a);
@@ -45,8 +45,8 @@ static void ends_are_exact(void)
 /* Where a share of the way is: ends, middles, the share that falls on each word. */
 static void shares(void)
 {
-    axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
-         c = read_good("ends=free,fixed");
+    sweep_axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
+               c = read_good("ends=free,fixed");
     gsl_test_int(a.count, 0, "a range without parts has no values");
     gsl_test_rel(axis_at(&a, 0.25), -0.5, 1e-15, "a quarter of the way");
     gsl_test_rel(axis_at(&b, 0.5), 0.1, 1e-15, "half of the ratio");
@@ -58,7 +58,7 @@ static void shares(void)
 
 static void is_refused(const char *text, const char *word)
 {
-    axis a;
+    sweep_axis a;
     fault f = {""};
     gsl_test(axis_read(&strip, text, &a, &f) != STATUS_REFUSED, "%s is refused", text);
     gsl_test(strstr(f.text, word) == NULL, "%s: says '%s': %s", text, word, f.text);

@@ -65,7 +65,7 @@ static void test_interval(void)
         a[i] = 1;
         b[i] = 2 + i;
     }
-    const against v = against_judge(PAIRS, a, b);
+    const contest_clock v = against_judge(PAIRS, a, b);
     gsl_test_abs(v.ratio, 52, 1e-12, "median of the ratios");
     gsl_test_abs(v.low, 2 + 33, 1e-12, "34th smallest is the lower end (binomial tail)");
     gsl_test_abs(v.high, 2 + 67, 1e-12, "34th largest is the upper end");
@@ -102,7 +102,7 @@ static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
     scene_quantity quantity = {.tolerance = 1e-3};
-    point p = {.scene = {.quantities = 1, .quantity = &quantity}};
+    sweep_point p = {.scene = {.quantities = 1, .quantity = &quantity}};
     quantity_result value[5];
     cell_result cell[5] = {{.size.free = 0}};
     cell_timing timing[5];

@@ -15,17 +15,17 @@ static const parameter_type table[] = {
 static const case_type box = {.name = "box", .parameters = {table}};
 
 /* Of the unit box, without parts. */
-static void unit_axes(axis out[3])
+static void unit_axes(sweep_axis out[3])
 {
     for (int i = 0; i < 3; i++)
-        out[i] = (axis){.of = &table[i], .index = i, .kind = AXIS_LINEAR, .from = 0, .to = 1};
+        out[i] = (sweep_axis){.of = &table[i], .index = i, .kind = AXIS_LINEAR, .from = 0, .to = 1};
 }
 
 /* The last axis changes first. */
 static void grid(void)
 {
     static const double right[] = {0, 1, 0, 2, 0, 3, 5, 1, 5, 2, 5, 3};
-    axis a[2];
+    sweep_axis a[2];
     design d;
     double at[12];
     axis_read(&box, "a=0..5/1", &a[0], NULL);
@@ -44,7 +44,7 @@ static void grid(void)
 static void sobol(void)
 {
     static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};
-    axis a[3];
+    sweep_axis a[3];
     design d;
     double at[10];
     unit_axes(a);
@@ -66,7 +66,7 @@ static double mirrored(int n, int base)
 static void halton(void)
 {
     static const int base[] = {2, 3, 5};
-    axis a[3];
+    sweep_axis a[3];
     design d;
     double at[3 * 200];
     unit_axes(a);
@@ -83,7 +83,7 @@ static void halton(void)
 static void anywhere(design_kind kind)
 {
     enum { POINTS = 2 * DESIGN_STRIDE + 100 };
-    axis a[3];
+    sweep_axis a[3];
     design d;
     double *all = malloc(3 * POINTS * sizeof *all), some[3 * 40];
     unit_axes(a);
@@ -106,7 +106,7 @@ static void anywhere(design_kind kind)
 /* Another seed, other points; the same, the same. */
 static void seeds(void)
 {
-    axis a[3];
+    sweep_axis a[3];
     double at[3][3];
     unit_axes(a);
     for (int i = 0; i < 3; i++) {
@@ -119,7 +119,7 @@ static void seeds(void)
     gsl_test(memcmp(at[0], at[2], sizeof at[0]) == 0, "two seeds, two sequences");
 }
 
-static void is_refused(design_kind kind, const axis *a, long points, const char *word)
+static void is_refused(design_kind kind, const sweep_axis *a, long points, const char *word)
 {
     design d;
     fault f = {""};
@@ -129,7 +129,7 @@ static void is_refused(design_kind kind, const axis *a, long points, const char 
 
 int main(void)
 {
-    axis open[3], parted;
+    sweep_axis open[3], parted;
     grid();
     sobol();
     halton();

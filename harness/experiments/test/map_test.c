@@ -28,13 +28,13 @@ static const struct {
 
 static void map_is(int mixed)
 {
-    ranges r = {.request = {.type = &box, .tolerance = 0.01},
-                .formulations = 1,
-                .meshes = 2,
-                .mesh = {4, 8},
-                .quantities = 1,
-                .points_in_batch = PLACES,
-                .batches = 1};
+    parameter_ranges r = {.request = {.type = &box, .tolerance = 0.01},
+                          .formulations = 1,
+                          .meshes = 2,
+                          .mesh = {4, 8},
+                          .quantities = 1,
+                          .points_in_batch = PLACES,
+                          .batches = 1};
     tally t;
     fault f = {""};
     char *text = NULL;

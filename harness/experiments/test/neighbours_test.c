@@ -11,9 +11,9 @@
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;
 
-typedef struct bench {
+typedef struct neighbours_bench {
     extreme_sweep s;
-    point p;
+    sweep_point p;
     series first, others;
     cell_result cell, other[OUTCOME_NEIGHBOURS];
     quantity_result value, other_value[OUTCOME_NEIGHBOURS];
@@ -22,7 +22,7 @@ typedef struct bench {
     truths t;
     truth row;
     extreme_outcome o;
-} bench;
+} neighbours_bench;
 
 static char words[][16] = {"", "exact", "same", "m"};
 
@@ -37,7 +37,8 @@ static int exact_extreme(void)
 
 /* own: elements of the mesh that is judged; error[0] is its relative error, the others are those of
  * its neighbours; NAN: no value. */
-static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES], bench *b)
+static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
+                 neighbours_bench *b)
 {
     static char name[SCENE_NAME];
     const int index = exact_extreme();
@@ -79,7 +80,7 @@ static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error
 static void expect(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                    outcome_kind kind, const char *what)
 {
-    bench b;
+    neighbours_bench b;
     fault f = {""};
     make(own, mesh, error, &b);
     gsl_test(extreme_judge_first(&b.s, &b.t, &b.o, &f) != STATUS_OK, "%s: %s", what, f.text);

@@ -69,7 +69,7 @@ static inline status numbers_take(void *context, int batch, FILE *from, fault *f
 typedef struct numbers_work {
     numbers n;
     double cost[NUMBERS_BATCHES];
-    work w;
+    shard_work w;
 } numbers_work;
 
 /* It points to itself: it is not copied. */
@@ -78,16 +78,16 @@ static inline void numbers_begin(numbers_work *out)
     out->n = (numbers){.crashes = -1, .fails = -1, .sign = 1};
     for (int i = 0; i < NUMBERS_BATCHES; i++)
         out->cost[i] = 1 + i * 5 % 7;
-    out->w = (work){.verb = "numbers",
-                    .build = "build 1",
-                    .request = "all",
-                    .plan = "0123456789abcdef",
-                    .origin = "{\"arguments\": [\"numbers\"]}",
-                    .batches = NUMBERS_BATCHES,
-                    .cost = out->cost,
-                    .context = &out->n,
-                    .run = numbers_run,
-                    .take = numbers_take};
+    out->w = (shard_work){.verb = "numbers",
+                          .build = "build 1",
+                          .request = "all",
+                          .plan = "0123456789abcdef",
+                          .origin = "{\"arguments\": [\"numbers\"]}",
+                          .batches = NUMBERS_BATCHES,
+                          .cost = out->cost,
+                          .context = &out->n,
+                          .run = numbers_run,
+                          .take = numbers_take};
 }
 
 /* What all batches come to, in this process. */

@@ -104,7 +104,7 @@ static void foreign(void)
 {
     filled of;
     fill(&of);
-    const work right = of.w.w;
+    const shard_work right = of.w.w;
     of.w.w.build = "build 2";
     is_refused(&of, "another build (build 1; this is build 2)");
     of.w.w = right;

@@ -15,7 +15,7 @@ static const parameter_type table[] = {
 static const case_type box = {.name = "box", .parameters = {table}};
 
 /* A grid of 3 x 2 points, one formulation, meshes 4 and 8, two quantities. */
-static void make(ranges *r)
+static void make(parameter_ranges *r)
 {
     memset(r, 0, sizeof *r);
     r->request = (ranges_request){.type = &box, .tolerance = 0.01};
@@ -122,7 +122,7 @@ static void worst_are(const tally *t)
 }
 
 /* Whether points come together or one by one. */
-static void same_in_pieces(const ranges *r, const rows *whole, const tally *right)
+static void same_in_pieces(const parameter_ranges *r, const rows *whole, const tally *right)
 {
     tally t;
     const rows_shape shape = ranges_shape(r);
@@ -151,7 +151,7 @@ static void same_in_pieces(const ranges *r, const rows *whole, const tally *righ
 
 int main(void)
 {
-    ranges r;
+    parameter_ranges r;
     rows w;
     tally t;
     make(&r);

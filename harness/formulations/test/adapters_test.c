@@ -15,16 +15,16 @@
 
 enum { M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };
 
-typedef struct subject {
+typedef struct adapters_subject {
     element_type type;
     element_data *data;
     int nodes, strains, coordinates;
-} subject;
+} adapters_subject;
 
 static const double length = 0.2385;
 static double options[ELEMENT_MAX_OPTIONS];
 
-static void start(const element_type *given, const section *c, subject *out)
+static void start(const element_type *given, const section *c, adapters_subject *out)
 {
     fault f = {""};
     const unsigned features = given->offers & (FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE |
@@ -43,7 +43,7 @@ static void start(const element_type *given, const section *c, subject *out)
 }
 
 /* Energy, forces [n] and stiffness [n x n] of the nodes. */
-static status assemble(const subject *s, const node_state x[], double *energy, double F[],
+static status assemble(const adapters_subject *s, const node_state x[], double *energy, double F[],
                        double K[])
 {
     const int n = s->coordinates, m = s->strains;
@@ -59,7 +59,7 @@ static status assemble(const subject *s, const node_state x[], double *energy, d
 }
 
 /* The formulation that the force of the adapted one comes from. */
-static subject source;
+static adapters_subject source;
 
 static status force_of_source(const element_data *d, const node_state x[], force_output *out)
 {
@@ -99,7 +99,7 @@ static void units(int rows, int columns, double out[])
 }
 
 /* A deformed element, turned as a whole. */
-static void deformed(const subject *s, unsigned seed, node_state x[])
+static void deformed(const adapters_subject *s, unsigned seed, node_state x[])
 {
     double d[N];
     const double turn[3] = {0.7, -1.1, 0.4};
@@ -117,7 +117,8 @@ static void deformed(const subject *s, unsigned seed, node_state x[])
     }
 }
 
-static void compare(const subject *whole, const subject *part, const char *what, double bound)
+static void compare(const adapters_subject *whole, const adapters_subject *part, const char *what,
+                    double bound)
 {
     const int n = whole->coordinates;
     double worst[3] = {0}, one[N], two[N * N];
@@ -141,7 +142,7 @@ static void compare(const subject *whole, const subject *part, const char *what,
 
 /* Geometric stiffness [n x n] of linear buckling: about the undeformed element, prestressed by
  * small motions v [n] of its nodes. */
-static double prestressed(const subject *s, const double v[], double K[])
+static double prestressed(const adapters_subject *s, const double v[], double K[])
 {
     const int n = s->coordinates, m = s->strains;
     const double none[N] = {0};
@@ -163,7 +164,8 @@ static double prestressed(const subject *s, const double v[], double K[])
 
 /* What an axial force does to the stiffness against twist [N m]: nothing but what the formulation
  * knows of fibres that lengthen. */
-static void twists_as(const subject *whole, const subject *part, const char *what, double bound)
+static void twists_as(const adapters_subject *whole, const adapters_subject *part, const char *what,
+                      double bound)
 {
     const int n = whole->coordinates, last = n - NODE_COORDINATES;
     double v[N] = {0}, K[2][N * N], worst = 0;
@@ -183,7 +185,7 @@ static void twists_as(const subject *whole, const subject *part, const char *wha
 static void without(const element_type *given, const section *c, unsigned leaves, const char *what)
 {
     element_type bare = *given;
-    subject whole, part;
+    adapters_subject whole, part;
     bare.leaves = leaves;
     start(given, c, &whole);
     start(&bare, c, &part);
@@ -193,7 +195,7 @@ static void without(const element_type *given, const section *c, unsigned leaves
 }
 
 /* Of a uniform load along the undeformed element: stresses, and forces on its nodes. */
-static void loaded(const subject *s, double out[M + ELEMENT_ALONG_COORDINATES])
+static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORDINATES])
 {
     const double none[N] = {0};
     const element_data *data = s->data;
@@ -215,7 +217,7 @@ static void passes_on(const element_type *given, const section *c)
     const double sigma[M] = {2.385};
     double by[2][M + ELEMENT_ALONG_COORDINATES] = {{0}};
     element_type bare = *given;
-    subject whole, part;
+    adapters_subject whole, part;
     bare.inertia = NULL;
     start(given, c, &whole);
     start(&bare, c, &part);
@@ -258,7 +260,7 @@ static void forces_only(const element_type *given, const section *c)
                {LEAVES_FORCE | LEAVES_TANGENT, "energy", 1e-9, 1e-7}};
     for (size_t i = 0; i < sizeof way / sizeof way[0]; i++) {
         const element_type bare = by_force(given, way[i].leaves);
-        subject part;
+        adapters_subject part;
         start(given, c, &source);
         start(&bare, c, &part);
         compare(&source, &part, way[i].what, way[i].bound);

@@ -6,16 +6,16 @@
 
 enum { N = 14 };
 
-typedef struct massive {
+typedef struct mass_massive {
     element_data beam;
     double mass;     /* [kg] */
     double about[3]; /* half of the moments of inertia of the sections [kg m^2] */
-} massive;
+} mass_massive;
 
 static size_t massive_size(const element_request *request)
 {
     (void)request;
-    return sizeof(massive);
+    return sizeof(mass_massive);
 }
 
 static status massive_prepare(const element_request *request, element_data *out, fault *f)
@@ -23,7 +23,7 @@ static status massive_prepare(const element_request *request, element_data *out,
     const section *c = request->section;
     const double half = c->density * request->length / 2;
     const int rotary = (request->features & FEATURE_ROTARY_INERTIA) != 0;
-    massive *own = (massive *)out;
+    mass_massive *own = (mass_massive *)out;
     own->mass = 2 * half * c->A;
     own->about[0] = half * c->Ip;
     own->about[1] = rotary ? half * c->Iy : 0;
@@ -104,7 +104,7 @@ static status inertia(const element_data *d, const node_state x[],
                       const element_rotating_frame *turning, inertia_output *out)
 {
     static const double none[N];
-    const massive *own = (const massive *)d;
+    const mass_massive *own = (const mass_massive *)d;
     const double *rate = out->rate != NULL ? out->rate : none,
                  *acceleration = out->acceleration != NULL ? out->acceleration : none;
     if (turning != NULL)

@@ -14,16 +14,16 @@
 enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 
 /* Elements of random numbers; indefinite: H makes some of their eigenvalues negative. */
-typedef struct row {
+typedef struct chain_row {
     int nodes, joint, joints, all; /* of the whole: joints x joint coordinates */
     double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
         H[LINKS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[LINKS][9];
-} row;
+} chain_row;
 
-static void fill(int nodes, int joint, double indefinite, uint64_t *seed, row *out)
+static void fill(int nodes, int joint, double indefinite, uint64_t *seed, chain_row *out)
 {
     const int n = NODE_COORDINATES * nodes;
-    *out = (row){.nodes = nodes, .joint = joint, .joints = (nodes - 1) * LINKS + 1};
+    *out = (chain_row){.nodes = nodes, .joint = joint, .joints = (nodes - 1) * LINKS + 1};
     out->all = out->joints * joint;
     for (int e = 0; e < LINKS; e++) {
         for (int i = 0; i < STRAINS * n; i++)
@@ -39,7 +39,7 @@ static void fill(int nodes, int joint, double indefinite, uint64_t *seed, row *o
 }
 
 /* K[all x all] */
-static void assemble(const row *of, double K[])
+static void assemble(const chain_row *of, double K[])
 {
     const int n = NODE_COORDINATES * of->nodes, c = of->joint;
     double work[STRAINS * ELEMENT_MAX_COORDINATES];
@@ -58,7 +58,7 @@ static void assemble(const row *of, double K[])
     }
 }
 
-static status chain_of(const row *of, chain **out)
+static status chain_of(const chain_row *of, chain **out)
 {
     fault f;
     TRY(chain_alloc(LINKS, of->joint, of->joint * (of->nodes - 1), out, &f));
@@ -92,7 +92,7 @@ static double largest(int n, const double a[], const double b[])
 }
 
 /* The ends come first and last: what is inside, of the dense matrix and of the chain. */
-static int held_inside(const row *of, const double K[], const chain *s)
+static int held_inside(const chain_row *of, const double K[], const chain *s)
 {
     const int inside = of->all - 2 * of->joint;
     double A[MOST * MOST];
@@ -106,7 +106,7 @@ static int held_inside(const row *of, const double K[], const chain *s)
 }
 
 /* Loads on all coordinates, both ends on springs: solved densely, and by way of the ends. */
-static void solutions(const row *of, double K[], chain *s, uint64_t *seed)
+static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
 {
     const int c = of->joint, n = of->all;
     double b[MOST], x[MOST], whole[4 * CHAIN_JOINT * CHAIN_JOINT], ends[2 * CHAIN_JOINT];
@@ -135,7 +135,7 @@ static void solutions(const row *of, double K[], chain *s, uint64_t *seed)
 static int against_dense(int nodes, int joint, double indefinite, uint64_t *seed)
 {
     static double K[MOST * MOST];
-    row of;
+    chain_row of;
     chain *s = NULL;
     int negative = 0;
     fill(nodes, joint, indefinite, seed, &of);

@@ -79,7 +79,7 @@ static void bent(int place, const char *const set[2], scene *s)
     scene_add_static(s, 1, &end, 1);
 }
 
-typedef struct subject {
+typedef struct release_subject {
     scene scene;
     model *m;
     run_state run;
@@ -88,9 +88,9 @@ typedef struct subject {
     sparse K;
     int n;
     double A[MOST * MOST], residual[MOST];
-} subject;
+} release_subject;
 
-static int prepare(subject *t, const char *formulation_name)
+static int prepare(release_subject *t, const char *formulation_name)
 {
     const sparse *pattern;
     formulation chosen;
@@ -112,7 +112,7 @@ static int prepare(subject *t, const char *formulation_name)
     return good;
 }
 
-static void clean(subject *t)
+static void clean(release_subject *t)
 {
     sparse_free_values(&t->K);
     kinematics_state_free(t->s);
@@ -122,7 +122,7 @@ static void clean(subject *t)
     scene_free(&t->scene);
 }
 
-static void linearised(subject *t, const model_state *s, double path)
+static void linearised(release_subject *t, const model_state *s, double path)
 {
     fault f = {""};
     model_linearisation lin = {.path = path, .K = &t->K, .residual = t->residual};
@@ -135,7 +135,7 @@ static void linearised(subject *t, const model_state *s, double path)
 }
 
 /* Equilibrium under a part of the load: 1 when the corrections fall as with a true tangent. */
-static int solve(subject *t, double path, const char *what)
+static int solve(release_subject *t, double path, const char *what)
 {
     int pivot[MOST];
     double size = 1, before = 1;
@@ -155,7 +155,7 @@ static int solve(subject *t, double path, const char *what)
     return size <= 1e-11;
 }
 
-static void residual_at(subject *t, int k, double h, double out[])
+static void residual_at(release_subject *t, int k, double h, double out[])
 {
     double dx[MOST] = {0};
     fault f = {""};
@@ -168,7 +168,7 @@ static void residual_at(subject *t, int k, double h, double out[])
     linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
 }
 
-static void derivative(subject *t, const char *what)
+static void derivative(release_subject *t, const char *what)
 {
     static const double h = 1e-4;
     double worst = 0, largest = 0;
@@ -191,7 +191,7 @@ static void derivative(subject *t, const char *what)
              largest);
 }
 
-static double turn_of(const subject *t, int node)
+static double turn_of(const release_subject *t, int node)
 {
     double phi[3];
     for (int i = 0; i < 3; i++)
@@ -201,7 +201,7 @@ static double turn_of(const subject *t, int node)
 
 static void check(const char *formulation_name, int place, const char *const set[2])
 {
-    subject *t = calloc(1, sizeof *t);
+    release_subject *t = calloc(1, sizeof *t);
     int good = 1;
     char what[120];
     snprintf(what, sizeof what, "%s, %s releases [%s] [%s]", formulation_name, place_name[place],

@@ -130,7 +130,7 @@ static inline status gyroscopic_problem_solve_by(problem *p, const double K_of[]
 {
     sparse K = gyroscopic_problem_upper(p->n, K_of), M = gyroscopic_problem_upper(p->n, p->M),
            G = gyroscopic_problem_upper(p->n, p->G);
-    factor *factors = NULL;
+    matrix_factor *factors = NULL;
     status outcome = factor_alloc(&K, &factors, f);
     if (outcome == STATUS_OK)
         outcome = factor_numeric(factors, &K, f);

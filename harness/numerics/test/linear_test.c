@@ -102,7 +102,7 @@ static int determinant_sign(int n, const double A[])
 
 /* Of right-hand sides that are solved together how many are not what each is alone, to the bit;
  * what stands between them stays. */
-static int apart_together(factor *fa, uint64_t *seed)
+static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
     enum { SIDES = 7, STRIDE = MOST + 2 };
     double together[SIDES * STRIDE], alone[SIDES * STRIDE];
@@ -127,7 +127,7 @@ static void random_matrices(kind what, const char *name, double allowed)
         double A[MOST * MOST], b[MOST], x[MOST];
         fill_random(n, what, &seed, A);
         sparse s = matrices_from_dense(n, what != UNSYMMETRIC, A);
-        factor *fa;
+        matrix_factor *fa;
         failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
         for (int turn = 0; turn < 2;
              turn++) { /* the second time with other numbers on the same pattern */
@@ -212,7 +212,7 @@ static void condition_of_a_triangle(void)
     }
     const sparse of[2] = {{N, 1, column, row, value}, {N, 0, whole_column, whole_row, whole_value}};
     for (int k = 0; k < 2; k++) {
-        factor *fa;
+        matrix_factor *fa;
         gsl_test(factor_alloc(&of[k], &fa, NULL) != STATUS_OK ||
                      factor_numeric(fa, &of[k], NULL) != STATUS_OK,
                  "factored");
@@ -227,7 +227,7 @@ static void nothing_to_solve(void)
     int column[1] = {0};
     for (int symmetric = 0; symmetric < 2; symmetric++) {
         const sparse none = {0, symmetric, column, NULL, NULL};
-        factor *fa;
+        matrix_factor *fa;
         gsl_test(factor_alloc(&none, &fa, NULL) != STATUS_OK ||
                      factor_numeric(fa, &none, NULL) != STATUS_OK,
                  "no unknowns are no problem");

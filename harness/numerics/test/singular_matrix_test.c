@@ -5,7 +5,7 @@
 
 static status outcome_of(const sparse *s, fault *f)
 {
-    factor *fa;
+    matrix_factor *fa;
     status outcome = factor_alloc(s, &fa, f);
     if (outcome == STATUS_OK)
         outcome = factor_numeric(fa, s, f);

@@ -19,7 +19,7 @@ static void every_index_once(int threads)
 {
     static const int counts[] = {0, 1, 2, 3, 7, 64, MOST};
     int visits[MOST] = {0}, expected = 0;
-    team *t = NULL;
+    thread_team *t = NULL;
     fault f = {""};
     gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
     gsl_test((t == NULL) != (threads <= 1), "a team of one is none");
@@ -47,7 +47,7 @@ static void count_parts(void *context, int first, int end)
 static void no_more_than_there_is_room_for(int threads)
 {
     int begins[MOST] = {0}, parts = 0;
-    team *t = NULL;
+    thread_team *t = NULL;
     fault f = {""};
     gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
     team_run(t, MOST, count_parts, begins);
@@ -81,7 +81,7 @@ static int read_piece(void *context, int piece, int slot)
  */
 static void relays(int threads)
 {
-    team *t = NULL;
+    thread_team *t = NULL;
     fault f = {""};
     gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
     int wrong = 0, taken = 0, expected = 0;
@@ -112,7 +112,7 @@ int main(void)
         every_index_once(threads);
     for (int threads = 1; threads <= 4; threads++)
         relays(threads);
-    team *unused = NULL;
+    thread_team *unused = NULL;
     gsl_test(team_alloc(3, &unused, NULL) != STATUS_OK, "a team that is never used");
     team_free(unused);
     team_free(NULL);

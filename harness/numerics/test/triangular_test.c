@@ -13,15 +13,15 @@
 enum { MOST = 90, SIDES = 7, STRIDE = MOST + 3, FILL = MOST * MOST };
 
 /* A matrix in the order of elimination, and its factor by LDL. */
-typedef struct problem {
+typedef struct triangular_problem {
     int n, column[MOST + 1], row[FILL], source[FILL];
     double value[FILL];
     int parent[MOST], begin[MOST + 1], filled[MOST], mark[MOST], path[MOST], L_row[FILL];
     double L_value[FILL], D[MOST], y[MOST];
-} problem;
+} triangular_problem;
 
 /* Blocks of `size`, coupled with one at random, and a few entries anywhere. */
-static void fill(int n, int size, uint64_t *state, problem *p)
+static void fill(int n, int size, uint64_t *state, triangular_problem *p)
 {
     int linked[MOST], entries = 0;
     p->n = n;
@@ -41,7 +41,7 @@ static void fill(int n, int size, uint64_t *state, problem *p)
     p->column[n] = entries;
 }
 
-static void factor_by_ldl(problem *p)
+static void factor_by_ldl(triangular_problem *p)
 {
     ldl_symbolic(p->n, p->column, p->row, p->begin, p->parent, p->filled, p->mark, NULL, NULL);
     const int rank = ldl_numeric(p->n, p->column, p->row, p->value, p->begin, p->parent, p->filled,
@@ -52,8 +52,8 @@ static void factor_by_ldl(problem *p)
 typedef int factors(const triangular_rows *, const double[]);
 typedef void solves(const triangular_factors *, int, int, double[], double[]);
 
-static void hold(const problem *p, const triangular_groups *g, const int L_row[], factors *factor,
-                 solves *solve, const char *name)
+static void hold(const triangular_problem *p, const triangular_groups *g, const int L_row[],
+                 factors *factor, solves *solve, const char *name)
 {
     static double value[FILL], D[MOST], diagonal[MOST], rest[TRIANGULAR_LANES * STRIDE + 8],
         work[TRIANGULAR_TOGETHER * MOST], x[SIDES * STRIDE], y[SIDES * STRIDE];
@@ -90,7 +90,7 @@ static void hold(const problem *p, const triangular_groups *g, const int L_row[]
 }
 
 /* All rows are in groups, all columns in runs; rows of blocks are together. */
-static void whole(const problem *p, const triangular_groups *g, int size)
+static void whole(const triangular_problem *p, const triangular_groups *g, int size)
 {
     int columns = 0, largest = 0;
     for (int i = 0; i < g->columns; i++) {
@@ -104,7 +104,7 @@ static void whole(const problem *p, const triangular_groups *g, int size)
              "%d rows together of blocks of %d", largest, size);
 }
 
-static void blocks(problem *p, int n, int size, uint64_t *state)
+static void blocks(triangular_problem *p, int n, int size, uint64_t *state)
 {
     static int L_row[FILL];
     triangular_groups g;
@@ -126,7 +126,7 @@ static void blocks(problem *p, int n, int size, uint64_t *state)
 int main(void)
 {
     uint64_t state = 5;
-    problem *p = malloc(sizeof *p);
+    triangular_problem *p = malloc(sizeof *p);
     for (int size = 1; p != NULL && size <= 9; size++)
         for (int n = size; n <= MOST; n += 1 + 2 * size)
             blocks(p, n, size, &state);

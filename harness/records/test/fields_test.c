@@ -13,9 +13,9 @@ enum { MESHES = 6, STATIONS = 3, STEPS = 2 };
 static const case_type made_up = {.name = "made_up"};
 static const element_type element = {.name = "element"};
 
-typedef struct bench {
+typedef struct fields_bench {
     sweep s;
-    point p;
+    sweep_point p;
     series one;
     cell_result cell[MESHES];
     quantity_result quantity[MESHES][2];
@@ -27,9 +27,9 @@ typedef struct bench {
     verdict v;
     coverage c;
     judgement j;
-} bench;
+} fields_bench;
 
-static void fill_path(bench *b)
+static void fill_path(fields_bench *b)
 {
     for (int i = 0; i < 36 * STATIONS; i++) {
         b->compliance[i] = 100 + i;
@@ -47,7 +47,7 @@ static void fill_path(bench *b)
 }
 
 /* Errors of 0.4, 0.04, ...: each mesh is the first within one level more. */
-static void make(bench *b)
+static void make(fields_bench *b)
 {
     memset(b, 0, sizeof *b);
     b->p.type = &made_up;
@@ -133,7 +133,7 @@ static void work(const gathering *g)
     gsl_test(!(number_of(&record_cell, &s, "cost", 0) > 0), "a formulation without prices costs");
 }
 
-static void levels(const gathering *g, const bench *b)
+static void levels(const gathering *g, const fields_bench *b)
 {
     static const char *const name[] = {"reach_10", "reach_1", "reach_0.1", "reach_0.01"};
     const subject s = gather_verdict(g, &b->v);
@@ -143,7 +143,7 @@ static void levels(const gathering *g, const bench *b)
     expect(&record_verdict, &s, "model_truth", 0, 4);
 }
 
-static void coverages(const gathering *g, const bench *b)
+static void coverages(const gathering *g, const fields_bench *b)
 {
     for (int k = 0; k < COVERAGE_MESHES; k++) {
         const subject s = gather_coverage(g, &b->c, k);
@@ -267,7 +267,7 @@ static void declarations(void)
 
 int main(void)
 {
-    static bench b;
+    static fields_bench b;
     make(&b);
     const gathering g = {&b.s, &b.j, NULL};
     work(&g);

@@ -106,20 +106,20 @@ static tree read_tree(const char *text)
 }
 
 /* One point, one series, and any judgement. */
-typedef struct bench {
+typedef struct junit_bench {
     sweep s;
-    point p;
+    sweep_point p;
     series one;
     cell_result cell;
     truth row;
     verdict v[64];
     agreement a[8];
     judgement j;
-} bench;
+} junit_bench;
 
 static const case_type made_up = {.name = "made_up"};
 
-static void bench_make(bench *b)
+static void bench_make(junit_bench *b)
 {
     memset(b, 0, sizeof *b);
     b->p.type = &made_up;
@@ -137,7 +137,7 @@ static void bench_make(bench *b)
 }
 
 /* As the judge counts (harness/study): the sums that the other reports show. */
-static void add_verdict(bench *b, verdict_kind kind, int matches)
+static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];
     *v = (verdict){.kind = kind,
@@ -153,13 +153,13 @@ static void add_verdict(bench *b, verdict_kind kind, int matches)
     b->j.judged += v->truth != NULL && kind != VERDICT_OTHER_MODEL;
 }
 
-static void add_agreement(bench *b, int good)
+static void add_agreement(junit_bench *b, int good)
 {
     b->a[b->j.agreements++] = (agreement){.truth = &b->row, .value = 3, .good = good};
     b->j.disagreements += !good;
 }
 
-static tree written(const bench *b)
+static tree written(const junit_bench *b)
 {
     char *text = NULL;
     size_t size = 0;
@@ -173,7 +173,7 @@ static tree written(const bench *b)
     return t;
 }
 
-static void check(const bench *b, const char *what)
+static void check(const junit_bench *b, const char *what)
 {
     const tree t = written(b);
     const int expected_failures = b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) +
@@ -192,7 +192,7 @@ static void single_verdicts(void)
 {
     for (int kind = 0; kind < VERDICT_KINDS; kind++)
         for (int matches = 0; matches < 2; matches++) {
-            bench b;
+            junit_bench b;
             char what[80];
             bench_make(&b);
             add_verdict(&b, (verdict_kind)kind, matches);
@@ -212,7 +212,7 @@ static void mixtures(void)
 {
     uint64_t seed = 1;
     for (int round = 0; round < 200; round++) {
-        bench b;
+        junit_bench b;
         bench_make(&b);
         for (int i = 0; i < 20; i++) {
             add_verdict(&b, (verdict_kind)random_below(&seed, VERDICT_KINDS),

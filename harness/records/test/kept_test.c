@@ -20,7 +20,7 @@ static status leave(const char *path, const char *name, double mark)
 {
     static double all[COUNT];
     const hsize_t size = COUNT;
-    record r;
+    record_file r;
     fault f = {""};
     if (record_open(&r, &f) != STATUS_OK)
         return STATUS_FAULT;

@@ -45,7 +45,7 @@ static void long_lists(void)
     scene_quantity quantity = {.name = "load"};
     static char name[MANY][16];
     static case_type types[MANY];
-    static point p[MANY];
+    static sweep_point p[MANY];
     static series one[MANY];
     static verdict v[MANY];
     static regression worse[WORSE];
@@ -53,7 +53,7 @@ static void long_lists(void)
     for (int i = 0; i < MANY; i++) {
         snprintf(name[i], sizeof name[i], "case_%d", i);
         types[i].name = name[i];
-        p[i] = (point){
+        p[i] = (sweep_point){
             .type = &types[i], .text = "", .scene = {.quantities = 1, .quantity = &quantity}};
         one[i] = (series){.point = i, .formulation.key = "beam"};
         v[i] = (verdict){.series = i, .kind = VERDICT_WRONG_LIMIT, .truth = &row, .reason = ""};
@@ -92,7 +92,8 @@ static void long_lists(void)
 int main(void)
 {
     scene_quantity quantity = {.name = "load"};
-    point p = {.type = &type, .text = "a=1", .scene = {.quantities = 1, .quantity = &quantity}};
+    sweep_point p = {
+        .type = &type, .text = "a=1", .scene = {.quantities = 1, .quantity = &quantity}};
     series one = {.formulation.key = "beam:option=2"};
     sweep s = {.points = 1, .seriess = 1, .point = &p, .series = &one};
     truth row = {.value = 2};

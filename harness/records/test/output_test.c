@@ -40,7 +40,7 @@ static void write_record(const char *path, const char *folder, int good, const c
     const hsize_t size = COUNT;
     for (int i = 0; i < COUNT; i++)
         ramp[i] = i;
-    record r;
+    record_file r;
     fault f = {""};
     const int before = folder_entries(folder);
     gsl_test(record_open(&r, &f) != STATUS_OK, "opened %s", f.text);
@@ -215,7 +215,7 @@ static void streams(void)
         gsl_test(folder_write_text("/dev/full", "x", &f) != STATUS_FAULT, "to a full one: %s",
                  f.text);
     for (size_t i = 0; i < sizeof stream / sizeof stream[0]; i++) {
-        place where;
+        file_place where;
         gsl_test(output_open_whole(stream[i], &o, &f) != STATUS_REFUSED ||
                      strstr(f.text, "regular file") == NULL,
                  "%s", f.text);

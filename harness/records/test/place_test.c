@@ -57,7 +57,7 @@ static void no_places(void)
                {slash.text, STATUS_FAULT}, {longest, STATUS_FAULT}, {"/nowhere/x", STATUS_FAULT}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         fault f = {""};
-        place where;
+        file_place where;
         gsl_test(output_try(bad[i].path, OUTPUT_TEXT, &where, &f) != bad[i].outcome ||
                      strchr(f.text, '\n') != NULL || f.text[0] == '\0',
                  "'%.60s': %s", bad[i].path, f.text);
@@ -79,7 +79,7 @@ static void same_places(void)
     const char *const one[] = {a.text, dotted.text, link.text, hard.text};
     const char *const other[] = {free_a.text, free_dotted.text, free_link.text};
     fault f = {""};
-    place x, y;
+    file_place x, y;
     gsl_test(folder_write_text(a.text, "x", &f) != STATUS_OK ||
                  folder_write_text(b.text, "x", &f) != STATUS_OK,
              "two files %s", f.text);

@@ -18,18 +18,18 @@ static const element_type type[SERIES] = {{.name = "red", .family = "red", .abi 
                                           {.name = "green", .family = "green", .abi = ELEMENT_ABI},
                                           {.name = "grey", .family = "grey", .abi = ELEMENT_ABI}};
 
-typedef struct bench {
+typedef struct reach_line_bench {
     sweep s;
-    point p;
+    sweep_point p;
     series one[SERIES];
     cell_result cell[SERIES][MESHES];
     quantity_result quantity[SERIES][MESHES];
     truths t;
-} bench;
+} reach_line_bench;
 
 /* Values limit (1 + 0.1 n^-2), work evaluations on the coarsest mesh and twice as many on each next
  * one. */
-static void add(bench *b, double limit, long work)
+static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;
     b->one[i] = (series){.formulation = {.type = &type[i]}, .meshes = MESHES, .cell = b->cell[i]};
@@ -45,7 +45,7 @@ static void add(bench *b, double limit, long work)
 }
 
 /* Three agree, the work of the second is `times` times that of the first; the fourth does not. */
-static void make(bench *b, double times)
+static void make(reach_line_bench *b, double times)
 {
     fault f;
     memset(b, 0, sizeof *b);
@@ -64,7 +64,7 @@ static void make(bench *b, double times)
 }
 
 /* One more row: what another model has for the load. */
-static void add_model(bench *b, const char *kind, double value)
+static void add_model(reach_line_bench *b, const char *kind, double value)
 {
     truth *row = realloc(b->t.row, (size_t)(b->t.rows + 1) * sizeof *row);
     gsl_test(row == NULL, "room for a truth");
@@ -82,21 +82,21 @@ static void add_model(bench *b, const char *kind, double value)
 }
 
 /* One more quantity, which no cell has a value of. */
-static void add_quantity(bench *b, const char *name, scene_reduction reduction)
+static void add_quantity(reach_line_bench *b, const char *name, scene_reduction reduction)
 {
     scene_quantity *q =
         scene_add_quantity(&b->p.scene, name, "N", 0, scene_coordinate(0, SCENE_UX));
     q->reduction = reduction;
 }
 
-static void finish(bench *b)
+static void finish(reach_line_bench *b)
 {
     truths_free(&b->t);
     scene_free(&b->p.scene);
 }
 
 /* The line without its costs. */
-static void line_of(const bench *b, double level, char out[1000])
+static void line_of(const reach_line_bench *b, double level, char out[1000])
 {
     char *text = NULL;
     size_t size = 0;
@@ -114,7 +114,7 @@ static void line_of(const bench *b, double level, char out[1000])
     free(text);
 }
 
-static void expect(const bench *b, double level, const char *right)
+static void expect(const reach_line_bench *b, double level, const char *right)
 {
     char line[1000];
     line_of(b, level, line);
@@ -124,7 +124,7 @@ static void expect(const bench *b, double level, const char *right)
 /* Without a reference they are named at once; curves do not count. */
 static void not_every_quantity(void)
 {
-    bench b;
+    reach_line_bench b;
     make(&b, 2 * price_noise);
     add_quantity(&b, "curve", SCENE_CURVE);
     expect(&b, 1e-9,
@@ -148,7 +148,7 @@ static void not_every_quantity(void)
 /* The model error of those that are right, at the end; an agreement is no other model. */
 static void other_models(void)
 {
-    bench b;
+    reach_line_bench b;
     make(&b, 2 * price_noise);
     b.s.seriess = 1;
     add_model(&b, "agreement", 4);
@@ -173,7 +173,7 @@ static void other_models(void)
 
 int main(void)
 {
-    bench b;
+    reach_line_bench b;
     make(&b, 2 * price_noise);
     expect(&b, 0.01,
            "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without cost "

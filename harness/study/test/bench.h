@@ -30,9 +30,9 @@ static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
 /* One point, one series of five meshes, one quantity; the truth is 3, tolerance 1e-4, least
  * order 2. */
-typedef struct bench {
+typedef struct judge_bench {
     sweep s;
-    point p;
+    sweep_point p;
     series one;
     cell_result cell[MESHES];
     quantity_result quantity[MESHES];
@@ -40,7 +40,7 @@ typedef struct bench {
     truth row[2];
     rule known, twice[2];
     judgement j;
-} bench;
+} judge_bench;
 
 static char words[][32] = {
     "load",        "N",       "exact",        "same",      "test",        "",          "element",
@@ -68,7 +68,7 @@ enum {
     LOAD_OF_IT
 };
 
-static inline void bench_make(bench *b)
+static inline void bench_make(judge_bench *b)
 {
     memset(b, 0, sizeof *b);
     b->p.type = &made_up;
@@ -101,7 +101,7 @@ static inline void bench_make(bench *b)
 }
 
 /* A second row, like the first one but for its value and what the caller changes. */
-static inline truth *bench_add_row(bench *b, double value)
+static inline truth *bench_add_row(judge_bench *b, double value)
 {
     b->row[1] = b->row[0];
     b->row[1].value = value;
@@ -110,7 +110,7 @@ static inline truth *bench_add_row(bench *b, double value)
 }
 
 /* A second row: the limit that was derived for the formulation. */
-static inline truth *bench_add_prediction(bench *b, double limit)
+static inline truth *bench_add_prediction(judge_bench *b, double limit)
 {
     truth *row = bench_add_row(b, limit);
     row->kind = words[PREDICTED];
@@ -119,20 +119,20 @@ static inline truth *bench_add_prediction(bench *b, double limit)
 }
 
 /* limit + size n^-order */
-static inline void bench_fill(bench *b, double limit, double size, double order)
+static inline void bench_fill(judge_bench *b, double limit, double size, double order)
 {
     for (int i = 0; i < MESHES; i++)
         b->quantity[i].value = limit + size * pow(mesh[i], -order);
 }
 
 /* Made with a series that converges to the truth. */
-static inline void bench_converge(bench *b)
+static inline void bench_converge(judge_bench *b)
 {
     bench_make(b);
     bench_fill(b, 3, 0.7, 2);
 }
 
-static inline const verdict *bench_judge(bench *b)
+static inline const verdict *bench_judge(judge_bench *b)
 {
     fault f = {""};
     judgement_free(&b->j);
@@ -141,13 +141,13 @@ static inline const verdict *bench_judge(bench *b)
     return &b->j.verdict[0];
 }
 
-static inline void bench_free(bench *b)
+static inline void bench_free(judge_bench *b)
 {
     judgement_free(&b->j);
     scene_free(&b->p.scene);
 }
 
-static inline void bench_expect(bench *b, verdict_kind kind, int code, const char *what)
+static inline void bench_expect(judge_bench *b, verdict_kind kind, int code, const char *what)
 {
     const verdict *v = bench_judge(b);
     gsl_test(v->kind != kind, "%s: %s", what, verdict_name(v->kind));
@@ -155,7 +155,7 @@ static inline void bench_expect(bench *b, verdict_kind kind, int code, const cha
 }
 
 /* The verdict in words. */
-static inline void bench_says(const bench *b, const char *words_of_it)
+static inline void bench_says(const judge_bench *b, const char *words_of_it)
 {
     char sentence[2 * FAULT_TEXT];
     sentence_of_verdict(&b->j.verdict[0], 2, sentence, sizeof sentence);

@@ -53,7 +53,7 @@ static void order(int jobs)
     add("c_column", &s);
     add("rotating_cantilever", &s);
     const int count = sweep_cells(&s);
-    task *tasks = calloc((size_t)count + 1, sizeof *tasks);
+    workload_task *tasks = calloc((size_t)count + 1, sizeof *tasks);
     char *met = calloc((size_t)s.seriess * 3 + 1, 1);
     int elements_free = 0, repeated = 0, cheaper_first = 0, coarser_first = 0, small = 0, late = 0;
     gsl_test(count == 0 || tasks == NULL || met == NULL || expense_order(&s, jobs, tasks) != 0,
@@ -65,7 +65,7 @@ static void order(int jobs)
         repeated += met[3 * tasks[i].series + tasks[i].mesh]++;
         if (i == 0)
             continue;
-        const task *a = &tasks[i - 1], *b = &tasks[i];
+        const workload_task *a = &tasks[i - 1], *b = &tasks[i];
         const int before = is_small(&s, jobs, a->series), here = is_small(&s, jobs, b->series);
         cheaper_first += !here && expense_of(&s, a->series) < expense_of(&s, b->series);
         late += before && !here;

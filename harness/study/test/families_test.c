@@ -23,16 +23,16 @@ static const element_type type[] = {
 enum { RED_ONE, RED_TWO, BLUE_ONE, GREEN_ONE, BLUE_TWO, MISPRINTED };
 
 /* A sweep of one point and quantity, its series added one by one. */
-typedef struct bench {
+typedef struct families_bench {
     sweep s;
-    point p;
+    sweep_point p;
     series one[MOST];
     cell_result cell[MOST][MESHES];
     quantity_result quantity[MOST][MESHES];
     truths t;
-} bench;
+} families_bench;
 
-static void make(bench *b)
+static void make(families_bench *b)
 {
     memset(b, 0, sizeof *b);
     b->p.type = &made_up;
@@ -45,7 +45,7 @@ static void make(bench *b)
 }
 
 /* A formulation whose values are limit (1 + size n^-2). */
-static void add(bench *b, int which, double limit, double size)
+static void add(families_bench *b, int which, double limit, double size)
 {
     const int i = b->s.seriess++;
     b->one[i] =
@@ -60,14 +60,14 @@ static void add(bench *b, int which, double limit, double size)
 }
 
 /* A red and a blue one agree on 3. */
-static void make_two(bench *b)
+static void make_two(families_bench *b)
 {
     make(b);
     add(b, RED_ONE, 3, 0.1);
     add(b, BLUE_ONE, 3, 0.1);
 }
 
-static void finish(bench *b)
+static void finish(families_bench *b)
 {
     truths_free(&b->t);
     scene_free(&b->p.scene);
@@ -75,7 +75,7 @@ static void finish(bench *b)
 
 static void one_family_is_none(void)
 {
-    bench b;
+    families_bench b;
     make(&b);
     add(&b, RED_ONE, 3, 0.1);
     add(&b, RED_TWO, 3, 0.2);
@@ -88,7 +88,7 @@ static void one_family_is_none(void)
 
 static void two_families(void)
 {
-    bench b;
+    families_bench b;
     fault f;
     make(&b);
     add(&b, RED_ONE, 3.1, 0.1);
@@ -117,7 +117,7 @@ static void two_families(void)
 /* What a third family hardly knows makes neither the limit nor its uncertainty worse. */
 static void known_badly(void)
 {
-    bench b;
+    families_bench b;
     make(&b);
     add(&b, GREEN_ONE, 3, 0.1);
     for (int k = 0; k < MESHES; k++) /* it goes up and down by 1e-4 */
@@ -135,7 +135,7 @@ static void known_badly(void)
 /* Two against two: nobody knows. Three against two: the three. */
 static void disputes(void)
 {
-    bench b;
+    families_bench b;
     make_two(&b);
     add(&b, RED_TWO, 3.2, 0.1);
     add(&b, BLUE_TWO, 3.2, 0.1);
@@ -153,7 +153,7 @@ static void disputes(void)
 /* Who knows it best is the centre; who is off by more than it is uncertain by is named. */
 static void known_best(void)
 {
-    bench b;
+    families_bench b;
     fault f;
     make(&b);
     add(&b, RED_ONE, 3, 0.1);
@@ -176,7 +176,7 @@ static void known_wrong(void)
     char formulations[] = "red_one", condition[] = "shear", verdicts[] = "wrong limit|undecided";
     rule known = {.formulations = formulations, .condition = condition, .verdicts = verdicts};
     truths ledger = {.rule = &known, .rules = 1};
-    bench b;
+    families_bench b;
     make(&b);
     add(&b, RED_ONE, 3, 0.1);
     add(&b, MISPRINTED, 3, 0.1);
@@ -195,7 +195,7 @@ static void known_wrong(void)
 /* Who is not known well agrees with nobody. */
 static void uncertain(void)
 {
-    bench b;
+    families_bench b;
     make_two(&b);
     b.one[1].meshes = 1;
     gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families > 1, "one mesh shows no limit");
@@ -206,7 +206,7 @@ static void uncertain(void)
 }
 
 /* Index of the mesh from which on a series is within 1 % of everything, or -1. */
-static int every(const bench *b, int series_index)
+static int every(const families_bench *b, int series_index)
 {
     reach_question q = {.s = &b->s, .quantity = REACH_EVERY, .level = 0.01};
     reached list[MOST];
@@ -223,7 +223,7 @@ static int every(const bench *b, int series_index)
 /* The least mesh from which on everything is within 1 %, by agreement where there is no truth. */
 static void reach(void)
 {
-    bench b;
+    families_bench b;
     fault f;
     make(&b);
     add(&b, RED_ONE, 3, 0.1);

@@ -94,7 +94,7 @@ static const double truth_value = -4;
 
 /* A series with times, and the verdict that reach is asked of. */
 typedef struct timed {
-    bench b;
+    judge_bench b;
     cell_timing timing[MESHES];
     verdict v;
 } timed;

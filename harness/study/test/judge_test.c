@@ -8,7 +8,7 @@
 
 static void limits(void)
 {
-    bench b;
+    judge_bench b;
     bench_converge(&b);
     bench_expect(&b, VERDICT_PASS, 0, "right limit, right order, coarse meshes far off");
     gsl_test_rel(b.j.verdict[0].fit.order, 2, 1e-6, "its order");
@@ -42,7 +42,7 @@ static void limits(void)
 
 static void orders(void)
 {
-    bench b;
+    judge_bench b;
     bench_make(&b);
     bench_fill(&b, 3, 0.07, 1);
     bench_expect(&b, VERDICT_LOW_ORDER, 1, "right limit, first order instead of second");
@@ -72,7 +72,7 @@ static void orders(void)
 
 static void doubts(void)
 {
-    bench b;
+    judge_bench b;
     bench_make(&b);
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
@@ -117,7 +117,7 @@ static void doubts(void)
 
 static void failures(void)
 {
-    bench b;
+    judge_bench b;
     bench_converge(&b);
     b.quantity[4].value = NAN;
     b.quantity[4].status = STATUS_NO_VALUE;
@@ -141,7 +141,7 @@ static void failures(void)
  */
 static void doubtful_noise(void)
 {
-    bench b;
+    judge_bench b;
     bench_make(&b);
     bench_fill(&b, 3, 0.07, 2);
     gsl_test_int(judgement_doubts(&b.s, &b.t, 0), 0, "a limit that noise cannot touch");
@@ -158,7 +158,7 @@ static void doubtful_noise(void)
 /* How many limits of exact truths lie within their uncertainty, also without the finest meshes. */
 static void coverages(void)
 {
-    bench b;
+    judge_bench b;
     bench_converge(&b);
     bench_expect(&b, VERDICT_PASS, 0, "a series");
     gsl_test_int(b.j.coverages, 1, "of one formulation");
@@ -182,7 +182,7 @@ static void coverages(void)
 
 static void selection(void)
 {
-    bench b;
+    judge_bench b;
     fault f = {""};
     bench_converge(&b);
     b.s.select = "made_up and load";

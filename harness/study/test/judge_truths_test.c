@@ -13,7 +13,7 @@
 
 static void predictions(void)
 {
-    bench b;
+    judge_bench b;
     bench_make(&b);
     bench_fill(&b, 3.003, 0.7, 2);
     truth *derived = bench_add_prediction(&b, 3.003);
@@ -40,7 +40,7 @@ static void predictions(void)
 /* A formulation is judged by the truth of its own theory of shear, whatever the scene asks for. */
 static void theories(void)
 {
-    bench b;
+    judge_bench b;
     bench_make(&b);
     element_type haringx = element;
     haringx.offers = FEATURE_SHEAR | FEATURE_HARINGX;
@@ -65,7 +65,7 @@ static void theories(void)
 
 static void publications(void)
 {
-    bench b;
+    judge_bench b;
     bench_converge(&b);
     truth *published = bench_add_row(&b, 3.01);
     published->kind = words[PUBLISHED];
@@ -82,7 +82,7 @@ static void publications(void)
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
-    bench b;
+    judge_bench b;
     bench_make(&b);
     bench_fill(&b, 3.3, 0.7, 2);
     truth *derived = bench_add_prediction(&b, 3.3);
@@ -109,7 +109,7 @@ static void bound_by_the_derived_limit(void)
 
 static void expectations(void)
 {
-    bench b;
+    judge_bench b;
     bench_make(&b);
     snprintf(b.one.missing, sizeof b.one.missing, "shear");
     bench_expect(&b, VERDICT_SKIP, 3, "nothing but skips: nothing was checked");
@@ -202,7 +202,7 @@ static void other_instants(void)
                                     .parameters = {both},
                                     .build = no_build};
     static const double end = 5;
-    bench b;
+    judge_bench b;
     bench_converge(&b);
     b.p.type = b.row[0].type = &timed;
     b.p.parameter[1] = b.row[0].parameter[1] = end;
@@ -226,7 +226,7 @@ static void other_instants(void)
 
 static void stored_values(void)
 {
-    bench b;
+    judge_bench b;
     fault f = {""};
     bench_converge(&b);
     truth *stored = bench_add_row(&b, b.quantity[1].value * (1 + 0.9e-6));
@@ -257,7 +257,7 @@ static void stored_values(void)
 /* Behind the series of another formulation, which has other values on its meshes. */
 static void of_its_own_series(void)
 {
-    bench b;
+    judge_bench b;
     fault f = {""};
     bench_converge(&b);
     truth *stored = bench_add_row(&b, b.quantity[1].value);

@@ -107,15 +107,15 @@ typedef enum mixture {
     SLOW
 } mixture;
 
-typedef struct family {
+typedef struct coverage_family {
     const char *name;
     error_function *error;
     mixture mixture;
     double order;   /* 0: any of 1, 1.5, 2, 3, 4 */
     double covered; /* part of the limits that must lie within their uncertainty */
-} family;
+} coverage_family;
 
-static const family families[] = {
+static const coverage_family families[] = {
     {"n^-1", power, ONE_TERM, 1, 0.98},
     {"n^-1.5", power, ONE_TERM, 1.5, 0.98},
     {"n^-2", power, ONE_TERM, 2, 0.98},
@@ -140,7 +140,7 @@ static const family families[] = {
     {"a layer that hardly one resolves", layer, FINE_BEND, 2, 0.98},
 };
 
-static draw draw_from(gsl_rng *r, const family *f, const int n[], int meshes)
+static draw draw_from(gsl_rng *r, const coverage_family *f, const int n[], int meshes)
 {
     static const double orders[] = {1, 1.5, 2, 3, 4};
     draw d = {.first = n[0], .last = n[meshes - 1], .phase = between(r, 0, 6.28)};
@@ -186,7 +186,7 @@ static draw draw_from(gsl_rng *r, const family *f, const int n[], int meshes)
 }
 
 /* What one random sequence of the family shows. */
-static mesh_limit shown(gsl_rng *r, const family *f, int meshes)
+static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];
     const draw d = draw_from(r, f, n, meshes);
@@ -204,7 +204,7 @@ static mesh_limit shown(gsl_rng *r, const family *f, int meshes)
 }
 
 /* 1: the limit lies within its uncertainty. */
-static int is_covered(gsl_rng *r, const family *f, int meshes)
+static int is_covered(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const mesh_limit l = shown(r, f, meshes);
     return fabs(l.limit - value) <= l.limit_uncertainty;
@@ -229,9 +229,9 @@ static void coverage_of_families(void)
 /* Noise of every size, known within a factor of three: more or less than what is there. */
 static void coverage_under_noise(void)
 {
-    static const family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
-                                   {"n^-4", power, ONE_TERM, 4, 0.95},
-                                   {"two terms of one sign", terms, SAME_SIGN, 0, 0.95}};
+    static const coverage_family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
+                                            {"n^-4", power, ONE_TERM, 4, 0.95},
+                                            {"two terms of one sign", terms, SAME_SIGN, 0, 0.95}};
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(r, 4711);
     for (size_t k = 0; k < sizeof noisy / sizeof noisy[0]; k++)
@@ -268,10 +268,11 @@ static void coverage_under_noise(void)
  * mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not yet 2. */
 static void low_orders(void)
 {
-    static const family low[] = {{"n^-1", power, ONE_TERM, 1, 1},
-                                 {"n^-1.5", power, ONE_TERM, 1.5, 1},
-                                 {"n^-1 and more of one sign", terms, SAME_SIGN, 1, 0.99},
-                                 {"n^-1 and more of opposite signs", terms, OPPOSITE, 1, 0.80}};
+    static const coverage_family low[] = {
+        {"n^-1", power, ONE_TERM, 1, 1},
+        {"n^-1.5", power, ONE_TERM, 1.5, 1},
+        {"n^-1 and more of one sign", terms, SAME_SIGN, 1, 0.99},
+        {"n^-1 and more of opposite signs", terms, OPPOSITE, 1, 0.80}};
     const double least = 1.7, nominal = 2;
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(r, 1789);

@@ -88,10 +88,10 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
 }
 
 /* What is tried: 0 after `value` (a sum of what came out) was set. */
-typedef status attempt(const void *what, double *value, fault *f);
+typedef status memory_attempt(const void *what, double *value, fault *f);
 
 /* Once whole, then with the k-th allocation refused, k = 1, 1 + step, ... */
-static void exhaust(const char *name, attempt *run, const void *what, int most)
+static void exhaust(const char *name, memory_attempt *run, const void *what, int most)
 {
     double right = NAN;
     fault f = {""};

@@ -14,11 +14,18 @@
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 
-typedef enum acting { NOTHING, BENDS, TWISTS, BUCKLES, VIBRATES, LOADINGS } acting;
+typedef enum omission_acting {
+    NOTHING,
+    BENDS,
+    TWISTS,
+    BUCKLES,
+    VIBRATES,
+    LOADINGS
+} omission_acting;
 static const char *const names[LOADINGS] = {"no load", "bent", "twisted", "buckled", "vibrating"};
 
 /* A clamped leaf of that thickness. */
-static void leaf(scene *s, double thickness, acting how, int held)
+static void leaf(scene *s, double thickness, omission_acting how, int held)
 {
     const double y_axis[3] = {0, 1, 0}, end = 1;
     scene_init(s, "leaf");
@@ -58,7 +65,7 @@ static const element_type *rigid_one(const scene *s)
     return NULL;
 }
 
-static void of_leaf(double thickness, acting how)
+static void of_leaf(double thickness, omission_acting how)
 {
     scene s;
     omission o;
@@ -134,7 +141,7 @@ int main(void)
     int seen = 0;
     for (size_t i = 0; i < sizeof thickness / sizeof *thickness; i++)
         for (int how = 0; how < LOADINGS; how++)
-            of_leaf(thickness[i], (acting)how);
+            of_leaf(thickness[i], (omission_acting)how);
     loose();
     for (int i = 0; registry_cases[i] != NULL; i++)
         seen += of_case(registry_cases[i]);

@@ -11,7 +11,7 @@ enum { VERDICTS = 40 };
 /* Two cases, three formulations; the verdicts are made up. */
 typedef struct run {
     sweep s;
-    point point[2];
+    sweep_point point[2];
     series one[6];
     judgement j;
     verdict verdict[VERDICTS];
@@ -194,7 +194,7 @@ static void columns(void)
 {
     enum { MANY = 30 };
     static series many[MANY];
-    point here = {.type = &made_up};
+    sweep_point here = {.type = &made_up};
     sweep s = {.points = 1, .seriess = 3, .point = &here, .series = many};
     judgement j = {0};
     overview o;

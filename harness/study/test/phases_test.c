@@ -34,7 +34,7 @@ static void parts_are_the_whole(const cell_request *request, const char *what)
     for (int k = 0; k < PHASES; k++) {
         sum += cell.solve.phase[k];
         gsl_test(!(cell.solve.phase[k] >= 0), "%s: %s is a part of the whole (%g of %g s)", what,
-                 phase_name((phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
+                 phase_name((newton_phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
     }
     gsl_test(!(cell.solve.phase[PHASE_ELEMENTS] > 0), "%s: elements take time", what);
     /* readings of the clock are no more than four fifths of it */
@@ -62,7 +62,7 @@ static void nothing_unasked(void)
     fault f = {""};
     gsl_test(cell_run(&request, &cell, &f) != STATUS_OK, "solved %s", f.text);
     for (int k = 0; k < PHASES; k++)
-        gsl_test_abs(cell.solve.phase[k], 0, 0, "%s unasked", phase_name((phase)k));
+        gsl_test_abs(cell.solve.phase[k], 0, 0, "%s unasked", phase_name((newton_phase)k));
     cell_result_free(&cell);
 }
 

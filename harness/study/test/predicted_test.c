@@ -8,14 +8,14 @@
 static const double just = 3e-3; /* inside or outside of an edge, in parts of its distance */
 
 /* The verdict with a prediction that is so far above the limit (below: negative). */
-static verdict_kind judged(bench *b, double limit, double apart)
+static verdict_kind judged(judge_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
     return bench_judge(b)->kind;
 }
 
 /* The prediction is met up to the distance `edge` from the limit, and no farther. */
-static void edges(bench *b, double edge, verdict_kind beyond, const char *what)
+static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
     const verdict_kind within =
@@ -30,7 +30,7 @@ static void edges(bench *b, double edge, verdict_kind beyond, const char *what)
     }
 }
 
-static void with_prediction(bench *b, double limit)
+static void with_prediction(judge_bench *b, double limit)
 {
     static double none[1] = {0};
     bench_make(b);
@@ -45,7 +45,7 @@ static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
     for (int i = 0; i < 4; i++) {
-        bench b;
+        judge_bench b;
         with_prediction(&b, 3 + error[i]);
         const mesh_limit fit = bench_judge(&b)->fit;
         const double doubt = fit.limit_uncertainty, part = 1e-3 * error[i];
@@ -66,7 +66,7 @@ static void sharp_limits(void)
 /* Three uncertainties of a limit that is not known well. */
 static void uncertain_limits(void)
 {
-    bench b;
+    judge_bench b;
     double noise[1] = {1e-5};
     with_prediction(&b, 3.03);
     b.one.noise = noise;
@@ -83,7 +83,7 @@ static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
     for (int i = 0; i < 2; i++) {
-        bench b;
+        judge_bench b;
         with_prediction(&b, 3 + error[i]);
         b.row[1].uncertainty = 1e-6;
         const double doubt = bench_judge(&b)->fit.limit_uncertainty;
@@ -98,7 +98,7 @@ static void biases(void)
 /* A limit that is not settled is not what was derived, even if both agree. */
 static void undecided(void)
 {
-    bench b;
+    judge_bench b;
     with_prediction(&b, 3.03);
     double noise[1] = {1e-2};
     b.one.noise = noise;

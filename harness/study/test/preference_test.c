@@ -10,16 +10,16 @@
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 
-typedef struct chosen {
+typedef struct preference_chosen {
     status outcome;
     formulation one;
     char why[FAULT_TEXT];
-} chosen;
+} preference_chosen;
 
-static chosen choose(const scene *s, const case_type *type, const double value[], const rule *rules,
-                     int count)
+static preference_chosen choose(const scene *s, const case_type *type, const double value[],
+                                const rule *rules, int count)
 {
-    chosen out;
+    preference_chosen out;
     fault f = {""};
     const rule_subject where = {.type = type, .parameter = value, .features = features_needed(s)};
     out.outcome = preference_formulation(s, &where, rules, count, &out.one, out.why, &f);
@@ -52,7 +52,7 @@ static void of_case(const case_type *type)
     scene s;
     parameters_default(type, value);
     gsl_test(cell_scene(type, value, NULL, &s, &f) != STATUS_OK, "%s: %s", type->name, f.text);
-    const chosen first = choose(&s, type, value, NULL, 0);
+    const preference_chosen first = choose(&s, type, value, NULL, 0);
     const element_type *t = first.one.type;
     gsl_test(first.outcome != STATUS_OK || missing_words(&s, t, words, sizeof words) ||
                  lacks_of(&s, t, words, sizeof words),
@@ -67,7 +67,7 @@ static void of_case(const case_type *type)
              type->name);
     gsl_test(strstr(choose(&s, type, value, &all, 1).why, "but has a known defect here") == NULL,
              "%s: where all have one, it is said", type->name);
-    const chosen other = choose(&s, type, value, &there, 1);
+    const preference_chosen other = choose(&s, type, value, &there, 1);
     gsl_test(other.one.type == t && strstr(other.why, "no known defect here") == NULL,
              "%s: a defect elsewhere is none here", type->name);
     scene_free(&s);
@@ -84,7 +84,7 @@ static void of_meshes(const case_type *type)
     int here = -1;
     parameters_default(type, value);
     cell_scene(type, value, NULL, &s, &f);
-    const chosen first = choose(&s, type, value, NULL, 0);
+    const preference_chosen first = choose(&s, type, value, NULL, 0);
     cell_request one = {.scene = &s};
     cell_formulation(&one, &first.one);
     gsl_test(preference_elements(&one, &first.one, PREFERENCE_ERROR, &found, &f) != STATUS_OK,
@@ -136,7 +136,7 @@ static void no_new_one(void)
         scene s;
         parameters_default(registry_cases[i], value);
         gsl_test(cell_scene(registry_cases[i], value, NULL, &s, &f) != STATUS_OK, "%s", f.text);
-        const chosen one = choose(&s, registry_cases[i], value, NULL, 0);
+        const preference_chosen one = choose(&s, registry_cases[i], value, NULL, 0);
         choices += one.outcome == STATUS_OK;
         gsl_test(one.outcome == STATUS_OK && one.one.type != accepted, "%s: %s is chosen and new",
                  s.name, one.one.key);

@@ -10,9 +10,9 @@
 enum { SERIES = 4, MESHES = 4, QUANTITIES = 2 };
 enum { CHEAP, DEAR, OTHER, LAST };
 
-typedef struct bench {
+typedef struct reach_bench {
     sweep s;
-    point p;
+    sweep_point p;
     scene_quantity quantity[QUANTITIES];
     series one[SERIES];
     cell_result cell[SERIES][MESHES];
@@ -21,11 +21,11 @@ typedef struct bench {
     verdict v[SERIES * QUANTITIES];
     reached list[SERIES];
     int count;
-} bench;
+} reach_bench;
 
 /* Four formulations without prices of their own, exact on every mesh; the truth is 1. The work of
  * each is ten times that of the one before it. */
-static void make(bench *b)
+static void make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
     memset(b, 0, sizeof *b);
@@ -50,13 +50,13 @@ static void make(bench *b)
     }
 }
 
-static void ask(bench *b, int quantity, double level)
+static void ask(reach_bench *b, int quantity, double level)
 {
     const reach_question q = {&b->s, b->v, SERIES * QUANTITIES, 0, quantity, level};
     b->count = reach_ranking(&q, b->list);
 }
 
-static void expect(const bench *b, const int order[], int count, const char *words)
+static void expect(const reach_bench *b, const int order[], int count, const char *words)
 {
     gsl_test_int(b->count, count, "%s: how many", words);
     for (int i = 0; i < count && i < b->count; i++)
@@ -65,7 +65,7 @@ static void expect(const bench *b, const int order[], int count, const char *wor
 
 static void by_work(void)
 {
-    bench b;
+    reach_bench b;
     make(&b);
     ask(&b, 0, 0.01);
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "by work");
@@ -81,7 +81,7 @@ static void by_work(void)
 /* Within 1 % on the coarsest mesh, not on the next: from the third on it counts, with its work. */
 static void by_accident(void)
 {
-    bench b;
+    reach_bench b;
     make(&b);
     b.value[CHEAP][1][0].value = 1.05;
     b.cell[CHEAP][2].counters.strain_evaluations = 5000000;
@@ -96,7 +96,7 @@ static void by_accident(void)
 
 static void wrong_ones(void)
 {
-    bench b;
+    reach_bench b;
     make(&b);
     b.v[QUANTITIES * CHEAP].kind = VERDICT_WRONG_AS_PREDICTED;
     ask(&b, 0, 0.01);
@@ -119,7 +119,7 @@ static void wrong_ones(void)
 
 static void ties(void)
 {
-    bench b;
+    reach_bench b;
     make(&b);
     b.cell[DEAR][0].counters.strain_evaluations = (long)(100000 * (price_noise - 0.02));
     b.cell[OTHER][0].counters.strain_evaluations = (long)(100000 * (price_noise + 0.02));
@@ -140,7 +140,7 @@ static void ties(void)
 /* Who has no truth of its theory in one of them, or does not run, is not asked about all. */
 static void not_asked(void)
 {
-    bench b;
+    reach_bench b;
     imported other = {.gates = 0};
     make(&b);
     b.v[QUANTITIES * CHEAP + 1].truth = NULL;

@@ -13,11 +13,11 @@
 
 enum { STEPS = 3, ELEMENTS = 5 };
 
-typedef struct bench {
+typedef struct sound_bench {
     scene s;
     cell_result cell;
     step_record step[STEPS];
-} bench;
+} sound_bench;
 
 static void add_analysis(scene_analysis_kind kind, scene *s)
 {
@@ -33,7 +33,7 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
 }
 
 /* Three steps of four iterations; a continuation begins each with the tangent at hand. */
-static void make(scene_analysis_kind kind, bench *b)
+static void make(scene_analysis_kind kind, sound_bench *b)
 {
     memset(b, 0, sizeof *b);
     scene_init(&b->s, "made_up");
@@ -55,7 +55,7 @@ static void make(scene_analysis_kind kind, bench *b)
                                   .steps = STEPS};
 }
 
-static void expect(const bench *b, int sound, const char *what)
+static void expect(const sound_bench *b, int sound, const char *what)
 {
     char why[FAULT_TEXT] = "";
     gsl_test_int(sound_cell(&b->cell, &b->s, NEWTON_MIXED, why), sound, "%s: %s", what, why);
@@ -75,7 +75,7 @@ static void counts(scene_analysis_kind kind)
                {offsetof(counters, solutions), 0, "solutions"}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
         for (int more = -1; more <= 1; more++) {
-            bench b;
+            sound_bench b;
             make(kind, &b);
             long *count = (long *)(void *)((char *)&b.cell.counters + row[i].offset);
             *count += more;
@@ -89,7 +89,7 @@ static void counts(scene_analysis_kind kind)
 
 static void steps(void)
 {
-    bench b;
+    sound_bench b;
     make(SCENE_STATIC, &b);
     expect(&b, 1, "a cell that is right");
     for (int i = 0; i < STEPS; i++) {

@@ -9,18 +9,18 @@
 
 enum { MOST = 64, NAME = 40 };
 
-typedef struct bench {
+typedef struct table_bench {
     overview o;
     case_type type[MOST];
     const case_type *row[MOST];
     const char *column[MOST];
     char case_name[MOST][NAME], name[MOST][NAME];
     overview_cell cell[MOST * MOST];
-} bench;
+} table_bench;
 
 static const screen plain = {0, 0};
 
-static void make(bench *b, int rows, int columns, const char *name)
+static void make(table_bench *b, int rows, int columns, const char *name)
 {
     memset(b, 0, sizeof *b);
     b->o = (overview){.rows = rows,
@@ -41,7 +41,7 @@ static void make(bench *b, int rows, int columns, const char *name)
 }
 
 /* What is shown; the caller frees it. */
-static char *shown(const bench *b, screen look)
+static char *shown(const table_bench *b, screen look)
 {
     char *text = NULL;
     size_t size = 0;
@@ -75,7 +75,7 @@ static void widths(void)
     static const char *const names[] = {"a", "geometrically_exact",
                                         "beamw_consistent:torsion=hyperbolic",
                                         "nameofoneverylongwordwithout"};
-    static bench b;
+    static table_bench b;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
         for (int columns = 1; columns <= 40; columns++) {
             make(&b, 3, columns, names[k]);
@@ -96,7 +96,7 @@ static void widths(void)
 /* One block: the head says each name whole, cut only where words are long. */
 static void heads(void)
 {
-    static bench b;
+    static table_bench b;
     make(&b, 1, 3, "sheet_second");
     char *text = shown(&b, plain);
     for (int c = 0; c < 3; c++)
@@ -107,7 +107,7 @@ static void heads(void)
 /* New formulations are marked above their names, and what that means is said once. */
 static void new_ones(void)
 {
-    static bench b;
+    static table_bench b;
     make(&b, 1, 3, "beam");
     char *text = shown(&b, plain);
     gsl_test_int(count(text, "(new)"), 0, "none is new");
@@ -122,7 +122,7 @@ static void new_ones(void)
 /* Where there are many cases, those that pass share lines; the others never do. */
 static void passing(void)
 {
-    static bench b;
+    static table_bench b;
     make(&b, MOST, 4, "beam");
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
@@ -147,7 +147,7 @@ static void passing(void)
 
 static void legend(void)
 {
-    static bench b;
+    static table_bench b;
     make(&b, 2, 2, "beam");
     b.cell[1].mark = OVERVIEW_NOTHING;
     char *text = shown(&b, plain);

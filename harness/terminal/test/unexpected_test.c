@@ -15,9 +15,9 @@ static char words[][300] = {"load",       "N",       "exact", "book, page 3",
 enum { LOAD, NEWTON, EXACT, BOOK, NOTHING, ELEMENT, RULE, CASES, WRONG };
 
 /* One of each. */
-typedef struct bench {
+typedef struct unexpected_bench {
     sweep s;
-    point p;
+    sweep_point p;
     series one;
     scene_quantity q;
     judgement j;
@@ -27,9 +27,9 @@ typedef struct bench {
     truths t;
     truth row[2];
     rule known[2];
-} bench;
+} unexpected_bench;
 
-static void make(bench *b)
+static void make(unexpected_bench *b)
 {
     static char cause[300];
     memset(cause, 'c', 40);
@@ -37,9 +37,9 @@ static void make(bench *b)
     memset(cause + 41, 'd', 90);
     memset(b, 0, sizeof *b);
     b->q = (scene_quantity){.name = "load", .unit = "N"};
-    b->p = (point){.type = &made_up,
-                   .text = "length=2;width=3",
-                   .scene = {.quantities = 1, .quantity = &b->q}};
+    b->p = (sweep_point){.type = &made_up,
+                         .text = "length=2;width=3",
+                         .scene = {.quantities = 1, .quantity = &b->q}};
     b->one = (series){.formulation.key = "element:order=3", .meshes = 2, .mesh = {2, 4}};
     b->s = (sweep){.points = 1, .seriess = 1, .point = &b->p, .series = &b->one};
     b->row[0] = (truth){.type = &made_up,
@@ -71,7 +71,7 @@ static void make(bench *b)
 }
 
 /* What is shown; the caller frees it. */
-static char *shown(const bench *b)
+static char *shown(const unexpected_bench *b)
 {
     char *text = NULL;
     size_t size = 0;
@@ -81,7 +81,7 @@ static char *shown(const bench *b)
     return text;
 }
 
-static void holds(const bench *b, const char *part)
+static void holds(const unexpected_bench *b, const char *part)
 {
     char *text = shown(b);
     gsl_test(strstr(text, part) == NULL, "'%s' stands in: %s", part, text);
@@ -92,7 +92,7 @@ static void holds(const bench *b, const char *part)
 
 int main(void)
 {
-    bench b;
+    unexpected_bench b;
     make(&b);
     b.v.matches = 1;
     char *text = shown(&b);

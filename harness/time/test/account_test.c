@@ -15,13 +15,13 @@ extern const case_type case_free_flight_space, case_elbow;
 
 static const struct {
     const char *name, *values;
-} kind[] = {{"free", "base=free"},
-            {"driven base", "base=driven;thrown=0"},
-            {"turned base", "base=turned;thrown=0"},
-            {"damped", "damping=0.05"},
-            {"follower", "load=follower"},
-            {"goes on", "parts=2;middle=0.6"}};
-enum { DAMPED = 3, KINDS = sizeof kind / sizeof kind[0] };
+} account_kind[] = {{"free", "base=free"},
+                    {"driven base", "base=driven;thrown=0"},
+                    {"turned base", "base=turned;thrown=0"},
+                    {"damped", "damping=0.05"},
+                    {"follower", "load=follower"},
+                    {"goes on", "parts=2;middle=0.6"}};
+enum { DAMPED = 3, KINDS = sizeof account_kind / sizeof account_kind[0] };
 
 /* What is missing at most of the last motion, by account_size; *turned: the work by the energy. */
 static double missing(const solve_result *r, double *turned)
@@ -46,15 +46,15 @@ static void balanced(scene_scheme by, double step, double most)
             cell_result r;
             double turned, off;
             scenes_solve(SWUNG, "collocation", 1, &r, "%s;integrator=%s;step=%.17g;tolerance=%g",
-                         kind[k].values, scenes_integrator[by], step, adapts ? 1e-6 : 0);
+                         account_kind[k].values, scenes_integrator[by], step, adapts ? 1e-6 : 0);
             off = missing(&r.solve, &turned);
             gsl_test(!(off < (adapts ? fmax(most, 1e-4) : most)), "scheme %d, %s%s: %g of it", by,
-                     kind[k].name, adapts ? ", adaptive" : "", off);
-            gsl_test(!(turned > 0.01), "scheme %d, %s: work is done (%g)", by, kind[k].name,
+                     account_kind[k].name, adapts ? ", adaptive" : "", off);
+            gsl_test(!(turned > 0.01), "scheme %d, %s: work is done (%g)", by, account_kind[k].name,
                      turned);
             const double *last = r.solve.motion[r.solve.motions - 1].at.balance;
             gsl_test((k == DAMPED) != (last[SCENE_DISSIPATED] > 1e-3 * last[SCENE_ENERGY]),
-                     "scheme %d, %s: %g J dissipated of %g J", by, kind[k].name,
+                     "scheme %d, %s: %g J dissipated of %g J", by, account_kind[k].name,
                      last[SCENE_DISSIPATED], last[SCENE_ENERGY]);
             cell_result_free(&r);
         }

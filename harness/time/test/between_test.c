@@ -58,7 +58,7 @@ static void run(const moving_one *o, between_degree degree)
 {
     const double h = 0.3;
     instant from, to, at;
-    between inside;
+    step_between inside;
     run_state loaded;
     fault f = {""};
     uint64_t seed = 31;

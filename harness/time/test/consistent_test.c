@@ -60,9 +60,9 @@ static void add_free(scene *s, double stiffening, scene_mass mass, scene_scheme 
     moving_range(s, "energy", motion, SCENE_ENERGY);
 }
 
-typedef struct flight {
+typedef struct consistent_flight {
     double momentum, angular, energy;
-} flight;
+} consistent_flight;
 
 static void end_of(const element_type *type, scene_scheme scheme, double step, double end,
                    answer *out)
@@ -76,11 +76,11 @@ static void end_of(const element_type *type, scene_scheme scheme, double step, d
 
 /* The most that the momenta change behind 0.5 s, to and fro, where nothing acts; the energy that is
  * missing in parts of all. */
-static flight fly(const element_type *type, scene_scheme scheme, double step)
+static consistent_flight fly(const element_type *type, scene_scheme scheme, double step)
 {
     static const double end[] = {0.8, 1.1, 1.4, 2};
     answer early, late;
-    flight out = {0};
+    consistent_flight out = {0};
     end_of(type, scheme, step, 0.5, &early);
     for (int k = 0; k < 4; k++) {
         double change[6];
@@ -102,8 +102,8 @@ static void check_ratio(const char *what, double coarse, double fine, double lea
 
 static void free_flight(const element_type *type)
 {
-    const flight a = fly(type, SCENE_ALPHA, 0.002), b = fly(type, SCENE_ALPHA, 0.001),
-                 c = fly(type, SCENE_RADAU, 0.01), d = fly(type, SCENE_RADAU, 0.005);
+    const consistent_flight a = fly(type, SCENE_ALPHA, 0.002), b = fly(type, SCENE_ALPHA, 0.001),
+                            c = fly(type, SCENE_RADAU, 0.01), d = fly(type, SCENE_RADAU, 0.005);
     check_ratio("momentum by alpha", a.momentum, b.momentum, 3.3);
     check_ratio("angular momentum by alpha", a.angular, b.angular, 3.3);
     check_ratio("energy by alpha", a.energy, b.energy, 3.3);

@@ -30,8 +30,8 @@ typedef struct flight {
     solve_result result;
     analysis_context c;
     scene_motion how;
-    carried masses;
-    scheme *scheme;
+    carried_masses masses;
+    motion_scheme *scheme;
     instant now, next;
     int most, sum, steps; /* iterations */
     fault why;

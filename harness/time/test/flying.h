@@ -23,10 +23,10 @@ typedef struct flying {
     model *m;
     run_state run;
     context_work kept;
-    carried masses;
-    work work;
+    carried_masses masses;
+    outer_work work;
     run_damping damping;
-    scheme *scheme;
+    motion_scheme *scheme;
     instant now, next;
     double error; /* that the last step has estimated */
     fault why;

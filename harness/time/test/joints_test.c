@@ -9,13 +9,13 @@
 static const double y_axis[] = {0, 1, 0};
 
 /* What joins the second bar to the first. */
-typedef struct joint {
+typedef struct tested_joint {
     const char *name;
     int released, component[SCENE_RELEASED]; /* at the second bar's begin */
     int offset, spring, ground, hinge;       /* hinge 2: driven */
-} joint;
+} tested_joint;
 
-static const joint joints[] = {
+static const tested_joint joints[] = {
     {.name = "rigid"},
     {.name = "hinge", .released = 1, .component = {SCENE_RY}},
     {.name = "universal joint", .released = 2, .component = {SCENE_RY, SCENE_RZ}},
@@ -35,7 +35,7 @@ static const joint joints[] = {
 };
 enum { JOINTS = sizeof joints / sizeof joints[0] };
 
-static const joint *present;
+static const tested_joint *present;
 static double stiffening;
 
 static void add_springs(scene *s, int B, int C)
@@ -113,11 +113,12 @@ static status build(const double value[], scene *s, fault *f)
 }
 
 /* Largest changes behind the loads, relative. */
-typedef struct changes {
+typedef struct joints_changes {
     double energy, angular, momentum;
-} changes;
+} joints_changes;
 
-static void compare(const flight *f, double energy, const inertia_balance *before, changes *most)
+static void compare(const flight *f, double energy, const inertia_balance *before,
+                    joints_changes *most)
 {
     const inertia_balance now = flight_inertia(f);
     most->energy = fmax(most->energy, fabs(flight_energy(f) / energy - 1));
@@ -132,7 +133,7 @@ static void compare(const flight *f, double energy, const inertia_balance *befor
 static void fly(const char *with, double h)
 {
     flight f;
-    changes most = {0, 0, 0};
+    joints_changes most = {0, 0, 0};
     double energy = 0, gained = 0;
     inertia_balance before = {0};
     status outcome = flight_begin(&f, build, with, 2);

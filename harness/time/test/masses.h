@@ -96,7 +96,7 @@ static inline void build(scene *s, int warps, int released)
 typedef struct moving_one {
     scene scene;
     model *m;
-    carried masses;
+    carried_masses masses;
     model_state *rest, *now;
     int all;
     double inc[MOST], v[MOST], a[MOST];

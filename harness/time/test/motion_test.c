@@ -82,13 +82,13 @@ static void check_same(scene_scheme by)
 }
 
 /* A rod along x, held at its root. */
-typedef struct rod {
+typedef struct motion_rod {
     int profile, root, tip, member;
-} rod;
+} motion_rod;
 
-static rod add_rod(scene *s, const char *name)
+static motion_rod add_rod(scene *s, const char *name)
 {
-    rod out;
+    motion_rod out;
     scene_init(s, name);
     scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
     out.profile = add_section(s);
@@ -106,7 +106,7 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
     const double one[1] = {1}, first = sqrt(3 * EI / 50);
     scene s;
     answer a;
-    const rod is = add_rod(&s, "one mode");
+    const motion_rod is = add_rod(&s, "one mode");
     const int tip = is.tip;
     scene_node_at(&s, tip)->body = (scene_body){.mass = 50, .inertia = {1e-3, 1e-3, 1e-3}};
     s.section[is.profile].density *= 1e-6;
@@ -136,7 +136,7 @@ static double base(scene_scheme by, int moves)
     const double at[1] = {0.7};
     scene s;
     answer a;
-    const rod is = add_rod(&s, "base");
+    const motion_rod is = add_rod(&s, "base");
     if (moves) {
         const int driver = scene_add_moving_driver(&s, "base");
         scene_drive_piece(&s, driver, 0, "t^3");

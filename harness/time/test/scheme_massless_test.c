@@ -22,7 +22,7 @@ static void warps(unsigned omit, int heavy)
     formulation chosen;
     scene s;
     model *m = NULL;
-    carried masses;
+    carried_masses masses;
     fault f = {""};
     double force[MOST], motion[MOST], given[MOST], a[MOST];
     const double end = 1;

@@ -110,7 +110,7 @@ static double settle(flight *f)
     model *m = f->m;
     const sparse *pattern;
     sparse K;
-    factor *of = NULL;
+    matrix_factor *of = NULL;
     double correction = INFINITY;
     const size_t all = (size_t)model_all_coordinates(m) + 1;
     double *residual = calloc(all, sizeof *residual);

@@ -4,7 +4,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    results r;
+    stored_results r;
     fault f = {""};
     if (size == 0)
         return 0;

@@ -4,7 +4,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    results r = {0}, again = {0};
+    stored_results r = {0}, again = {0};
     fault f = {""};
     FILE *from = fuzz_stream(data, size);
     const status outcome = results_table_read("table", from, &r, &f);
