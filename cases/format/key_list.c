@@ -96,16 +96,16 @@ const char *const key_list_head[2] = {
     "[EXPR, ...] may be a range: a..b, a..b step c, a..b/n. A word may be the name of a parameter.",
     "Every entry (NAME: {...}, - {...}) may have these; $i in its name and texts is replaced:"};
 
-typedef struct list {
+typedef struct key_rows {
     FILE *to;
     int depth; /* of what stands at the root of what is walked */
     key_list_say *say;
-} list;
+} key_rows;
 
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)
 {
-    const list *l = context;
+    const key_rows *l = context;
     const int indent = 2 * (l->depth + depth);
     const int at = fprintf(l->to, "%*s%-*s %-12s ", indent, "", 26 - indent, name, form);
     l->say(l->to, at, at, text);
@@ -113,7 +113,7 @@ static void write_key(void *context, int depth, const char *name, const char *fo
 
 void key_list_write(FILE *to, key_list_say *say)
 {
-    list loops = {to, 1, say}, all = {to, 0, say};
+    key_rows loops = {to, 1, say}, all = {to, 0, say};
     for (int i = 0; i < 2; i++)
         say(to, 0, 2, key_list_head[i]);
     key_list_loops(write_key, &loops);

@@ -17,7 +17,7 @@ static int has_name(const document_node *n)
 }
 
 /* Length of the loop name that $ or ${ here stands before; 0: none does. */
-static size_t name_at(const char *at, int *braces)
+static size_t substitute_name_at(const char *at, int *braces)
 {
     *braces = at[0] == '$' && at[1] == '{';
     const size_t length = *at == '$' ? scope_name_length(at + 1 + *braces) : 0;
@@ -28,7 +28,7 @@ int substitute_is_left(const char *text)
 {
     int braces;
     for (const char *at = text; *at != '\0'; at++)
-        if (name_at(at, &braces) > 0)
+        if (substitute_name_at(at, &braces) > 0)
             return 1;
     return 0;
 }
@@ -72,7 +72,7 @@ static const char *substitute_text(const document_node *n, int said, const scope
     size_t used = 0;
     for (const char *at = n->text; *at != '\0' && used + 64 < sizeof text;) {
         int braces;
-        const size_t length = name_at(at, &braces);
+        const size_t length = substitute_name_at(at, &braces);
         char value[64];
         if (length > 0 && value_text(n, (int)(at - n->text), length, said, names, m, value)) {
             used += (size_t)snprintf(text + used, sizeof text - used, "%s", value);

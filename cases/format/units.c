@@ -117,8 +117,8 @@ static const named_unit *find_unit(const named_unit list[], const char *text, si
 }
 
 /* One word of the three; 0: it is told. */
-static int read_unit(const document_node *n, const char *word, size_t length, unit_system *out,
-                     double *stress, mistakes *m)
+static int units_read_unit(const document_node *n, const char *word, size_t length,
+                           unit_system *out, double *stress, mistakes *m)
 {
     const named_unit *L = find_unit(lengths, word, length), *F = find_unit(forces, word, length),
                      *S = find_unit(stresses, word, length);
@@ -154,12 +154,12 @@ void units_read(const document_node *n, mistakes *m, unit_system *out)
     }
     for (int i = 0; n->kind == DOCUMENT_LIST && good && i < n->count; i++) {
         const char *word = n->item[i]->kind == DOCUMENT_TEXT ? n->item[i]->text : "?";
-        good = read_unit(n, word, strlen(word), out, &stress, m);
+        good = units_read_unit(n, word, strlen(word), out, &stress, m);
     }
     for (const char *at = n->text; n->kind == DOCUMENT_TEXT && good && *at != '\0';) {
         at += strspn(at, ", ");
         const size_t length = strcspn(at, ", ");
-        good = length == 0 || read_unit(n, at, length, out, &stress, m);
+        good = length == 0 || units_read_unit(n, at, length, out, &stress, m);
         at += length;
     }
     if (!good)

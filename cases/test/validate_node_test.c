@@ -96,7 +96,7 @@ static void loose_mass(scene *s)
     scene_set_body(s, scene_add_node(s, 0, 0, 7), (scene_body){.mass = 1});
 }
 
-static const refusal refusals[] = {
+static const refusal node_refusals[] = {
     {position, "node 1: ", "at = "},
     {driver_of_node, "node 1: ", "driver that does not exist"},
     {half_a_vector, "node 1: ", "three drivers"},
@@ -118,6 +118,6 @@ static const refusal refusals[] = {
 
 int main(void)
 {
-    refuse_all(sizeof refusals / sizeof refusals[0], refusals);
+    refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
     return gsl_test_summary();
 }

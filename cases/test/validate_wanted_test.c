@@ -134,7 +134,7 @@ static void largest_of_frequencies(scene *s)
         ->reduction = SCENE_MAX;
 }
 
-static const refusal refusals[] = {
+static const refusal wanted_refusals[] = {
     {follows_itself, "analysis 0: ", "does not come before it"},
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "needs a station"},
@@ -169,7 +169,7 @@ static void accepts_continuation(void)
 
 int main(void)
 {
-    refuse_all(sizeof refusals / sizeof refusals[0], refusals);
+    refuse_all(sizeof wanted_refusals / sizeof wanted_refusals[0], wanted_refusals);
     accepts_continuation();
     return gsl_test_summary();
 }

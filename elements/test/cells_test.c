@@ -173,7 +173,7 @@ static void refusal(const section_spec *spec, const char *word)
     gsl_test(got != STATUS_REFUSED || strstr(f.text, word) == NULL, "'%s': %s", word, f.text);
 }
 
-static void refusals(void)
+static void cells_refusals(void)
 {
     section_spec spec = box_spec();
     spec.cells = 0;
@@ -198,6 +198,6 @@ int main(void)
     tube_closed_forms();
     cells();
     points_between();
-    refusals();
+    cells_refusals();
     return gsl_test_summary();
 }

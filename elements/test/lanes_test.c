@@ -22,7 +22,7 @@ static const struct {
     strains_function *strain;
     stresses_function *stress;
     double option[3]; /* the first ones */
-} family[] = {
+} lanes_family[] = {
     {&element_beamw, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
     {&element_beamw_vlasov, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
     {&element_beamw_first, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
@@ -114,7 +114,7 @@ static void stresses(batch *b, stresses_function *many, int first, int count, in
                  count, what);
 }
 
-static void compare(batch *b, strains_function *strain, stresses_function *stress)
+static void lanes_compare(batch *b, strains_function *strain, stresses_function *stress)
 {
     for (int what = 1; what < 8; what++)
         for (int count = 1; count <= MANY; count++)
@@ -128,12 +128,12 @@ static void compare(batch *b, strains_function *strain, stresses_function *stres
 
 int main(void)
 {
-    for (size_t i = 0; i < sizeof family / sizeof family[0]; i++)
+    for (size_t i = 0; i < sizeof lanes_family / sizeof lanes_family[0]; i++)
         for (int k = 0; k < BATCH_FEATURES; k++) {
-            batch b = batch_of(family[i].type, family[i].option, 3, k);
-            compare(&b, b.type->strain_many, b.type->stress_many);
+            batch b = batch_of(lanes_family[i].type, lanes_family[i].option, 3, k);
+            lanes_compare(&b, b.type->strain_many, b.type->stress_many);
             b.name = "without AVX2";
-            compare(&b, family[i].strain, family[i].stress);
+            lanes_compare(&b, lanes_family[i].strain, lanes_family[i].stress);
             batch_free(&b);
         }
     return gsl_test_summary();

@@ -12,7 +12,7 @@
 
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
-enum { N = 8, MX = 1, MYP, MYQ, MODES = 5 };
+enum { COEFFICIENTS_N = 8, MX = 1, MYP, MYQ, MODES = 5 };
 enum {
     ONE,
     PX = 1 + SHEET_LOCAL_PX,
@@ -125,9 +125,9 @@ static void uniform_torsion(void)
 }
 
 static void stiffness_at_rest(const element_type *type, const section *c, unsigned features,
-                              double C[N * N])
+                              double C[COEFFICIENTS_N * COEFFICIENTS_N])
 {
-    const double e[N] = {0};
+    const double e[COEFFICIENTS_N] = {0};
     const element_request request = {.section = c, .length = 0.9, .features = features};
     element_data *d = calloc(1, type->data_size(&request));
     gsl_test(d == NULL || type->prepare(&request, d, NULL) != STATUS_OK, "%s: prepared",
@@ -148,7 +148,8 @@ static void second_order_limit(void)
                  .It = 0.031,
                  .Iw = 1e4,
                  .Ip = 0.2417};
-    double second[N * N], third[N * N], worst = 0;
+    double second[COEFFICIENTS_N * COEFFICIENTS_N], third[COEFFICIENTS_N * COEFFICIENTS_N],
+        worst = 0;
     c.F[4] = 1 / (0.83 * c.A);
     for (int warping = 0; warping < 2; warping++)
         for (int printed = 0; printed < 2; printed++) {
@@ -161,17 +162,22 @@ static void second_order_limit(void)
             if (!warping)
                 for (int pass = 0; pass < 2; pass++) {
                     double *C = pass == 0 ? second : third;
-                    for (int i = 0; i < N; i++)
-                        C[N * i + 1] += C[N * i + 6] + C[N * i + 7],
-                            C[N * i + 6] = C[N * i + 7] = 0;
-                    for (int j = 0; j < N; j++)
-                        C[N + j] += C[N * 6 + j] + C[N * 7 + j], C[N * 6 + j] = C[N * 7 + j] = 0;
+                    for (int i = 0; i < COEFFICIENTS_N; i++)
+                        C[COEFFICIENTS_N * i + 1] +=
+                            C[COEFFICIENTS_N * i + 6] + C[COEFFICIENTS_N * i + 7],
+                            C[COEFFICIENTS_N * i + 6] = C[COEFFICIENTS_N * i + 7] = 0;
+                    for (int j = 0; j < COEFFICIENTS_N; j++)
+                        C[COEFFICIENTS_N + j] +=
+                            C[COEFFICIENTS_N * 6 + j] + C[COEFFICIENTS_N * 7 + j],
+                            C[COEFFICIENTS_N * 6 + j] = C[COEFFICIENTS_N * 7 + j] = 0;
                 }
-            for (int i = 0; i < N; i++)
-                for (int j = 0; j < N; j++)
-                    worst =
-                        fmax(worst, fabs(third[N * i + j] - second[N * i + j]) /
-                                        (sqrt(second[(N + 1) * i] * second[(N + 1) * j]) + 1e-300));
+            for (int i = 0; i < COEFFICIENTS_N; i++)
+                for (int j = 0; j < COEFFICIENTS_N; j++)
+                    worst = fmax(worst, fabs(third[COEFFICIENTS_N * i + j] -
+                                             second[COEFFICIENTS_N * i + j]) /
+                                            (sqrt(second[(COEFFICIENTS_N + 1) * i] *
+                                                  second[(COEFFICIENTS_N + 1) * j]) +
+                                             1e-300));
         }
     gsl_test(!(worst < 1e-14), "the undeformed third-order element is the second-order one (%.1e)",
              worst);

@@ -15,7 +15,7 @@ extern const element_type element_sheet_second, element_sheet_second_consistent,
 
 static const element_type *const types[] = {&element_sheet_second, &element_sheet_second_consistent,
                                             &element_sheet_third, &element_sheet_third_printed};
-enum { TYPES = sizeof types / sizeof types[0], N = 8, NODAL = 14 };
+enum { TYPES = sizeof types / sizeof types[0], SHEET_N = 8, SHEET_NODAL = 14 };
 
 static section sheet_of(double width, double thickness)
 {
@@ -49,7 +49,7 @@ static double scaled_difference(int n, const double a[], const double b[])
 
 /* N Eq. 37, word for word but for the last term of e1, where L^2 must be L: a length is
  * expected. */
-static void printed_strains(double L, double Ite, const double q[N], double e[N])
+static void printed_strains(double L, double Ite, const double q[SHEET_N], double e[SHEET_N])
 {
     const double u = q[SHEET_LOCAL_U], px = q[SHEET_LOCAL_PX], yp = q[SHEET_LOCAL_YP],
                  yq = q[SHEET_LOCAL_YQ], zp = q[SHEET_LOCAL_ZP], zq = q[SHEET_LOCAL_ZQ],
@@ -71,15 +71,15 @@ static void printed_strains(double L, double Ite, const double q[N], double e[N]
 static void printed_equation(void)
 {
     const double L = 0.1873,
-                 q[N] = {2.385e-3, 0.317, -0.0419, 0.0573, 0.1931, -0.0871, 1.371, -0.713};
+                 q[SHEET_N] = {2.385e-3, 0.317, -0.0419, 0.0573, 0.1931, -0.0871, 1.371, -0.713};
     const section c = sheet_of(0.0912, 0.00217);
     const element_request request = {
         .section = &c, .length = L, .features = FEATURE_WARPING | FEATURE_TRAPEZE};
     sheet_strains_table table;
-    double e[N], printed[N];
+    double e[SHEET_N], printed[SHEET_N];
     gsl_test(sheet_strains_prepare(&request, 0, 0, &table, NULL) != STATUS_OK,
              "strains are integrated");
-    dense_mul_vec(N, N, table.Lambda, q, e);
+    dense_mul_vec(SHEET_N, SHEET_N, table.Lambda, q, e);
     for (int t = 0; t < table.terms; t++) {
         const int j = table.term[t].j, k = table.term[t].k;
         const double value = table.term[t].c * q[j] * q[k] / (j == k ? 2 : 1);
@@ -88,7 +88,7 @@ static void printed_equation(void)
         e[7] += table.term[t].i == 1 ? value : 0;
     }
     printed_strains(L, c.Ip / c.A, q, printed);
-    for (int i = 0; i < N; i++)
+    for (int i = 0; i < SHEET_N; i++)
         gsl_test_rel(e[i], printed[i], 1e-14, "N Eq. 37, e%d", i + 1);
 }
 
@@ -116,16 +116,16 @@ static void strained(double L, node_state x[2])
 
 static void derivatives_of_strain(const element_type *type)
 {
-    static const double s[N] = {0.713, -1.37, 0.837, 1.193, -0.571, 0.391, 1.117, -0.673};
+    static const double s[SHEET_N] = {0.713, -1.37, 0.837, 1.193, -0.571, 0.391, 1.117, -0.673};
     const double L = 0.1873;
     const section c = sheet_of(0.0912, 0.00217);
     element_data *data = prepare(type, &c, L, type->offers & ~(unsigned)FEATURE_CURVATURE, NULL);
     node_state x[2];
     strained(L, x);
     for (unsigned seed = 1; seed <= 4; seed++) {
-        double d[NODAL];
+        double d[SHEET_NODAL];
         nodes_increments(2, L, 1, seed, d);
-        const nodes_departure found = nodes_differences(type, data, 2, N, x, d, s);
+        const nodes_departure found = nodes_differences(type, data, 2, SHEET_N, x, d, s);
         gsl_test(!(found.first < 1e-11), "%s: J is de/dx (%.1e)", type->name, found.first);
         gsl_test(!(found.second < 1e-11), "%s: H is the derivative of J^T s (%.1e)", type->name,
                  found.second);
@@ -138,40 +138,43 @@ static void derivatives_of_strain(const element_type *type)
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};
-    const double L = 0.1873, h = 1e-3, none[N] = {0}, k[3] = {0, 0.117, 0.371};
-    const double e[N] = {1.3e-6, 1.9e-3, -2.1e-5, 3.7e-5, 4.1e-3, -5.3e-3, 2.3e-3, 1.1e-3};
-    const double d[N] = {0.7e-6, 1.1e-3, 1.3e-5, -2.3e-5, -2.9e-3, 1.7e-3, -1.9e-3, 0.7e-3};
+    const double L = 0.1873, h = 1e-3, none[SHEET_N] = {0}, k[3] = {0, 0.117, 0.371};
+    const double e[SHEET_N] = {1.3e-6, 1.9e-3, -2.1e-5, 3.7e-5, 4.1e-3, -5.3e-3, 2.3e-3, 1.1e-3};
+    const double d[SHEET_N] = {0.7e-6, 1.1e-3, 1.3e-5, -2.3e-5, -2.9e-3, 1.7e-3, -1.9e-3, 0.7e-3};
     const section c = sheet_of(0.0912, 0.00217);
     element_data *data = prepare(type, &c, L, type->offers, k);
-    double sigma[N], C[N * N], Cd[N], dP = 0, ds[N] = {0}, work = 0, C0[N * N], stress[N],
-                                      dC[N * N] = {0}, G[N * N];
+    double sigma[SHEET_N], C[SHEET_N * SHEET_N], Cd[SHEET_N],
+        dP = 0, ds[SHEET_N] = {0}, work = 0, C0[SHEET_N * SHEET_N], stress[SHEET_N],
+        dC[SHEET_N * SHEET_N] = {0}, G[SHEET_N * SHEET_N];
     type->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C});
     for (int n = 0; n < 4; n++) {
-        double moved[N], near[N], P, s[N], Cn[N * N];
-        for (int i = 0; i < N; i++) {
+        double moved[SHEET_N], near[SHEET_N], P, s[SHEET_N], Cn[SHEET_N * SHEET_N];
+        for (int i = 0; i < SHEET_N; i++) {
             moved[i] = e[i] + at[n] * h * d[i];
             near[i] = at[n] * h * d[i];
         }
         type->stress(data, moved, NULL, &(stress_output){.energy = &P, .sigma = s});
         type->stress(data, near, NULL, &(stress_output){.C = Cn});
         dP += stencil[n] * P / (12 * h);
-        for (int i = 0; i < N; i++)
+        for (int i = 0; i < SHEET_N; i++)
             ds[i] += stencil[n] * s[i] / (12 * h);
-        for (int i = 0; i < N * N; i++)
+        for (int i = 0; i < SHEET_N * SHEET_N; i++)
             dC[i] += stencil[n] * Cn[i] / (12 * h);
     }
-    dense_mul_vec(N, N, C, d, Cd);
-    for (int i = 0; i < N; i++)
+    dense_mul_vec(SHEET_N, SHEET_N, C, d, Cd);
+    for (int i = 0; i < SHEET_N; i++)
         work += sigma[i] * d[i];
     gsl_test_rel(dP, work, 1e-10, "%s: sigma is the gradient of the energy", type->name);
-    gsl_test(!(scaled_difference(N, ds, Cd) < 1e-10), "%s: C is the derivative of sigma (%.1e)",
-             type->name, scaled_difference(N, ds, Cd));
+    gsl_test(!(scaled_difference(SHEET_N, ds, Cd) < 1e-10),
+             "%s: C is the derivative of sigma (%.1e)", type->name,
+             scaled_difference(SHEET_N, ds, Cd));
     if (type->geometric != NULL) {
         type->stress(data, none, NULL, &(stress_output){.C = C0});
-        dense_mul_vec(N, N, C0, d, stress);
+        dense_mul_vec(SHEET_N, SHEET_N, C0, d, stress);
         type->geometric(data, stress, G);
-        gsl_test(!(scaled_difference(N * N, dC, G) < 1e-9), "%s: G is the derivative of C (%.1e)",
-                 type->name, scaled_difference(N * N, dC, G));
+        gsl_test(!(scaled_difference(SHEET_N * SHEET_N, dC, G) < 1e-9),
+                 "%s: G is the derivative of C (%.1e)", type->name,
+                 scaled_difference(SHEET_N * SHEET_N, dC, G));
     }
     free(data);
 }

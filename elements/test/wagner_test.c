@@ -10,15 +10,15 @@
 #include "elements/section/walls.h"
 #include "elements/test/sections.h"
 
-typedef struct shape {
+typedef struct wagner_shape {
     const char *name;
     int points, walls, cells;
     double point[6][2]; /* [m] */
     int wall[6][2];
     double thickness[6]; /* [m] */
-} shape;
+} wagner_shape;
 
-static const shape shapes[] = {
+static const wagner_shape shapes[] = {
     {"cruciform",
      5,
      4,
@@ -63,7 +63,7 @@ static const shape shapes[] = {
      {{0, 1}, {1, 2}, {3, 2}, {3, 0}},
      {3e-3, 5e-3, 4e-3, 2e-3}}};
 
-static section_spec spec_of(const shape *s, int thick, double size, double angle)
+static section_spec spec_of(const wagner_shape *s, int thick, double size, double angle)
 {
     section_spec spec = sections_steel(SECTION_WALLS);
     spec.points = s->points;
@@ -114,7 +114,7 @@ static double left_of(double m[4][4])
     return m[3][3];
 }
 
-static void over_the_area(const shape *s, int thick, double angle)
+static void over_the_area(const wagner_shape *s, int thick, double angle)
 {
     const section_spec spec = spec_of(s, thick, 1, angle);
     const section c = sections_computed(&spec);
@@ -133,7 +133,7 @@ static void over_the_area(const shape *s, int thick, double angle)
 /* A section that a half turn brings onto itself, and one without any symmetry, twist to either side
  * in other ways; a mirror makes both sides alike, whatever the axes, and so do walls that meet in
  * one point. */
-static void one_sided(const shape *s, double angle)
+static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
     const double found = walls_one_sided(&spec);

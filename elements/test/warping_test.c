@@ -15,12 +15,12 @@
 #include "elements/test/random.h"
 #include "elements/test/worst.h"
 
-enum { MOST = EXACT_WARPING_MAX_STAGES };
+enum { WARPING_MOST = EXACT_WARPING_MAX_STAGES };
 
 /* p by its coefficients of x^k, and the amplitudes of both layers. */
 typedef struct amplitude {
     int stages;
-    double lambda, p[MOST], layer[2];
+    double lambda, p[WARPING_MOST], layer[2];
 } amplitude;
 
 /* Derivative `order` of the polynomial. */
@@ -50,7 +50,7 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
     for (double from = 0, to = fmin(1e-3 / a->lambda, 0.5); from < 0.5;
          from = to, to = fmin(2 * to, 0.5))
         for (size_t g = 0; g < 12; g++) {
-            double at, weight, L[MOST];
+            double at, weight, L[WARPING_MOST];
             gsl_integration_glfixed_point(from, to, g, &at, &weight, t);
             exact_line_lagrange(a->stages, x, at, L, NULL);
             for (int i = 0; i < a->stages; i++)
@@ -63,11 +63,11 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
 }
 
 /* Largest departure of S z from the exact gradient, in parts of its largest entry. */
-static double departure(const beam_constants *c, const amplitude *a)
+static double warping_departure(const beam_constants *c, const amplitude *a)
 {
     const int m = a->stages + 2;
-    double x[MOST], w[MOST], mean[MOST], z[EXACT_WARPING_MAX], exact[EXACT_WARPING_MAX],
-        S[EXACT_WARPING_MAX * EXACT_WARPING_MAX], size = 0, worst = 0;
+    double x[WARPING_MOST], w[WARPING_MOST], mean[WARPING_MOST], z[EXACT_WARPING_MAX],
+        exact[EXACT_WARPING_MAX], S[EXACT_WARPING_MAX * EXACT_WARPING_MAX], size = 0, worst = 0;
     quadrature_points(a->stages, x, w);
     layer_means(a, x, w, mean);
     for (int i = 0; i < a->stages; i++) {
@@ -92,7 +92,7 @@ static double departure(const beam_constants *c, const amplitude *a)
 }
 
 /* One layer or polynomial term at a time: none hides behind a larger one. */
-static void compare(int stages, double lambda, double shear)
+static void warping_compare(int stages, double lambda, double shear)
 {
     const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
     double layer = 0, smooth = 0, mixed = 0;
@@ -100,20 +100,20 @@ static void compare(int stages, double lambda, double shear)
     for (int side = 0; side < 2; side++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.layer[side] = 1;
-        layer = worst_of(layer, departure(&c, &a));
+        layer = worst_of(layer, warping_departure(&c, &a));
     }
     for (int k = 0; k < stages; k++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
         if (k > 0) /* a constant needs no torque and no bimoment: it is seen in the mixture */
-            smooth = worst_of(smooth, departure(&c, &a));
+            smooth = worst_of(smooth, warping_departure(&c, &a));
     }
     amplitude a = {.stages = stages, .lambda = lambda};
     for (int k = 0; k < stages; k++)
         a.p[k] = random_number(&seed);
     a.layer[0] = random_number(&seed);
     a.layer[1] = random_number(&seed);
-    mixed = departure(&c, &a);
+    mixed = warping_departure(&c, &a);
     gsl_test(!(layer < 1e-9), "lambda = %g, %d stages, shear %g: layers (%.1e)", lambda, stages,
              shear, layer);
     gsl_test(!(smooth < 1e-9), "lambda = %g, %d stages, shear %g: between them (%.1e)", lambda,
@@ -126,9 +126,9 @@ int main(void)
 {
     static const double lambda[] = {0.1, 1, 5, 15, 19.9, 20.1, 50, 300, 1e4},
                         shear[] = {0, 0.3, 40};
-    for (int stages = 3; stages <= MOST; stages++)
+    for (int stages = 3; stages <= WARPING_MOST; stages++)
         for (size_t i = 0; i < sizeof lambda / sizeof lambda[0]; i++)
             for (size_t k = 0; k < sizeof shear / sizeof shear[0]; k++)
-                compare(stages, lambda[i], shear[k]);
+                warping_compare(stages, lambda[i], shear[k]);
     return gsl_test_summary();
 }

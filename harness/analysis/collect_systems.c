@@ -80,8 +80,8 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
 }
 
 /* With K known: B, and of a formulation with inertia M, and G where the axes turn. */
-static status keep(const analysis_context *c, const model_state *state, double path, workspace *w,
-                   state_matrices *out, fault *f)
+static status systems_keep(const analysis_context *c, const model_state *state, double path,
+                           workspace *w, state_matrices *out, fault *f)
 {
     out->path = path;
     TRY(triplets_of(&w->K, 0, &out->K, f));
@@ -95,8 +95,8 @@ static status keep(const analysis_context *c, const model_state *state, double p
 
 /* Of the undeformed structure; displaced: those of a linear solution whose stresses count, under
  * the loads at `path`, NULL: there are none. */
-static status keep_linear(const analysis_context *c, int analysis, const double displaced[],
-                          double path, workspace *w, system_matrices *s, fault *f)
+static status systems_keep_linear(const analysis_context *c, int analysis, const double displaced[],
+                                  double path, workspace *w, system_matrices *s, fault *f)
 {
     state_matrices *out = NULL;
     TRY(next(s, &out, f));
@@ -108,7 +108,7 @@ static status keep_linear(const analysis_context *c, int analysis, const double 
         for (int i = 0; i < w->K.column[w->K.n]; i++)
             w->K.value[i] += w->G.value[i];
     }
-    TRY(keep(c, kinematics_rest(c->model), 0, w, out, f));
+    TRY(systems_keep(c, kinematics_rest(c->model), 0, w, out, f));
     return displaced == NULL && rotating_frame_inner_matrix(&c->eq, &w->G)
                ? triplets_of(&w->G, 0, &out->inside, f)
                : STATUS_OK;
@@ -129,11 +129,11 @@ static status keep_state(const analysis_context *c, int analysis, int station,
     if (c->options->newton == NEWTON_DISPLACEMENT)
         TRY(linearise_make_compatible(&c->eq, w->state, f));
     TRY(linearise_state(&c->eq, &c->run->memory, w->state, &lin, f));
-    return keep(c, w->state, path, w, out, f);
+    return systems_keep(c, w->state, path, w, out, f);
 }
 
-static status keep_path(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
-                        fault *f)
+static status systems_keep_path(const analysis_context *c, int analysis, workspace *w,
+                                system_matrices *s, fault *f)
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
@@ -150,7 +150,7 @@ static status keep_unloaded(const analysis_context *c, int analysis, workspace *
 {
     const analysis_context unloaded = context_unloaded(c);
     const double *strained = outcome_spectrum_of(&c->outcomes[analysis])->strained;
-    return keep_linear(&unloaded, analysis, strained, 0, w, s, f);
+    return systems_keep_linear(&unloaded, analysis, strained, 0, w, s, f);
 }
 
 /* About what the modal analysis follows. */
@@ -161,7 +161,8 @@ static status keep_about(const analysis_context *c, int analysis, workspace *w, 
     if (follows == SCENE_NONE)
         return keep_unloaded(c, analysis, w, s, f);
     if (c->scene->analysis[follows].kind == SCENE_LINEAR)
-        return keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), 1, w, s, f);
+        return systems_keep_linear(c, analysis, outcome_displacements(&c->outcomes[follows]), 1, w,
+                                   s, f);
     const outcome_path *path = outcome_path_of(&c->outcomes[follows]);
     return keep_state(c, analysis, SCENE_NONE, path->state[path->reached - 1], w, s, f);
 }
@@ -199,13 +200,13 @@ static status collect(const analysis_context *c, workspace *w, system_matrices *
                                    .result = c->result,
                                    .outcomes = c->outcomes,
                                    .work = c->work};
-    TRY(keep_linear(&rest, SCENE_NONE, NULL, 0, w, s, f));
+    TRY(systems_keep_linear(&rest, SCENE_NONE, NULL, 0, w, s, f));
     for (int i = 0; i < c->scene->analyses; i++) {
         if (!context_runs(c, i))
             continue;
         const analysis_context own = context_of(c, i);
         if (outcome_has_path(&c->outcomes[i]))
-            TRY(keep_path(&own, i, w, s, f));
+            TRY(systems_keep_path(&own, i, w, s, f));
         else if (c->scene->analysis[i].kind == SCENE_MODAL)
             TRY(keep_modal(&own, i, w, s, f));
     }

@@ -128,8 +128,8 @@ static status unloaded(analysis_context *c, newton_run *n, const model_state **s
 }
 
 /* With what compliance_analysis frees; at the stations that the path has reached. */
-static status solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
-                    outcome_compliance *out, fault *f)
+static status compliance_solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
+                               outcome_compliance *out, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
     const scene_compliance *what = scene_compliance_of(a);
@@ -170,7 +170,8 @@ status compliance_analysis(analysis_context *c, int analysis, analysis_outcome *
     newton_run n = {0};
     analysis_context unloaded = context_unloaded(c);
     const int alone = c->scene->analysis[analysis].follows == SCENE_NONE;
-    const status result = solve(alone ? &unloaded : c, analysis, &t, &n, &o->left.compliance, f);
+    const status result =
+        compliance_solve(alone ? &unloaded : c, analysis, &t, &n, &o->left.compliance, f);
     tangent_free(&t);
     newton_free(&n);
     return result;

@@ -318,7 +318,7 @@ static status end(void *group, command_line *l, fault *f)
     return STATUS_OK;
 }
 
-static void close(void *group)
+static void close_case(void *group)
 {
     case_options *r = group;
     scene_file_free(r->scene);
@@ -330,5 +330,5 @@ static const verb_option both[] = {
     {"scene", 0, "FILE", "your scene file (YAML) instead of a case",
      .member = offsetof(case_options, scene_path), .traits = OPTION_INPUT},
     {0}};
-const option_group options_case = {both, begin, end, close};
-const option_group options_scene = {both + 1, begin, end, close};
+const option_group options_case = {both, begin, end, close_case};
+const option_group options_scene = {both + 1, begin, end, close_case};

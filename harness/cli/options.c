@@ -248,10 +248,10 @@ static void begin_jobs(void *group, command_line *l)
     *(int *)group = (int)sysconf(_SC_NPROCESSORS_ONLN);
 }
 
-static const verb_option output[] = {
+static const verb_option output_option[] = {
     {"output", 'o', "FILE", "write there instead of to standard output", .traits = OPTION_OUTPUT},
     {0}};
-static const verb_option results[] = {
+static const verb_option cli_options_results[] = {
     {"output", 'o', "FILE",
      "write there instead of to standard output; NAME.h5: into that file of results, beside what "
      "other experiments left there",
@@ -294,8 +294,8 @@ static const verb_option solver[] = {
      .member = offsetof(solver_options, threads), .least = 1, .most = TEAM_MOST},
     {0}};
 
-const option_group options_output = {output, NULL, NULL, NULL};
-const option_group options_results = {results, NULL, NULL, NULL};
+const option_group options_output = {output_option, NULL, NULL, NULL};
+const option_group options_results = {cli_options_results, NULL, NULL, NULL};
 const option_group options_format = {format, begin_format, NULL, NULL};
 const option_group options_select = {selection, NULL, NULL, NULL};
 const option_group options_jobs = {jobs, begin_jobs, NULL, NULL};

@@ -3,23 +3,23 @@
 #include "cases/scene/along_path.h"
 #include "harness/exchange/rigid.h"
 
-enum { TRANSLATIONS = 3, COMPONENTS = 6 };
+enum { BODY_TRANSLATIONS = 3, BODY_COMPONENTS = 6 };
 
 int body_node(const body_numbers *b, int node, int component)
 {
-    return b->first + 2 * node + (component >= TRANSLATIONS);
+    return b->first + 2 * node + (component >= BODY_TRANSLATIONS);
 }
 
 int body_direction(int component)
 {
-    return component % TRANSLATIONS + 1;
+    return component % BODY_TRANSLATIONS + 1;
 }
 
 void body_write_nodes(const body_numbers *b, const scene *s, FILE *to)
 {
     for (int i = 0; i < s->nodes; i++)
         if (rigid_moves(s, i))
-            for (int k = 0; k < COMPONENTS; k += TRANSLATIONS) {
+            for (int k = 0; k < BODY_COMPONENTS; k += BODY_TRANSLATIONS) {
                 const double *p = s->node[i].position;
                 fprintf(to, "%d,%.12e,%.12e,%.12e\n", body_node(b, i, k), p[0], p[1], p[2]);
             }
@@ -47,15 +47,15 @@ void body_write(const body_numbers *b, const scene *s, const brick bricks[], FIL
     fputs("*NSET,NSET=BODIES\n", to);
     for (int i = 0; i < s->nodes; i++)
         if (rigid_moves(s, i))
-            for (int k = 0; k < COMPONENTS; k += TRANSLATIONS)
+            for (int k = 0; k < BODY_COMPONENTS; k += BODY_TRANSLATIONS)
                 fprintf(to, "%d,\n", body_node(b, i, k));
 }
 
 /* SCENE_FREE, SCENE_HELD or a driver. */
 static int mover(const scene_node *n, int component)
 {
-    const int axis = rigid_single_axis(n), turn = component - TRANSLATIONS;
-    if (component < TRANSLATIONS)
+    const int axis = rigid_single_axis(n), turn = component - BODY_TRANSLATIONS;
+    if (component < BODY_TRANSLATIONS)
         return n->translation[component];
     if (axis == SCENE_NONE)
         return n->angle[turn];
@@ -69,7 +69,7 @@ static void write_boundary(const body_numbers *b, const scene *s, const double *
     fputs("*BOUNDARY,OP=NEW\n", to);
     for (int i = 0; i < s->nodes; i++)
         if (rigid_moves(s, i))
-            for (int k = 0; k < COMPONENTS; k++) {
+            for (int k = 0; k < BODY_COMPONENTS; k++) {
                 const int by = mover(&s->node[i], k), direction = body_direction(k);
                 if (by == SCENE_FREE || (i == node && (released >> k & 1)))
                     continue;

@@ -34,7 +34,7 @@ static status make_bricks(const deck_request *r, brick out[], body_numbers *bodi
     return STATUS_OK;
 }
 
-static void write_head(const deck_request *r, int elements, FILE *to)
+static void write_deck_head(const deck_request *r, int elements, FILE *to)
 {
     fprintf(to,
             "** beamwork: %s as solids with rigid faces, for CalculiX 2.20\n"
@@ -96,7 +96,7 @@ static status write_with(const deck_request *r, brick bricks[], FILE *to, fault 
     const scene *s = r->scene;
     body_numbers bodies;
     TRY(make_bricks(r, bricks, &bodies, f));
-    write_head(r, brick_next_element(&bricks[s->members - 1]) - 1, to);
+    write_deck_head(r, brick_next_element(&bricks[s->members - 1]) - 1, to);
     write_convention(s, to);
     TRY(write_areas(s, bricks, to, f));
     write_mesh(s, bricks, &bodies, to);

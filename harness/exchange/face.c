@@ -21,7 +21,7 @@ double face_graded(int k, int n)
     return (1 - cos(PI * k / n)) / 2;
 }
 
-static int across(double side, double other)
+static int face_across(double side, double other)
 {
     if (side >= SHEET_RATIO * other)
         return SHEET_ACROSS;
@@ -32,7 +32,7 @@ static void fill_rectangle(const section_spec *spec, face *out)
 {
     const double side[2] = {spec->height, spec->width};
     for (int axis = 0; axis < 2; axis++) {
-        const int n = across(side[axis], side[1 - axis]);
+        const int n = face_across(side[axis], side[1 - axis]);
         out->elements[axis] = n;
         for (int k = 0; k <= n; k++)
             out->corner[axis][k] = side[axis] * (face_graded(k, n) - 0.5);

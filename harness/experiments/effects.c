@@ -3,16 +3,17 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+enum { EFFECTS_M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
 /* What an element says of a state. */
 typedef struct effects_answers {
-    double e[M], J[M * N], energy, sigma[M], C[M * M], G[M * M];
+    double e[EFFECTS_M], J[EFFECTS_M * N], energy, sigma[EFFECTS_M], C[EFFECTS_M * EFFECTS_M],
+        G[EFFECTS_M * EFFECTS_M];
 } effects_answers;
 
 static int answer(const specimen *s, const node_state x[], effects_answers *out)
 {
-    double inner[SPECIMEN_INNER], stress[M];
+    double inner[SPECIMEN_INNER], stress[EFFECTS_M];
     memset(out, 0, sizeof *out);
     specimen_numbers(s->strains, 67, stress);
     if (s->type.geometric != NULL)
@@ -35,8 +36,9 @@ static int other(int count, const double a[], const double b[])
 
 static int differ(const effects_answers *a, const effects_answers *b)
 {
-    return other(M, a->e, b->e) || other(M * N, a->J, b->J) || a->energy != b->energy ||
-           other(M, a->sigma, b->sigma) || other(M * M, a->C, b->C) || other(M * M, a->G, b->G);
+    return other(EFFECTS_M, a->e, b->e) || other(EFFECTS_M * N, a->J, b->J) ||
+           a->energy != b->energy || other(EFFECTS_M, a->sigma, b->sigma) ||
+           other(EFFECTS_M * EFFECTS_M, a->C, b->C) || other(EFFECTS_M * EFFECTS_M, a->G, b->G);
 }
 
 /* The element with the features, and the same without one of them. */

@@ -8,7 +8,7 @@
 #include "harness/experiments/specimens.h"
 #include "harness/formulations/stencil.h"
 
-enum { M = SPECIMEN_STRAINS };
+enum { ENERGY_M = SPECIMEN_STRAINS };
 
 static const double moved_by = 0.02; /* [lengths] of the strains that are looked at */
 
@@ -27,7 +27,7 @@ static double unit_of(const specimen *s)
 static status at_place(const energy_place *at, int i, double si, int j, double sj,
                        stress_output *out)
 {
-    double e[M], inner[SPECIMEN_INNER];
+    double e[ENERGY_M], inner[SPECIMEN_INNER];
     memcpy(e, at->e, (size_t)at->s->strains * sizeof *e);
     memcpy(inner, at->inner, (size_t)at->s->inner * sizeof *inner);
     e[i] += si * unit_of(at->s);
@@ -82,7 +82,7 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     claim *derives = claims_open(c, "C is the derivative of the stress", 1e-7),
           *symmetric = claims_open(c, "C is symmetric", 1e-9);
     for (int j = 0; j < m; j++) {
-        double column[M] = {0};
+        double column[ENERGY_M] = {0};
         const int outcome = stencil_first(stress_at, at, m, j, column);
         for (int i = 0; i < m; i++) {
             const double size = size_of(s, C, i, j), found = column[i] / unit_of(s);
@@ -103,8 +103,8 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
 /* Without strains: no energy, no stress; what bends a curved element straight is not looked at. */
 static void check_rest(const specimen *s, claims *c)
 {
-    const double none[M] = {0};
-    double inner[SPECIMEN_INNER], sigma[M], C[M * M], energy = NAN;
+    const double none[ENERGY_M] = {0};
+    double inner[SPECIMEN_INNER], sigma[ENERGY_M], C[ENERGY_M * ENERGY_M], energy = NAN;
     claim *one = claims_open(c, "nothing stresses the undeformed element", 1e-12);
     specimen_rest(s, inner);
     if (specimen_settled(s, none, inner,
@@ -124,7 +124,8 @@ static void check_rest(const specimen *s, claims *c)
 static void check_geometric(const specimen *s, const double C[], claims *c)
 {
     const int m = s->strains;
-    double a[M], b[M], both[M], Ga[M * M], Gb[M * M], Gs[M * M];
+    double a[ENERGY_M], b[ENERGY_M], both[ENERGY_M], Ga[ENERGY_M * ENERGY_M],
+        Gb[ENERGY_M * ENERGY_M], Gs[ENERGY_M * ENERGY_M];
     if (s->type.geometric == NULL)
         return;
     claim *symmetric = claims_open(c, "G is symmetric", 1e-9),
@@ -158,7 +159,8 @@ static void check_geometric(const specimen *s, const double C[], claims *c)
 
 static void check(const specimen *s, claims *c)
 {
-    double e[M], sigma[M], C[M * M], inner[SPECIMEN_INNER], energy, residual = NAN;
+    double e[ENERGY_M], sigma[ENERGY_M], C[ENERGY_M * ENERGY_M], inner[SPECIMEN_INNER], energy,
+        residual = NAN;
     node_state x[ELEMENT_MAX_NODES];
     const energy_place at = {.s = s, .e = e, .inner = inner};
     specimen_state(s, moved_by, 11, x);

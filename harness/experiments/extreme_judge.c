@@ -32,8 +32,8 @@ static int has_other_theory(const extreme_sweep *s, const truths *t, const extre
 }
 
 /* What the value should be, and how well that is known (relative). */
-static double reference_of(const extreme_sweep *s, const truths *t, const extreme_outcome *o,
-                           int refinement, double *uncertainty)
+static double extreme_reference_of(const extreme_sweep *s, const truths *t,
+                                   const extreme_outcome *o, int refinement, double *uncertainty)
 {
     const extreme *e = &extremes[o->extreme];
     *uncertainty = 0;
@@ -102,7 +102,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     o->result = o->error = NAN;
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++)
         o->neighbour_error[i] = NAN;
-    o->reference = reference_of(s, t, o, 0, &uncertainty);
+    o->reference = extreme_reference_of(s, t, o, 0, &uncertainty);
     const int other = e->judge == EXTREME_EXACT && has_other_theory(s, t, o);
     if (e->judge == EXTREME_EXACT && !isfinite(o->reference) && !other)
         return fault_set(f, STATUS_FAULT,
@@ -156,7 +156,7 @@ void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_o
     int placed = 0;
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++) {
         double uncertainty;
-        const double reference = reference_of(s, t, o, i + 1, &uncertainty);
+        const double reference = extreme_reference_of(s, t, o, i + 1, &uncertainty);
         const double value = extreme_sweep_value(s, o, i + 1);
         o->neighbour_error[i] = verdict_error(extreme_sweep_quantity(s, o), value, reference);
         if (!placed && own < mesh[i]) {

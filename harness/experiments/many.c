@@ -7,7 +7,7 @@
 #include "harness/experiments/specimens.h"
 #include "harness/formulations/chart.h"
 
-enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES, MANY = 5 };
+enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
 
 static const double longer = 1.7 * 0.2385; /* [m] */
 static const char *const claim_name = "many at once give what each gives alone";
@@ -15,7 +15,8 @@ static const char *const claim_name = "many at once give what each gives alone";
 /* What one element says; what differences of it would give is not asked for. */
 typedef struct many_answers {
     status outcome;
-    double e[M], J[M * N], H[N * N], energy, sigma[M], C[M * M];
+    double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],
+        C[MANY_M * MANY_M];
 } many_answers;
 
 /* Elements of two kinds, one by one and at once. */
@@ -23,7 +24,7 @@ typedef struct many_batch {
     const specimen *of[MANY];
     const element_data *data[MANY];
     node_state x[MANY * ELEMENT_MAX_NODES];
-    double weight[M], inner[SPECIMEN_INNER];
+    double weight[MANY_M], inner[SPECIMEN_INNER];
     many_answers alone[MANY], together[MANY];
 } many_batch;
 
@@ -54,7 +55,7 @@ static strain_output strain_of(const many_batch *b, many_answers *a)
     return out;
 }
 
-static stress_output stress_of(const many_batch *b, many_answers *a)
+static stress_output many_stress_of(const many_batch *b, many_answers *a)
 {
     const unsigned leaves = b->of[0]->made.given->leaves;
     stress_output out = {.energy = &a->energy};
@@ -75,7 +76,7 @@ static void differ(const many_batch *b, int k, const char *what, const char *ent
                    what, k + 1, MANY, entry, together, alone, b->of[k]->words);
 }
 
-static double largest(int count, const double v[])
+static double many_largest(int count, const double v[])
 {
     double out = 0;
     for (int i = 0; i < count; i++)
@@ -123,7 +124,7 @@ static void compare_stresses(const many_batch *b, int k, claim *one)
 {
     const many_answers *a = &b->alone[k], *t = &b->together[k];
     const int m = b->of[k]->strains;
-    const double sigma = largest(m, a->sigma), C = largest(m * m, a->C);
+    const double sigma = many_largest(m, a->sigma), C = many_largest(m * m, a->C);
     char what[SPECIMEN_WORDS];
     claims_asks(one, a->outcome == t->outcome,
                 "many at once gives status '%s' for element %d of %d, which alone ends with '%s'%s",
@@ -145,13 +146,13 @@ static void stresses(const specimen *s, many_batch *b, claim *one)
     const double *e[MANY], *inner[MANY];
     status outcome[MANY];
     for (int k = 0; k < MANY; k++) {
-        out[k] = stress_of(b, &b->alone[k]);
+        out[k] = many_stress_of(b, &b->alone[k]);
         e[k] = b->alone[k].e;
         inner[k] = b->inner;
         b->alone[k].outcome = s->type.stress(b->data[k], e[k], b->inner, &out[k]);
     }
     for (int k = 0; k < MANY; k++)
-        out[k] = stress_of(b, &b->together[k]);
+        out[k] = many_stress_of(b, &b->together[k]);
     s->type.stress_many(MANY, b->data, e, inner, out, outcome);
     for (int k = 0; k < MANY; k++) {
         b->together[k].outcome = outcome[k];
@@ -159,7 +160,7 @@ static void stresses(const specimen *s, many_batch *b, claim *one)
     }
 }
 
-static void check(const specimen *s, claims *c)
+static void many_check(const specimen *s, claims *c)
 {
     static many_batch b;
     specimen other;
@@ -187,5 +188,5 @@ void checks_many(const formulation *chosen, claims *out)
     if (t->strain_many == NULL && t->stress_many == NULL && t->force_many == NULL)
         claims_not_made(out, claim_name, "it takes one element at a time");
     else
-        specimens_each(chosen, out, check);
+        specimens_each(chosen, out, many_check);
 }

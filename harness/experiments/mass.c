@@ -10,7 +10,7 @@
 #include "harness/experiments/specimens.h"
 #include "harness/formulations/chart.h"
 
-enum { N = SPECIMEN_COORDINATES };
+enum { MASS_N = SPECIMEN_COORDINATES };
 
 static double size_of(const double A[], int n, int i, int j)
 {
@@ -38,7 +38,7 @@ static void symmetric(const specimen *s, const double A[], claim *one)
 static void positive(const specimen *s, const double A[], claim *one)
 {
     const int n = s->coordinates;
-    double scaled[N * N];
+    double scaled[MASS_N * MASS_N];
     char where[SPECIMEN_WORDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
@@ -56,7 +56,7 @@ static void positive(const specimen *s, const double A[], claim *one)
 static double energy(const specimen *s, const node_state x[], const double M[],
                      const double omega[3], const double shift[3])
 {
-    double v[N] = {0}, Mv[N];
+    double v[MASS_N] = {0}, Mv[MASS_N];
     for (int k = 0; k < s->nodes; k++) {
         vec3_cross(omega, x[k].r, v + NODE_COORDINATES * k);
         for (int i = 0; i < 3; i++) {
@@ -94,7 +94,8 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
     static const double turn[3] = {0.71, -1.93, 1.37};
     const int n = s->coordinates;
     node_state turned[ELEMENT_MAX_NODES];
-    double other[N * N], T[N * N] = {0}, back[N * N] = {0}, work[N * N], q[4], R[9];
+    double other[MASS_N * MASS_N], T[MASS_N * MASS_N] = {0}, back[MASS_N * MASS_N] = {0},
+                                              work[MASS_N * MASS_N], q[4], R[9];
     char first[SPECIMEN_WORDS], second[SPECIMEN_WORDS];
     specimen_carry(s, turn, x, turned);
     rotation_exp(turn, q);
@@ -125,7 +126,7 @@ static void moments(const specimen *s, claim *one)
     specimen_request what = s->made;
     specimen line;
     node_state x[ELEMENT_MAX_NODES];
-    double M[N * N], without[N * N];
+    double M[MASS_N * MASS_N], without[MASS_N * MASS_N];
     fault f = {""};
     if (c->matrices || s->made.curvature[0] != 0 || !(s->made.features & FEATURE_ROTARY_INERTIA))
         return;
@@ -160,7 +161,7 @@ static void moments(const specimen *s, claim *one)
 static void check(const specimen *s, claims *c)
 {
     node_state x[ELEMENT_MAX_NODES];
-    double M[N * N];
+    double M[MASS_N * MASS_N];
     claims_doing(c, "inertia%s", s->words);
     specimen_state(s, 0.05, 31, x);
     const status outcome = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});

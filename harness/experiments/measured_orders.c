@@ -39,7 +39,7 @@ static void elastica(double angle, double *load, double *deflection)
 }
 
 /* The load that is set, and the exact value that it gives. */
-static double exact_of(const orders_question *q, const section *c, beam_request *r)
+static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * c->Iz, lambda = 1.8751040687119611;
     double load, deflection;
@@ -109,7 +109,7 @@ static void measure_order(const formulation *chosen, const orders_question *q, c
     section constants;
     if (beam_section(&r, &constants) != STATUS_OK)
         return;
-    const double exact = exact_of(q, &constants, &r);
+    const double exact = orders_exact_of(q, &constants, &r);
     one->least = declared.least;
     one->highest = declared.highest;
     for (int i = 0; i < MESHES; i++) {

@@ -40,7 +40,7 @@ static const state states[] = {
 };
 
 /* Of the load's component, and the exact value that it gives. */
-static double exact_of(const state *s, const section *c, double load)
+static double states_exact_of(const state *s, const section *c, double load)
 {
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
     const double shear = s->needs & FEATURE_SHEAR ? 1 / c->shear_modulus : 0;
@@ -58,7 +58,7 @@ static double exact_of(const state *s, const section *c, double load)
 }
 
 /* An error that more elements leave as it is comes from the section, not from the mesh. */
-static void conclude(const state *s, element_measure *one)
+static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
     one->astray = fine > 1e-6 && fine > 0.8 * coarse;
@@ -85,7 +85,7 @@ static void measure_state(const formulation *chosen, const state *s, measures *o
         return;
     const double load = s->analysis == BEAM_LARGE ? c.young * c.Iz * PI / 2 : 1;
     r.vector[s->direction] = load;
-    const double exact = exact_of(s, &c, load);
+    const double exact = states_exact_of(s, &c, load);
     r.elements = 1;
     if (!beam_point(&r, 1, exact, one))
         return;
@@ -93,7 +93,7 @@ static void measure_state(const formulation *chosen, const state *s, measures *o
     r.fraction = fraction;
     beam_point(&r, IRREGULAR, exact, one);
     if (s->analysis == BEAM_LINEAR)
-        conclude(s, one);
+        states_conclude(s, one);
 }
 
 /* Where all linear ones are apart by the same power of a thousand: units. */

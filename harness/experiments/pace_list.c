@@ -13,7 +13,7 @@ pace_list pace_list_divided(double first, double ratio, int count)
     return out;
 }
 
-static status refuse(const char *option, const char *text, fault *f)
+static status list_refuse(const char *option, const char *text, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
                      "--%s '%.60s': give at most %d positive numbers, such as 0.1,0.05, or "
@@ -35,7 +35,7 @@ static status read_range(const char *option, const char *text, double from, doub
 {
     const int count = to <= from ? 1 + (int)lround(log(from / to) / log(ratio)) : 0;
     if (count < 1 || count > PACE_LIST_MOST)
-        return refuse(option, text, f);
+        return list_refuse(option, text, f);
     *out = pace_list_divided(from, ratio, count);
     return STATUS_OK;
 }
@@ -51,10 +51,10 @@ status pace_list_read(const char *option, const char *text, double ratio, pace_l
             at = positive(at + 2, &to);
             return at != NULL && *at == '\0'
                        ? read_range(option, text, out->value[0], to, ratio, out, f)
-                       : refuse(option, text, f);
+                       : list_refuse(option, text, f);
         }
         if (at == NULL || (*at != ',' && *at != '\0'))
-            return refuse(option, text, f);
+            return list_refuse(option, text, f);
         out->count++;
     } while (*at++ == ',');
     return STATUS_OK;

@@ -7,7 +7,7 @@ static void add_count(digest *plan, long count)
     digest_add_number(plan, (double)count);
 }
 
-static void add_axis(digest *plan, const sweep_axis *a)
+static void identity_add_axis(digest *plan, const sweep_axis *a)
 {
     digest_add_text(plan, a->of->name);
     add_count(plan, a->kind);
@@ -25,7 +25,7 @@ void ranges_identity_add(const parameter_ranges *r, digest *plan)
         digest_add_number(plan, r->base[i]);
     add_count(plan, r->design.axes);
     for (int i = 0; i < r->design.axes; i++)
-        add_axis(plan, &r->axis[i]);
+        identity_add_axis(plan, &r->axis[i]);
     digest_add_text(plan, design_name(r->design.kind));
     add_count(plan, r->design.points);
     add_count(plan, (long)r->design.seed);

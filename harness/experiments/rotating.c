@@ -50,7 +50,7 @@ static void check_force(const specimen_place *at, const double force[], claim *o
     }
 }
 
-static void check_stiffness(const specimen_place *at, const double stiffness[], claims *c)
+static void rotating_check_stiffness(const specimen_place *at, const double stiffness[], claims *c)
 {
     const specimen *s = at->s;
     const int n = s->coordinates;
@@ -145,7 +145,7 @@ static void in_frame(const specimen *s, claims *c)
     if (outcome != STATUS_OK)
         return;
     check_force(&at, F, claims_open(c, "centrifugal force is the gradient", 1e-9));
-    check_stiffness(&at, stiffness, c);
+    rotating_check_stiffness(&at, stiffness, c);
     check_skew(s, G, claims_open(c, "G is skew", 1e-12));
     own_motion(s, x, &out, c);
 }
@@ -193,7 +193,7 @@ static void warping(const specimen *s, claim *one)
     specimen_free(&plain);
 }
 
-static void check(const specimen *s, claims *c)
+static void rotating_check(const specimen *s, claims *c)
 {
     const unsigned warps = FEATURE_WARPING | FEATURE_ROTARY_INERTIA;
     in_frame(s, c);
@@ -207,7 +207,7 @@ static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,
                                        FEATURE_WARPING | FEATURE_SHEAR};
-    check(s, c);
+    rotating_check(s, c);
     for (size_t k = 0; k < sizeof without / sizeof without[0]; k++) {
         specimen_request what = s->made;
         specimen other;

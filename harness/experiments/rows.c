@@ -57,26 +57,26 @@ size_t rows_quantity(const rows *r, int point, int quantity)
     return (size_t)point * (size_t)r->shape.quantities + (size_t)quantity;
 }
 
-size_t rows_cell(const rows *r, int point, int formulation, int mesh)
+size_t rows_cell(const rows *r, int point, int contestant, int mesh)
 {
-    return ((size_t)point * (size_t)r->shape.formulations + (size_t)formulation) *
+    return ((size_t)point * (size_t)r->shape.formulations + (size_t)contestant) *
                (size_t)r->shape.meshes +
            (size_t)mesh;
 }
 
-size_t rows_value(const rows *r, int point, int formulation, int mesh, int quantity)
+size_t rows_value(const rows *r, int point, int contestant, int mesh, int quantity)
 {
-    return rows_cell(r, point, formulation, mesh) * (size_t)r->shape.quantities + (size_t)quantity;
+    return rows_cell(r, point, contestant, mesh) * (size_t)r->shape.quantities + (size_t)quantity;
 }
 
-size_t rows_lacks(const rows *r, int point, int formulation)
+size_t rows_lacks(const rows *r, int point, int contestant)
 {
-    return (size_t)point * (size_t)r->shape.formulations + (size_t)formulation;
+    return (size_t)point * (size_t)r->shape.formulations + (size_t)contestant;
 }
 
-size_t rows_least(const rows *r, int point, int formulation, int quantity)
+size_t rows_least(const rows *r, int point, int contestant, int quantity)
 {
-    return ((size_t)point * (size_t)r->shape.formulations + (size_t)formulation) *
+    return ((size_t)point * (size_t)r->shape.formulations + (size_t)contestant) *
                (size_t)r->shape.quantities +
            (size_t)quantity;
 }

@@ -13,20 +13,21 @@
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
 
-enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
 static const double longer = 1.7 * 0.2385; /* [m] */
 
 /* Everything that an element says of one state. */
 typedef struct call_account {
     status stress, inertia;
-    double e[M], J[M * N], H[N * N], energy, sigma[M], C[M * M], residual, mass[N * N];
+    double e[STATELESS_M], J[STATELESS_M * STATELESS_N], H[STATELESS_N * STATELESS_N], energy,
+        sigma[STATELESS_M], C[STATELESS_M * STATELESS_M], residual, mass[STATELESS_N * STATELESS_N];
     double inner[SPECIMEN_INNER];
 } call_account;
 
 static void tell(const specimen *s, const node_state x[], call_account *out)
 {
-    double weight[M];
+    double weight[STATELESS_M];
     memset(out, 0, sizeof *out);
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
@@ -59,11 +60,11 @@ static const char *apart(const call_account *a, const call_account *b)
         const char *name;
         size_t count;
         const double *one, *other;
-    } all[] = {{"strain: e", M, a->e, b->e},
+    } all[] = {{"strain: e", STATELESS_M, a->e, b->e},
                {"strain: J", sizeof a->J / sizeof(double), a->J, b->J},
                {"strain: H", sizeof a->H / sizeof(double), a->H, b->H},
                {"stress: the energy", 1, &a->energy, &b->energy},
-               {"stress: sigma", M, a->sigma, b->sigma},
+               {"stress: sigma", STATELESS_M, a->sigma, b->sigma},
                {"stress: C", sizeof a->C / sizeof(double), a->C, b->C},
                {"inertia: M", sizeof a->mass / sizeof(double), a->mass, b->mass}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
@@ -135,7 +136,7 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
 static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
     call_account a = *before;
-    double weight[M], inner[SPECIMEN_INNER];
+    double weight[STATELESS_M], inner[SPECIMEN_INNER];
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
     s->type.strain(s->data, x, &(strain_output){.s = weight, .H = a.H});
@@ -157,7 +158,7 @@ static void alone(const specimen *s, const call_account *before, const node_stat
 static void two_ways(const specimen *s, const call_account *before, const node_state x[],
                      claim *one)
 {
-    double e[M], inner[SPECIMEN_INNER], energy = NAN;
+    double e[STATELESS_M], inner[SPECIMEN_INNER], energy = NAN;
     node_state y[ELEMENT_MAX_NODES];
     specimen_state(s, 0.04, 77, y);
     s->type.strain(s->data, y, &(strain_output){.e = e});
@@ -193,20 +194,20 @@ static void tell_first(const specimen *s, const node_state x[], call_account *ou
     if (there == MAP_FAILED)
         return;
     fflush(NULL);
-    const pid_t child = fork();
-    if (child == 0) {
+    const pid_t child_process = fork();
+    if (child_process == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() == parent)
             make_longer(s, x, there);
         _exit(0);
     }
-    if (child > 0)
-        waitpid(child, NULL, 0);
+    if (child_process > 0)
+        waitpid(child_process, NULL, 0);
     *out = *there;
     munmap(there, sizeof *there);
 }
 
-static void check(const specimen *s, claims *c)
+static void stateless_check(const specimen *s, claims *c)
 {
     call_account first = {0}, before, between, after;
     node_state x[ELEMENT_MAX_NODES], y[ELEMENT_MAX_NODES];
@@ -233,7 +234,7 @@ static void check(const specimen *s, claims *c)
 
 void checks_stateless(const formulation *chosen, claims *out)
 {
-    specimens_each(chosen, out, check);
+    specimens_each(chosen, out, stateless_check);
     if (element_inner(chosen->type, chosen->option) == 0)
         claims_not_made(out, "the path does not matter", "no unknowns of its own");
 }

@@ -171,7 +171,7 @@ static void join(const tally *t, seen *all, const seen *one)
 }
 
 /* What is open may be within or not: only that another is not is known. */
-static void close(seen *all)
+static void close_counts(seen *all)
 {
     if (!all->open)
         return;
@@ -243,7 +243,7 @@ static void count_formulation(tally *t, const rows *w, int here, int which, int 
     seen all = {.asked = 0};
     for (int q = 0; q <= quantities; q++) {
         if (q == quantities)
-            close(&all);
+            close_counts(&all);
         const seen one = q < quantities ? look_at(t, w, here, which, q) : all;
         tally_place *place =
             mapped ? &t->map[((first + q) * t->lines + line) * t->columns + column] : NULL;

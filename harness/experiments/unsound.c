@@ -7,7 +7,7 @@
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
 
-enum { M = SPECIMEN_STRAINS };
+enum { UNSOUND_M = SPECIMEN_STRAINS };
 
 static int all_finite(int n, const double a[])
 {
@@ -20,7 +20,7 @@ static int all_finite(int n, const double a[])
 /* 1: nothing says that the state is none. */
 static int swallowed(const specimen *s, const node_state x[])
 {
-    double e[M], sigma[M], inner[SPECIMEN_INNER], energy = 0;
+    double e[UNSOUND_M], sigma[UNSOUND_M], inner[SPECIMEN_INNER], energy = 0;
     s->type.strain(s->data, x, &(strain_output){.e = e});
     if (!all_finite(s->strains, e))
         return 0;
@@ -52,13 +52,13 @@ static void spoil(const specimen *s, double by, claim *one)
 /* Strains that are no numbers have no stress, where there is a stiffness against them. */
 static void spoil_strains(const specimen *s, double by, claim *one)
 {
-    const double none[M] = {0};
-    double C[M * M], inner[SPECIMEN_INNER];
+    const double none[UNSOUND_M] = {0};
+    double C[UNSOUND_M * UNSOUND_M], inner[SPECIMEN_INNER];
     specimen_rest(s, inner);
     if (s->type.stress(s->data, none, inner, &(stress_output){.C = C}) != STATUS_OK)
         return;
     for (int i = 0; i < s->strains; i++) {
-        double e[M] = {0}, sigma[M], energy = 0;
+        double e[UNSOUND_M] = {0}, sigma[UNSOUND_M], energy = 0;
         if (C[i * s->strains + i] == 0)
             continue;
         e[i] = by;
@@ -76,7 +76,8 @@ static void spoil_strains(const specimen *s, double by, claim *one)
 /* All calls come back, whatever the state: far beyond what can be evaluated too. */
 static void far_away(const specimen *s, double size, claim *one)
 {
-    double e[M], J[M * SPECIMEN_COORDINATES], sigma[M], C[M * M], inner[SPECIMEN_INNER];
+    double e[UNSOUND_M], J[UNSOUND_M * SPECIMEN_COORDINATES], sigma[UNSOUND_M],
+        C[UNSOUND_M * UNSOUND_M], inner[SPECIMEN_INNER];
     node_state x[ELEMENT_MAX_NODES];
     specimen_state(s, size, 61, x);
     s->type.strain(s->data, x, &(strain_output){.e = e, .J = J});
@@ -85,7 +86,7 @@ static void far_away(const specimen *s, double size, claim *one)
     claims_asks(one, 1, "%s", "");
 }
 
-static void check(const specimen *s, claims *c)
+static void unsound_check(const specimen *s, claims *c)
 {
     static const double none[] = {NAN, INFINITY, -INFINITY};
     for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
@@ -104,5 +105,5 @@ static void check(const specimen *s, claims *c)
 
 void checks_unsound(const formulation *chosen, claims *out)
 {
-    specimens_each(chosen, out, check);
+    specimens_each(chosen, out, unsound_check);
 }

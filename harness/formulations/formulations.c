@@ -6,7 +6,7 @@
 
 enum { MOST_ACCEPTED = 256 };
 
-static const element_type *loaded[FORMULATIONS_MOST_LOADED + 1];
+static const element_type *formulations_loaded[FORMULATIONS_MOST_LOADED + 1];
 static const char *loaded_from[FORMULATIONS_MOST_LOADED];
 static const element_type *accepted[MOST_ACCEPTED + 1];
 static int are_told;
@@ -16,7 +16,7 @@ const element_type *formulations_at(int i)
     for (int k = 0; registry_formulations[k] != NULL; k++)
         if (i-- == 0)
             return registry_formulations[k];
-    return i <= FORMULATIONS_MOST_LOADED ? loaded[i] : NULL;
+    return i <= FORMULATIONS_MOST_LOADED ? formulations_loaded[i] : NULL;
 }
 
 const element_type *formulations_named(const char *name, size_t length)
@@ -38,7 +38,7 @@ static int is_among(const element_type *const list[], const element_type *t)
 
 int formulations_is_loaded(const element_type *t)
 {
-    return is_among(loaded, t);
+    return is_among(formulations_loaded, t);
 }
 
 int formulations_is_new(const element_type *t)
@@ -78,20 +78,20 @@ status formulations_add(const element_type *t, const char *from, fault *f)
     if (formulations_named(t->name, strlen(t->name)) != NULL)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s is there already; give it a name of its own", t->name);
-    while (loaded[count] != NULL)
+    while (formulations_loaded[count] != NULL)
         count++;
     if (count == FORMULATIONS_MOST_LOADED)
         return fault_set(f, STATUS_REFUSED, "at most %d formulations can be loaded",
                          FORMULATIONS_MOST_LOADED);
-    loaded[count] = t;
+    formulations_loaded[count] = t;
     loaded_from[count] = from;
     return STATUS_OK;
 }
 
 const char *formulations_element(const element_type *t)
 {
-    for (int i = 0; loaded[i] != NULL; i++)
-        if (loaded[i] == t)
+    for (int i = 0; formulations_loaded[i] != NULL; i++)
+        if (formulations_loaded[i] == t)
             return loaded_from[i];
     return NULL;
 }

@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const keys[] = {"name", "summary", "default", "choices", "min", "max", "unit"};
+static const char *const options_keys[] = {"name", "summary", "default", "choices",
+                                           "min",  "max",     "unit"};
 
-static status refuse(const char *who, const char *name, const char *what, fault *f)
+static status options_refuse(const char *who, const char *name, const char *what, fault *f)
 {
     return fault_set(f, STATUS_REFUSED, "%.100s: option '%.40s' of its first line: %.120s", who,
                      name, what);
@@ -21,8 +22,8 @@ static int is_word(const char *text)
 static int has_other_keys(const json_t *one)
 {
     size_t known = 0;
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        known += json_object_get(one, keys[i]) != NULL;
+    for (size_t i = 0; i < sizeof options_keys / sizeof options_keys[0]; i++)
+        known += json_object_get(one, options_keys[i]) != NULL;
     return known != json_object_size(one);
 }
 
@@ -65,7 +66,8 @@ static status read_choice(const char *who, const json_t *one, parameter_type *ou
     }
     return out->choices != NULL && out->unit != NULL && found
                ? STATUS_OK
-               : refuse(who, out->name, "'choices' are words and 'default' is one of them", f);
+               : options_refuse(who, out->name, "'choices' are words and 'default' is one of them",
+                                f);
 }
 
 static status read_number(const char *who, const json_t *one, parameter_type *out, fault *f)
@@ -79,21 +81,21 @@ static status read_number(const char *who, const json_t *one, parameter_type *ou
     const int sound = json_is_number(value) && json_is_number(min) && json_is_number(max) &&
                       out->min <= out->value && out->value <= out->max && out->unit != NULL;
     return sound ? STATUS_OK
-                 : refuse(who, out->name, "give numbers 'min' <= 'default' <= 'max', or 'choices'",
-                          f);
+                 : options_refuse(who, out->name,
+                                  "give numbers 'min' <= 'default' <= 'max', or 'choices'", f);
 }
 
 static status read_one(const char *who, const json_t *one, parameter_type *out, fault *f)
 {
     if (!is_word(json_string_value(json_object_get(one, "name"))))
-        return refuse(who, "", "its 'name' is a word of small letters, digits and _", f);
+        return options_refuse(who, "", "its 'name' is a word of small letters, digits and _", f);
     out->name = copy_or(json_object_get(one, "name"), "");
     out->summary = copy_or(json_object_get(one, "summary"), "");
     if (out->name == NULL || out->summary == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory");
     if (has_other_keys(one))
-        return refuse(who, out->name,
-                      "its keys are name, default, min, max, unit, choices, summary", f);
+        return options_refuse(who, out->name,
+                              "its keys are name, default, min, max, unit, choices, summary", f);
     return json_object_get(one, "choices") != NULL ? read_choice(who, one, out, f)
                                                    : read_number(who, one, out, f);
 }
@@ -103,7 +105,7 @@ status handshake_options(const char *who, const json_t *list, const parameter_ty
     const size_t count = json_array_size(list);
     *out = NULL;
     if ((list != NULL && !json_is_array(list)) || count > ELEMENT_MAX_OPTIONS)
-        return refuse(who, "", "'options' is a list of at most 6", f);
+        return options_refuse(who, "", "'options' is a list of at most 6", f);
     if (count == 0)
         return STATUS_OK;
     parameter_type *table = calloc(count + 1, sizeof *table);

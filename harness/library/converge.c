@@ -55,7 +55,7 @@ static status prepare(study *s, const char *names, const char *meshes, const cha
     return narrow_to(&s->sweep, s->select, f);
 }
 
-static status write(study *s, char **json, fault *f)
+static status write_study(study *s, char **json, fault *f)
 {
     const sweep_request request = {.jobs = s->jobs, .stop = s->stop};
     document_text t;
@@ -76,7 +76,7 @@ static status converge(const bw_scene *from, const char *names, const char *mesh
         return fault_set(f, STATUS_REFUSED, "bw_converge: give a scene and a place for the text");
     status outcome = prepare(&s, names, meshes, options, f);
     if (outcome == STATUS_OK)
-        outcome = write(&s, json, f);
+        outcome = write_study(&s, json, f);
     sweep_free(&s.sweep);
     truths_free(&s.truths);
     json_decref(s.kept);

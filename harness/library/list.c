@@ -6,7 +6,7 @@
 #include "harness/library/known.h"
 #include "harness/library/text.h"
 
-static status write(FILE *to, const list_subject *what, const truths *ledger, fault *f)
+static status list_write_list(FILE *to, const list_subject *what, const truths *ledger, fault *f)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
     if (what->type != NULL) {
@@ -29,7 +29,7 @@ static status list_of(const char *name, char **json, fault *f)
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
     known_read(NULL, &ledger, NULL); /* it may be missing */
-    const status outcome = text_end(&t, write(t.to, &what, &ledger, f), json, f);
+    const status outcome = text_end(&t, list_write_list(t.to, &what, &ledger, f), json, f);
     truths_free(&ledger);
     return outcome;
 }

@@ -33,7 +33,7 @@ typedef struct verify_trial {
     judgement judgement;
 } verify_trial;
 
-static status read_truths(verify_trial *v, fault *f)
+static status verify_read_truths(verify_trial *v, fault *f)
 {
     if (v->scene == NULL)
         return known_read_all(&v->truths, f);
@@ -50,7 +50,7 @@ static status read_former(verify_trial *v, fault *f)
     return outcome;
 }
 
-static status prepare(verify_trial *v, const char *names, const char *options, fault *f)
+static status verify_prepare(verify_trial *v, const char *names, const char *options, fault *f)
 {
     sweep_request *r = &v->request;
     const call_option table[] = {{"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
@@ -75,7 +75,7 @@ static status prepare(verify_trial *v, const char *names, const char *options, f
         TRY(output_try(v->results, OUTPUT_WHOLE_FILE, &where, f));
         TRY(kept_check(v->results, f));
     }
-    return read_truths(v, f);
+    return verify_read_truths(v, f);
 }
 
 static status judge(verify_trial *v, fault *f)
@@ -119,7 +119,7 @@ static status verify(verify_trial *v, const char *names, const char *options, ch
     if (json == NULL)
         return fault_set(f, STATUS_REFUSED, "bw_verify: give a place for the text");
     *json = NULL;
-    status outcome = prepare(v, names, options, f);
+    status outcome = verify_prepare(v, names, options, f);
     if (outcome == STATUS_OK)
         outcome = answer(v, json, f);
     judgement_free(&v->judgement);

@@ -8,7 +8,7 @@
 #include "harness/model/features.h"
 
 enum { HELD, SHARED, FREE, STATES };
-enum { MOST_NAMES = 8 };
+enum { ENDS_MOST_NAMES = 8 };
 
 typedef struct ends_tally {
     int of[STATES], all; /* ends of members that warp */
@@ -52,7 +52,7 @@ typedef struct ends_words {
     int names; /* of the state */
 } ends_words;
 
-static void put(ends_words *w, const char *before, const char *text)
+static void ends_put(ends_words *w, const char *before, const char *text)
 {
     if (w->used < w->room)
         w->used += (size_t)snprintf(w->text + w->used, w->room - w->used, "%s%s", before, text);
@@ -60,10 +60,10 @@ static void put(ends_words *w, const char *before, const char *text)
 
 static void add(ends_words *w, const char *text)
 {
-    if (w->names > 0 && w->names < MOST_NAMES)
-        put(w, ", ", text);
+    if (w->names > 0 && w->names < ENDS_MOST_NAMES)
+        ends_put(w, ", ", text);
     else if (w->names == 0)
-        put(w, "", text);
+        ends_put(w, "", text);
     w->names++;
 }
 
@@ -97,14 +97,14 @@ static void write_ends(const held_ends *e, ends_words *out)
             any |= e->node[i].of[state] > 0;
         if (!any)
             continue;
-        put(out, out->used > 0 ? "; " : "", word[state]);
+        ends_put(out, out->used > 0 ? "; " : "", word[state]);
         out->names = 0;
         for (int i = 0; i < e->scene->nodes; i++)
             if (e->node[i].of[state] > 0)
                 add_node(e, i, state, out);
-        snprintf(more, sizeof more, " and %d more", out->names - MOST_NAMES);
-        if (out->names > MOST_NAMES)
-            put(out, "", more);
+        snprintf(more, sizeof more, " and %d more", out->names - ENDS_MOST_NAMES);
+        if (out->names > ENDS_MOST_NAMES)
+            ends_put(out, "", more);
     }
 }
 

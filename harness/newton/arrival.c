@@ -10,7 +10,7 @@
 static const double small = 1e-8;
 static const double many_elements = 1e4; /* with more of them in proportion */
 /* ... or of one after which nothing is left that rounding would not hide ... */
-static const double near = 1e-6, negligible = 1e-15;
+static const double arrival_near = 1e-6, negligible = 1e-15;
 /* ... or of one whose square is nothing even where stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
 /* Larger corrections need not contract as their squares. */
@@ -46,7 +46,7 @@ int arrival_reached(const arrival *a)
     if (a->criterion > 0)
         return a->correction <= a->criterion;
     return a->correction <= rounding || (a->correction <= a->small && a->before <= a->small) ||
-           (a->correction <= near && a->remaining <= negligible);
+           (a->correction <= arrival_near && a->remaining <= negligible);
 }
 
 int arrival_tangent_stands(const arrival *a)

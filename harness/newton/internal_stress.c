@@ -67,7 +67,7 @@ static stress_resultants local_resultants(const member_points *of, int element, 
     return r;
 }
 
-static double measured(void *context, int element, double x, const double v[])
+static double stress_measured(void *context, int element, double x, const double v[])
 {
     member_points *of = context;
     fault f;
@@ -92,7 +92,7 @@ status internal_stress_at(const equations *eq, const internal_state *s, const in
     TRY(prepare(m, s, at->member, what, &of, f));
     TRY(internal_at(eq, s, at, v, f));
     const int element = division_at(model_division(m), at->member, at->place, at->before, &x);
-    *out = signed_value(what, measured(&of, element, x, v));
+    *out = signed_value(what, stress_measured(&of, element, x, v));
     return STATUS_OK;
 }
 
@@ -102,7 +102,7 @@ status internal_stress_largest(const equations *eq, const internal_state *s, int
     const model *m = eq->m;
     member_points of;
     TRY(prepare(m, s, member, what, &of, f));
-    TRY(internal_largest(eq, s, member, measured, &of, out, f));
+    TRY(internal_largest(eq, s, member, stress_measured, &of, out, f));
     *out = signed_value(what, *out);
     return STATUS_OK;
 }

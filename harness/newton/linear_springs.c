@@ -20,8 +20,8 @@ static const mesh_discrete *spring_of(const model *m, int i)
 }
 
 /* J at rest, and H of sigma where that is given. */
-static void evaluate(const model *m, const mesh_discrete *d, const double sigma[], double J[],
-                     double H[])
+static void springs_evaluate(const model *m, const mesh_discrete *d, const double sigma[],
+                             double J[], double H[])
 {
     node_state x[ELEMENT_MAX_NODES];
     kinematics_gather(m, kinematics_rest(m), &d->el, x);
@@ -32,7 +32,7 @@ static void evaluate(const model *m, const mesh_discrete *d, const double sigma[
 static void strains(const model *m, const mesh_discrete *d, const double x[], double e[SIX])
 {
     double J[SIX * X], local[X];
-    evaluate(m, d, NULL, J, NULL);
+    springs_evaluate(m, d, NULL, J, NULL);
     kinematics_local(m, kinematics_rest(m), &d->el, x, local);
     dense_mul_vec(SIX, NODE_COORDINATES * d->el.nodes, J, local, e);
 }
@@ -42,7 +42,7 @@ void linear_springs_stiffness(const model *m, sparse *K)
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = spring_of(m, i);
         double J[SIX * X], k[X * X] = {0}, work[SIX * X];
-        evaluate(m, d, NULL, J, NULL);
+        springs_evaluate(m, d, NULL, J, NULL);
         dense_add_congruence(SIX, NODE_COORDINATES * d->el.nodes, J, d->spring->stiffness, k, work);
         eliminate_matrix(m, kinematics_rest(m), &d->el, NULL, k);
         assemble_discrete(&d->el, k, K);
@@ -63,7 +63,7 @@ void linear_springs_forces(const model *m, const double sigma[], double f[])
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = spring_of(m, i);
         double J[SIX * X], force[X] = {0};
-        evaluate(m, d, NULL, J, NULL);
+        springs_evaluate(m, d, NULL, J, NULL);
         dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, &sigma[SIX * i], force);
         eliminate_forces(m, kinematics_rest(m), &d->el, force);
         assemble_vector(&d->el, force, f);
@@ -75,7 +75,7 @@ void linear_springs_node_force(const model *m, const double sigma[], int node, d
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = spring_of(m, i);
         double J[SIX * X], force[X] = {0}, rho[3], moment[3];
-        evaluate(m, d, NULL, J, NULL);
+        springs_evaluate(m, d, NULL, J, NULL);
         dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, &sigma[SIX * i], force);
         for (int k = 0; k < d->el.nodes; k++) {
             const double *at = force + NODE_COORDINATES * k;
@@ -93,7 +93,7 @@ void linear_springs_node_force(const model *m, const double sigma[], int node, d
 static void geometric(const model *m, const mesh_discrete *d, const double sigma[], double H[])
 {
     double J[SIX * X], force[X] = {0};
-    evaluate(m, d, sigma, J, H);
+    springs_evaluate(m, d, sigma, J, H);
     dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, sigma, force);
     eliminate_matrix(m, kinematics_rest(m), &d->el, force, H);
 }
@@ -126,7 +126,7 @@ double linear_springs_rounding(const model *m, const double x[])
         const mesh_discrete *d = spring_of(m, i);
         const int n = NODE_COORDINATES * d->el.nodes;
         double J[SIX * X], local[X], e[SIX], sigma[SIX];
-        evaluate(m, d, NULL, J, NULL);
+        springs_evaluate(m, d, NULL, J, NULL);
         kinematics_local(m, kinematics_rest(m), &d->el, x, local);
         dense_mul_vec(SIX, n, J, local, e);
         dense_mul_vec(SIX, SIX, d->spring->stiffness, e, sigma);

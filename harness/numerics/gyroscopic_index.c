@@ -5,7 +5,7 @@
 
 /* x^H (K + |lambda|^2 M) x, in parts of the sizes of its terms; c^H c = 1 is x^H (K + shift M) x.
  */
-static double energy(const ritz *r, const subspace *b, double shift, int i)
+static double index_energy(const ritz *r, const subspace *b, double shift, int i)
 {
     const double complex *c = r->c + (size_t)i * (size_t)b->room;
     const double size = cabs(r->lambda[i]);
@@ -30,7 +30,7 @@ int gyroscopic_index_grows(const ritz *r, const subspace *b, double shift, int i
 {
     const double part = fabs(creal(r->lambda[i])) / cabs(r->lambda[i]);
     return part > clear_growth ||
-           (part > ritz_imaginary && fabs(energy(r, b, shift, i)) <= no_energy);
+           (part > ritz_imaginary && fabs(index_energy(r, b, shift, i)) <= no_energy);
 }
 
 gyroscopic_index gyroscopic_index_of(const ritz *r, const subspace *b, double shift, int count)
@@ -42,7 +42,7 @@ gyroscopic_index gyroscopic_index_of(const ritz *r, const subspace *b, double sh
             out.negative += fabs(cimag(lambda)) > ritz_imaginary * cabs(lambda) ? 2 : 1;
             continue;
         }
-        const double e = energy(r, b, shift, i);
+        const double e = index_energy(r, b, shift, i);
         out.negative += e < -no_energy ? 2 : 0;
         out.crossed += (e > no_energy) - (e < -no_energy);
     }

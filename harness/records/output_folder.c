@@ -9,7 +9,7 @@
 
 #include "harness/records/output.h"
 
-static status fail(const output_folder *out, int why, fault *f)
+static status folder_fail(const output_folder *out, int why, fault *f)
 {
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); nothing was left",
                      out->to.path, why != 0 ? strerror(why) : "no room");
@@ -42,7 +42,7 @@ static status create(output_folder *out, fault *f)
 {
     if (output_beside(out->to.path, make_folder, out->temporary) < 0) {
         out->temporary[0] = '\0';
-        return fail(out, errno, f);
+        return folder_fail(out, errno, f);
     }
     const mode_t hidden = umask(0);
     umask(hidden);
@@ -95,8 +95,8 @@ status output_folder_below(const output_folder *out, const char *name, fault *f)
 {
     char path[PATH_MAX];
     if (!name_inside(out, name, path))
-        return fail(out, ENAMETOOLONG, f);
-    return mkdir(path, 0777) == 0 ? STATUS_OK : fail(out, errno, f);
+        return folder_fail(out, ENAMETOOLONG, f);
+    return mkdir(path, 0777) == 0 ? STATUS_OK : folder_fail(out, errno, f);
 }
 
 status output_folder_file(const output_folder *out, const char *name,
@@ -104,17 +104,17 @@ status output_folder_file(const output_folder *out, const char *name,
 {
     char path[PATH_MAX];
     if (!name_inside(out, name, path))
-        return fail(out, ENAMETOOLONG, f);
+        return folder_fail(out, ENAMETOOLONG, f);
     FILE *file = fopen(path, "wxe");
     if (file == NULL)
-        return fail(out, errno, f);
+        return folder_fail(out, errno, f);
     errno = 0;
     write(file, what);
     const int stored = !ferror(file) && fflush(file) == 0 && fsync(fileno(file)) == 0;
     int why = stored ? 0 : errno;
     const int closed = fclose(file) == 0;
     why = stored && !closed ? errno : why;
-    return stored && closed ? STATUS_OK : fail(out, why, f);
+    return stored && closed ? STATUS_OK : folder_fail(out, why, f);
 }
 
 status output_folder_finish(output_folder *out, status written, fault *f)
@@ -123,7 +123,7 @@ status output_folder_finish(output_folder *out, status written, fault *f)
     if (out->temporary[0] == '\0')
         return outcome;
     if (outcome == STATUS_OK && rename(out->temporary, out->to.path) != 0)
-        outcome = fail(out, errno, f);
+        outcome = folder_fail(out, errno, f);
     if (outcome != STATUS_OK)
         output_remove(out->temporary);
     output_forget(out->temporary);

@@ -11,7 +11,7 @@
 #include "harness/study/checksum.h"
 #include "harness/study/handles.h"
 
-enum { NAME = 200 };
+enum { HDF5_NAME = 200 };
 
 static status read_case(const char *path, hid_t cases, const char *name, stored_results *out,
                         fault *f)
@@ -26,7 +26,7 @@ static status read_case(const char *path, hid_t cases, const char *name, stored_
 
 static status read_cases(const char *path, hid_t cases, stored_results *out, fault *f)
 {
-    char name[NAME];
+    char name[HDF5_NAME];
     H5G_info_t info = {0};
     if (H5Gget_info(cases, &info) < 0)
         return results_case_damaged(path, "", "cases", f);
@@ -39,7 +39,7 @@ static status read_cases(const char *path, hid_t cases, stored_results *out, fau
     return STATUS_OK;
 }
 
-static status read_tables(const char *path, hid_t at, stored_results *out, fault *f)
+static status hdf5_read_tables(const char *path, hid_t at, stored_results *out, fault *f)
 {
     const hid_t cases = H5Gopen2(at, "cases", H5P_DEFAULT);
     const status outcome =
@@ -146,7 +146,7 @@ static status read_group(const char *path, hid_t at, stored_results *out, fault 
     if (H5Aexists(at, KEPT_SWEEP_MARK) > 0)
         return results_sweep_read(path, at, out, f);
     TRY(read_part(path, at, &out->part, f));
-    return read_tables(path, at, out, f);
+    return hdf5_read_tables(path, at, out, f);
 }
 
 static status read_file(const char *path, const char *experiment, hid_t file, stored_results *out,

@@ -9,7 +9,7 @@
 #include "harness/section_forces/span_twist.h"
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
-static const double enough = 1e-12, tolerable = 1e-7; /* of strains times the length */
+static const double span_enough = 1e-12, tolerable = 1e-7; /* of strains times the length */
 
 /* Everything in units of the element: lengths l0, forces EI/l0^2, moments EI/l0, bimoments EI. */
 typedef struct span_work {
@@ -200,7 +200,7 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
     if (problem->linear) {
         if (again(&w, strains, made) != 0)
             return fault_set(f, STATUS_SINGULAR, "torsion inside an element is singular");
-    } else if (!(fixed_point_find(UNKNOWNS, again, &w, enough, strains) <= tolerable)) {
+    } else if (!(fixed_point_find(UNKNOWNS, again, &w, span_enough, strains) <= tolerable)) {
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "no line between the ends of an element of %g m was found; take more "
                          "elements",

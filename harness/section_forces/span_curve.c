@@ -6,7 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-enum { N = SPAN_GRID_POINTS };
+enum { CURVE_N = SPAN_GRID_POINTS };
 
 /* The turn over a gap of length h, in the axes at its beginning (Blanes, Casas, Ros, BIT 40, 2000):
  * R^T' = -kappa~ R^T at three Gauss points. */
@@ -15,7 +15,7 @@ static void turn_of(const span_grid *g, int gap, const double kappa[], double h,
     double at[SPAN_GRID_GAUSS][3] = {{0}}, a[3], b[3], c[3], first[3], second[3], third[3],
            fourth[3];
     for (int k = 0; k < SPAN_GRID_GAUSS; k++)
-        for (int j = 0; j < N; j++)
+        for (int j = 0; j < CURVE_N; j++)
             for (int i = 0; i < 3; i++)
                 at[k][i] -= h * g->gauss[gap][k][j] * kappa[3 * j + i];
     for (int i = 0; i < 3; i++) {
@@ -40,17 +40,17 @@ static void turn_of(const span_grid *g, int gap, const double kappa[], double h,
 static void turn(const span_grid *g, const span_frame *p, const span_frame *q, const double kappa[],
                  span_curve *out)
 {
-    double along[N][4], end[4], missing[3];
+    double along[CURVE_N][4], end[4], missing[3];
     rotation_from_matrix(p->R, along[0]);
     rotation_from_matrix(q->R, end);
-    for (int i = 0; i + 1 < N; i++) {
+    for (int i = 0; i + 1 < CURVE_N; i++) {
         double step[3], by[4];
         turn_of(g, i, kappa, g->x[i + 1] - g->x[i], step);
         rotation_exp(step, by);
         rotation_compose(along[i], by, along[i + 1]);
     }
-    rotation_between(along[N - 1], end, missing);
-    for (int i = 0; i < N; i++) {
+    rotation_between(along[CURVE_N - 1], end, missing);
+    for (int i = 0; i < CURVE_N; i++) {
         const double part[3] = {g->x[i] * missing[0], g->x[i] * missing[1], g->x[i] * missing[2]};
         double by[4];
         rotation_exp(part, by);
@@ -58,23 +58,23 @@ static void turn(const span_grid *g, const span_frame *p, const span_frame *q, c
         rotation_matrix(along[i], out->R[i]);
     }
     memcpy(out->R[0], p->R, sizeof out->R[0]);
-    memcpy(out->R[N - 1], q->R, sizeof out->R[0]);
+    memcpy(out->R[CURVE_N - 1], q->R, sizeof out->R[0]);
 }
 
 void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
                         const double kappa[], const double gamma[], span_curve *out)
 {
-    double slope[N][3];
+    double slope[CURVE_N][3];
     turn(g, p, q, kappa, out);
-    for (int i = 0; i < N; i++) {
+    for (int i = 0; i < CURVE_N; i++) {
         const double along[3] = {1 + gamma[3 * i], gamma[3 * i + 1], gamma[3 * i + 2]};
         mat3_mul_vec(out->R[i], along, slope[i]);
     }
     span_grid_integrate(g, 3, slope[0], out->r[0]);
     double missing[3];
     for (int k = 0; k < 3; k++)
-        missing[k] = q->r[k] - p->r[k] - out->r[N - 1][k];
-    for (int i = 0; i < N; i++)
+        missing[k] = q->r[k] - p->r[k] - out->r[CURVE_N - 1][k];
+    for (int i = 0; i < CURVE_N; i++)
         for (int k = 0; k < 3; k++)
             out->r[i][k] += p->r[k] + g->x[i] * missing[k];
 }

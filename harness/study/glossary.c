@@ -30,7 +30,7 @@ static status read_all(table_columns *c, glossary_entry **out)
 }
 
 /* With what glossary_read closes. */
-static status read_open(const char *path, hid_t *file, glossary *out, fault *f)
+static status glossary_read_open(const char *path, hid_t *file, glossary *out, fault *f)
 {
     table_columns c = {.path = path, .name = "glossary", .f = f};
     TRY(truths_file_open(path, file, f));
@@ -46,7 +46,7 @@ status glossary_read(const char *path, glossary *out, fault *f)
 {
     hid_t file = -1;
     memset(out, 0, sizeof *out);
-    const status outcome = read_open(path, &file, out, f);
+    const status outcome = glossary_read_open(path, &file, out, f);
     if (file >= 0)
         H5Fclose(file);
     if (outcome != STATUS_OK)

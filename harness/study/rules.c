@@ -121,9 +121,9 @@ int rules_hold(const rule *r, const rule_subject *s)
            choice_index(r->verdicts, s->verdict) >= 0 && condition_holds(r->condition, s);
 }
 
-int rules_speak_of(const rule *r, const char *formulation)
+int rules_speak_of(const rule *r, const char *formulation_name)
 {
-    return list_has_formulation(r->formulations, formulation);
+    return list_has_formulation(r->formulations, formulation_name);
 }
 
 unsigned rules_features(const rule *r)

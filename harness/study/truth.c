@@ -48,20 +48,20 @@ int truth_gates(const truth *row)
 }
 
 const truth *truth_of(const truths *t, const case_type *type, const double value[],
-                      const char *quantity, const char *model)
+                      const char *quantity, const char *theory_name)
 {
-    return truth_of_theory(t, type, value, quantity, model, NULL);
+    return truth_of_theory(t, type, value, quantity, theory_name, NULL);
 }
 
 const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
-                             const char *quantity, const char *model, const char *theories)
+                             const char *quantity, const char *theory_name, const char *theories)
 {
     const truth *best = NULL;
     for (int i = truth_index_first(t, type, quantity); i < t->rows; i = truth_index_next(t, i)) {
         const truth *row = &t->row[i];
         const int fits = row->formulation[0] == '\0' && !row->on_curve &&
-                         strcmp(row->model, model) == 0 &&
-                         (truth_gates(row) || strcmp(model, "same") != 0);
+                         strcmp(row->model, theory_name) == 0 &&
+                         (truth_gates(row) || strcmp(theory_name, "same") != 0);
         const int follows = fits && (theories == NULL || row->theory[0] == '\0' ||
                                      choice_index(theories, row->theory) >= 0);
         if (follows && truth_holds(row, type, value) &&

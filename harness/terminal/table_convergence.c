@@ -9,14 +9,14 @@
 #include "harness/terminal/table_curves.h"
 #include "harness/terminal/table_stability.h"
 
-enum { DIGITS = 10, VALUE = 20 };
+enum { CONVERGENCE_DIGITS = 10, VALUE = 20 };
 
 /* Analytic model beside the elements. */
 static void prediction_line(FILE *to, const scene_quantity *q, const truth *row)
 {
     char source[FAULT_TEXT];
     int column = fprintf(to, "  prediction");
-    table_digits(to, VALUE - 4, q->prediction.value, DIGITS);
+    table_digits(to, VALUE - 4, q->prediction.value, CONVERGENCE_DIGITS);
     table_percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
     snprintf(source, sizeof source, "%s, analytic", q->prediction.source);
     column += VALUE - 4 + 12 + fprintf(to, "  ");
@@ -31,7 +31,7 @@ static void mesh_line(FILE *to, const series *one, int mesh, int quantity, const
     const double x = known ? r->quantity[quantity].value : NAN;
     char seconds[ROUNDING_TEXT];
     int column = fprintf(to, "  %6d", one->mesh[mesh]) + VALUE + 12;
-    table_digits(to, VALUE, x, DIGITS);
+    table_digits(to, VALUE, x, CONVERGENCE_DIGITS);
     table_percent(to, row != NULL ? verdict_error(q, x, row->value) : NAN);
     rounding_digits(r->seconds_setup + r->seconds_solve, 3, seconds);
     column += fprintf(to, " %9s s", seconds);

@@ -8,7 +8,7 @@
 #include "harness/terminal/paragraph.h"
 #include "harness/time/account.h"
 
-enum { INDENT = 2 };
+enum { MOTION_INDENT = 2 };
 
 /* Records [first, end) of one motion, the begin first. */
 typedef struct motion_extent {
@@ -68,7 +68,7 @@ static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how
     if (last->time < end * (1 - 1e-9))
         fprintf(text, "; it ends before %g s: give a smaller step, a tolerance or more elements",
                 end);
-    paragraph_end(&words, at, INDENT);
+    paragraph_end(&words, at, MOTION_INDENT);
 }
 
 static void energy_line(FILE *to, const motion_extent *e)
@@ -93,7 +93,7 @@ static void energy_line(FILE *to, const motion_extent *e)
             last->balance[SCENE_DISSIPATED], fabs(drift));
     if (size > 0 && drift != 0)
         fprintf(text, ", %.1e of the largest energy, at %.4g s", fabs(drift) / size, when);
-    paragraph_end(&words, at, INDENT);
+    paragraph_end(&words, at, MOTION_INDENT);
 }
 
 /* Energy that the integrator has lost, the largest part of what there was. */
@@ -113,7 +113,7 @@ static void damping_line(FILE *to, const motion_extent *e)
         when = one->time;
     }
     if (part > account_stated)
-        paragraph_say(to, fprintf(to, "numerical damping: "), INDENT,
+        paragraph_say(to, fprintf(to, "numerical damping: "), MOTION_INDENT,
                       "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
                       "less with a smaller step or tolerance",
                       when, lost, 100 * part, of);
@@ -138,7 +138,7 @@ static void momentum_line(FILE *to, const motion_extent *e)
 {
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
-    paragraph_say(to, at, INDENT,
+    paragraph_say(to, at, MOTION_INDENT,
                   "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they move by at most "
                   "%.2g and %.2g from those at the start",
                   length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
@@ -157,7 +157,7 @@ static void jump_lines(FILE *to, const scene *s, double path)
         function_at(&load->function, 0, value);
         const double held = along_path_factor(load, path);
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
-            paragraph_say(to, fprintf(to, "load: "), INDENT,
+            paragraph_say(to, fprintf(to, "load: "), MOTION_INDENT,
                           "%s is at factor %g where the path ends, at %g where the motion begins: "
                           "it jumps; one that acts in the motion only has path: [0, 1], factor: "
                           "[0, 0] beside its function",

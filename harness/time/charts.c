@@ -10,7 +10,7 @@
 #include "harness/time/forms.h"
 #include "harness/time/turning.h"
 
-static void identity(double A[9])
+static void unit_matrix(double A[9])
 {
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     memcpy(A, one, sizeof one);
@@ -27,7 +27,7 @@ void inertia_turn(const model *m, int vertex, const model_state *s, const double
 void inertia_chart(const model *m, int vertex, const double inc[], const double R[9], double N[9])
 {
     double at[3], inverse[9];
-    identity(N);
+    unit_matrix(N);
     if (forms_of(m, vertex) != FORM_BODY)
         return;
     for (int i = 0; i < 3; i++)
@@ -42,7 +42,7 @@ void inertia_turns(const model *m, const model_state *s, int vertex, double turn
 {
     const mesh_vertex *frame = model_vertex(m, vertex);
     double b[3][3];
-    identity(turn);
+    unit_matrix(turn);
     rotation_matrix(&s->q[4 * vertex], rate);
     if (frame->angles == 0)
         return;

@@ -50,8 +50,8 @@ static void subtract_lever(const double arm[3], const double by_arm[9], const do
 }
 
 /* Force and moment F[6] of the mean, and K[6 x 6] = -dF by dr, c of the vertex. */
-static void middle_of(const loaded *of, const applied *what, const double c[3], double F[6],
-                      double K[36])
+static void loads_middle_of(const loaded *of, const applied *what, const double c[3], double F[6],
+                            double K[36])
 {
     double R0[9], R1[9], back[9], T[9], arm[3], levered[3], by_force[9] = {0}, by[9];
     const size_t q = 4 * (size_t)what->vertex;
@@ -84,7 +84,7 @@ static void take(void *context, const applied *what)
     conserving *s = of->s;
     double dr[3], c[3], F[6], K[36] = {0};
     place_step(s, of->from, of->now, what->vertex, dr, c);
-    middle_of(of, what, c, F, K);
+    loads_middle_of(of, what, c, F, K);
     place_add(s, of->from, of->now, what->vertex, F, K, of->out);
 }
 

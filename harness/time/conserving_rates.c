@@ -158,7 +158,8 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
 /* Masses of released ends go on with velocities of their own, so that these keep energy and momenta
  * as those of nodes do: they follow from the coordinates but for what is of second order in a step.
  */
-static void released_rates(const conserving *s, const instant *from, double h, instant *to)
+static void conserving_released_rates(const conserving *s, const instant *from, double h,
+                                      instant *to)
 {
     const model *m = s->of.c->model;
     const carried_masses *all = s->of.masses;
@@ -220,7 +221,7 @@ void conserving_rates(conserving *s, const instant *from, double h, instant *to)
         to->v[c] = all->warping[c] > 0 ? 2 * mean - from->v[c] : mean;
     }
     if (model_releases(m) > 0)
-        released_rates(s, from, h, to);
+        conserving_released_rates(s, from, h, to);
     for (int c = 0; c < s->free; c++)
         to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
 }

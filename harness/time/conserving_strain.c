@@ -18,8 +18,9 @@ static const double *inner_of(const model *m, const model_state *s, int i)
 }
 
 /* Of elements of one kind. */
-static status stress_of(const equations *eq, int count, const int index[], const double *const e[],
-                        const model_state *s, stress_output out[], fault *f)
+static status middle_stress_of(const equations *eq, int count, const int index[],
+                               const double *const e[], const model_state *s, stress_output out[],
+                               fault *f)
 {
     const model *m = eq->m;
     const element_data *data[CHUNK_MOST];
@@ -83,7 +84,7 @@ status conserving_begin(conserving *s, const instant *from, fault *f)
                     s->elastic != NULL ? s->elastic + (size_t)((i + k) * model_strains(m)) : NULL,
                 .C = deformable_at(s, from, from->state, i + k).C_before};
         }
-        TRY(stress_of(&s->of.c->eq, count, index, e, from->state, out, f));
+        TRY(middle_stress_of(&s->of.c->eq, count, index, e, from->state, out, f));
         i += count;
     }
     for (int i = model_elements(m); i < deformable_count(s); i++)
@@ -125,7 +126,7 @@ static status stress_together(conserving *s, const instant *from, model_state *n
                                  .C = of[k].C,
                                  .memory = model_memory(m) > 0 ? of[k].memory : NULL};
     }
-    TRY(stress_of(&s->of.c->eq, count, index, e, now, out, f));
+    TRY(middle_stress_of(&s->of.c->eq, count, index, e, now, out, f));
     for (int k = 0; k < count; k++) {
         for (int c = 0; c < model_strains(m) * model_strains(m); c++)
             of[k].W[c] = (of[k].C_before[c] + of[k].C[c]) / 2;

@@ -38,7 +38,7 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
 
 /* The unknowns of an element's own, where its strains are given: by Newton, whose steps it knows.
  */
-static status settle(const explicit_scheme *s, int i, fault *f)
+static status settle_rates(const explicit_scheme *s, int i, fault *f)
 {
     enum { MOST = 30 };
     const double none = 1e-15;
@@ -67,7 +67,7 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
         model_type(m)->strain(
             model_kind_of(m, i)->data, x,
             &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m)});
-        TRY(settle(s, i, f));
+        TRY(settle_rates(s, i, f));
     }
     TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));
     TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));

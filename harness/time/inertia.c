@@ -127,7 +127,7 @@ static void parts_of(const carried_mass *one, const frame_rates *r, const double
         }
 }
 
-static void identity(double A[9])
+static void inertia_identity(double A[9])
 {
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     memcpy(A, one, sizeof one);
@@ -177,7 +177,7 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
     double of_body[9], of_ball[9], one[9], motion[6 * KINEMATICS_MOST], rates[36],
         K[KINEMATICS_MOST * KINEMATICS_MOST] = {0};
     released_columns(m, s, vertex, &of);
-    identity(one);
+    inertia_identity(one);
     inertia_turn(m, body, s, with->inc, of_body);
     inertia_turn(m, vertex, s, with->inc, of_ball);
     for (int i = 0; i < 36; i++)

@@ -13,7 +13,7 @@
 #include "harness/time/forms.h"
 
 /* Of M as it is measured there, in parts of the largest mass. */
-static const double nothing = 1e-14;
+static const double massless_nothing = 1e-14;
 
 /* What is done with the masses of a body. */
 typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
@@ -76,7 +76,7 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
 {
-    const double none = nothing * body_mass_of(m, all, body, s, g);
+    const double none = massless_nothing * body_mass_of(m, all, body, s, g);
     const int n = g->count, rank = body_mass_rank(g, none);
     if (of->task == COUNT)
         return rank;

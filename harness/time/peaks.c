@@ -8,7 +8,7 @@
 #include "harness/time/reading.h"
 #include "harness/time/resultants.h"
 
-static int watches(const peaks *s, const scene_quantity *q)
+static int peaks_watches(const peaks *s, const scene_quantity *q)
 {
     return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
            !reading_is_kinematic(q);
@@ -30,14 +30,14 @@ status peaks_alloc(peaks *s, fault *f)
 {
     const scene *what = s->c->scene;
     for (int i = 0; i < what->quantities; i++)
-        s->count += watches(s, &what->quantity[i]);
+        s->count += peaks_watches(s, &what->quantity[i]);
     if (s->count == 0)
         return STATUS_OK;
     s->one = calloc((size_t)s->count, sizeof *s->one);
     if (s->one == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the extremes of a motion");
     for (int i = 0, k = 0; i < what->quantities; i++)
-        if (watches(s, &what->quantity[i]))
+        if (peaks_watches(s, &what->quantity[i]))
             begin(s, &s->one[k++], &what->quantity[i]);
     for (int i = 0; i < PEAKS_ENDS; i++)
         TRY(instant_alloc(s->c->model, &s->last[i], f));

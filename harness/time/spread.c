@@ -196,7 +196,7 @@ static int is_wide(const spread_parts *p)
     return p->columns > NODE_COORDINATES * p->el->nodes;
 }
 
-static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const double spread_one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 /* T[7 nodes x columns]: motion of the nodes by the coordinates of the element; moves NULL: by
  * spatial increments. */
@@ -221,8 +221,8 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
         released_masses of;
         double motion[6 * KINEMATICS_MOST];
         released_columns(m, p->state, el->vertex[k], &of);
-        released_motion(&of, plain, moves != NULL ? turn : one, moves != NULL ? moves[k].ball : one,
-                        motion);
+        released_motion(&of, plain, moves != NULL ? turn : spread_one,
+                        moves != NULL ? moves[k].ball : spread_one, motion);
         for (int c = 0; c < of.count; c++) {
             int to = 0;
             while (to + 1 < p->columns && el->index[to] != of.index[c])
@@ -306,8 +306,8 @@ void spread_place(const model *m, const spread_parts *p, spread_motion place[])
     for (int k = 0; k < p->el->nodes; k++) {
         const int plain = p->el->vertex[k] < model_first_release(m);
         place[k].plain = 1;
-        memcpy(place[k].turn, plain ? p->turn[k] : one, sizeof place[k].turn);
-        memcpy(place[k].ball, one, sizeof place[k].ball);
+        memcpy(place[k].turn, plain ? p->turn[k] : spread_one, sizeof place[k].turn);
+        memcpy(place[k].ball, spread_one, sizeof place[k].ball);
     }
 }
 

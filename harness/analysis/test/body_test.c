@@ -116,7 +116,7 @@ static const case_type with_body = {.name = "with_body",
                                     .parameters = {parameter},
                                     .build = build};
 
-static void solve(const char *chosen, int as, int support, int loaded, cell_result *r)
+static void body_solve(const char *chosen, int as, int support, int loaded, cell_result *r)
 {
     cell_request request = {.type = &with_body, .elements = 3};
     formulation fm;
@@ -143,11 +143,11 @@ static void descriptions(const char *chosen, int support)
 {
     static const char *const as[] = {"points", "one body at the hub", "one body beside it"};
     cell_result points, other;
-    solve(chosen, POINTS, support, 1, &points);
+    body_solve(chosen, POINTS, support, 1, &points);
     for (int i = AT_HUB; i <= BESIDE; i++) {
         char what[120];
         snprintf(what, sizeof what, "%s, support %d, %s", chosen, support, as[i]);
-        solve(chosen, i, support, 1, &other);
+        body_solve(chosen, i, support, 1, &other);
         compare(&points, &other, 1e-9, what);
         cell_result_free(&other);
     }
@@ -159,9 +159,9 @@ static void algorithms(void)
     static const char *const form[] = {"collocation:newton=dense",
                                        "collocation:newton=displacement"};
     cell_result mixed, other;
-    solve("collocation", AT_HUB, FREE, 0, &mixed);
+    body_solve("collocation", AT_HUB, FREE, 0, &mixed);
     for (int i = 0; i < 2; i++) {
-        solve(form[i], AT_HUB, FREE, 0, &other);
+        body_solve(form[i], AT_HUB, FREE, 0, &other);
         compare(&mixed, &other, 1e-8, form[i]);
         cell_result_free(&other);
     }

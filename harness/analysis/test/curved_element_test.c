@@ -17,7 +17,7 @@
 #include "harness/formulations/formulation.h"
 #include "harness/formulations/registry.h"
 
-enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, POINTS = 32 };
+enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, ELEMENT_POINTS = 32 };
 
 typedef struct element_subject {
     const formulation *chosen;
@@ -67,18 +67,18 @@ static status prepare(const formulation *chosen, const section *c, double most, 
 static void along_arc(const element_subject *s, double x, const double strain[3], double r[3],
                       double R[9])
 {
-    double t[POINTS], w[POINTS], q[4];
+    double t[ELEMENT_POINTS], w[ELEMENT_POINTS], q[4];
     const double direction[3] = {1 + strain[0], strain[1], strain[2]};
     memset(r, 0, 3 * sizeof *r);
-    quadrature_points(POINTS, t, w);
-    for (int g = 0; g <= POINTS; g++) {
-        const double at = g < POINTS ? x * t[g] : x,
+    quadrature_points(ELEMENT_POINTS, t, w);
+    for (int g = 0; g <= ELEMENT_POINTS; g++) {
+        const double at = g < ELEMENT_POINTS ? x * t[g] : x,
                      part[3] = {s->turn[0] * at, s->turn[1] * at, s->turn[2] * at};
         double axis[3];
         rotation_exp(part, q);
         rotation_matrix(q, R);
         mat3_mul_vec(R, direction, axis);
-        if (g < POINTS)
+        if (g < ELEMENT_POINTS)
             for (int i = 0; i < 3; i++)
                 r[i] += x * w[g] * axis[i];
     }

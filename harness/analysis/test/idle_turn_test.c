@@ -12,7 +12,7 @@
 #include "harness/tools/kit/ask.h"
 
 enum { PLANE = 1, BALL = 2 };
-static const double E = 210e9, I = 1e-6, P = 960;
+static const double turn_E = 210e9, I = 1e-6, P = 960;
 
 /* Two members of 1 m that meet in hinges about their z, which is `R` times it; how: PLANE: all but
  * the frame's plane is held, BALL: all turns are released. */
@@ -20,7 +20,7 @@ static void two_hinges(scene *s, const double R[9], int how, int moment)
 {
     double at[3][3], y[3], force[3];
     section_spec spec = sections_of(1e-3, I, I, 2e-6);
-    spec.young = E;
+    spec.young = turn_E;
     spec.shear_modulus = 81e9;
     spec.density = 7800;
     scene_init(s, "two_hinges");
@@ -76,7 +76,7 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     if (!ask_count(tally, &a, "%s", what))
         return;
     /* two cantilevers share the load; shear adds little where it is rigid in these sections */
-    gsl_test_rel(along_force(&a, R), P / 6 / (E * I), 5e-3, "%s: %s", e->name, what);
+    gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }
 

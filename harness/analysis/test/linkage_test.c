@@ -26,8 +26,9 @@ static void fourth(double angle, double out[2])
     out[1] = y + (a * dy + h * dx) / d;
 }
 
-static double Q[9];           /* axes in which the scene is written */
-static double turned, pushed; /* [rad] of the crank, [N] on the joint of coupler and rocker */
+static double Q[9]; /* axes in which the scene is written */
+static double linkage_turned,
+    pushed; /* [rad] of the crank, [N] on the joint of coupler and rocker */
 
 static int add_at(scene *s, double x, double y)
 {
@@ -75,7 +76,7 @@ static void add_bars(scene *s, int turning, int *second, int *third)
 static status build_four_bar(const double value[], scene *s, fault *f)
 {
     static const double path[] = {0, 1};
-    const double angle[] = {0, turned};
+    const double angle[] = {0, linkage_turned};
     double stations[STATIONS];
     int second, third;
     (void)value;
@@ -104,7 +105,7 @@ static void solve_four_bar(const char *chosen, double angle, double force, const
                            cell_result *r)
 {
     memcpy(Q, axes, sizeof Q);
-    turned = angle;
+    linkage_turned = angle;
     pushed = force;
     cells_solve(build_four_bar, chosen, 1, r);
 }
@@ -215,7 +216,7 @@ static status build_loose(const double value[], scene *s, fault *f)
     (void)value;
     (void)f;
     add_bars(s, SCENE_FREE, &second, &third);
-    if (turned > 0)
+    if (linkage_turned > 0)
         scene_add_linear(s);
     else
         scene_add_static(s, 1, &end, 2);
@@ -275,7 +276,7 @@ int main(void)
         in_other_axes(name);
         memcpy(Q, straight, sizeof Q);
         for (int k = 0; k < 2; k++) {
-            turned = k;
+            linkage_turned = k;
             named(name, build_loose, "node 1 can turn about (0, 0, ");
         }
         named(name, build_between, "member 0 can turn about (0, 0, ");

@@ -64,8 +64,9 @@ typedef struct modes_part {
     double size;
 } modes_part;
 
-static void compare(const model *m, const scene *s, const double R[9], int parts,
-                    const modes_part *p, scene_family family, int half_waves, const char *what)
+static void modes_compare(const model *m, const scene *s, const double R[9], int parts,
+                          const modes_part *p, scene_family family, int half_waves,
+                          const char *what)
 {
     double *x = calloc((size_t)model_all_coordinates(m) + 1, sizeof *x);
     mode_shape shape = {SCENE_ANY, 0};
@@ -90,32 +91,34 @@ static void in_direction(const double R[9])
         const double r = sqrt(c->Ip / c->A);
         for (int waves = 1; waves <= MOST_WAVES; waves++) {
             for (int k = 0; k < 4; k++)
-                compare(m, &s, R, 1, &(modes_part){k, waves, 1e-3}, moved[k], waves, "one motion");
+                modes_compare(m, &s, R, 1, &(modes_part){k, waves, 1e-3}, moved[k], waves,
+                              "one motion");
             for (int k = 0; k < 4; k++)
                 for (int other = 0; other < 4; other++)
                     if (other != k)
-                        compare(m, &s, R, 2,
-                                (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
-                                               {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
-                                moved[k], waves, "the larger of two motions");
+                        modes_compare(
+                            m, &s, R, 2,
+                            (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
+                                           {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
+                            moved[k], waves, "the larger of two motions");
             /* of sections that turn in place, and of warping */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {
-                compare(m, &s, R, 1, &(modes_part){turn[k], waves, 1}, moved[k + 1], waves,
-                        "in place");
+                modes_compare(m, &s, R, 1, &(modes_part){turn[k], waves, 1}, moved[k + 1], waves,
+                              "in place");
                 for (int other = 0; other < 3; other++)
                     if (other != k)
-                        compare(m, &s, R, 2,
-                                (modes_part[]){{turn[k], waves, unit[k]},
-                                               {turn[other], waves + 2, 0.8 * unit[other]}},
-                                moved[k + 1], waves, "the larger of two turns in place");
-                compare(m, &s, R, 2,
-                        (modes_part[]){{turn[k], waves, unit[k]}, {1, waves + 1, 1e-3}}, moved[1],
-                        waves + 1, "the least motion counts before turns");
-                compare(m, &s, R, 2,
-                        (modes_part[]){{turn[k], waves, unit[k]}, {1, waves + 1, 1e-12}},
-                        moved[k + 1], waves, "but for round-off");
+                        modes_compare(m, &s, R, 2,
+                                      (modes_part[]){{turn[k], waves, unit[k]},
+                                                     {turn[other], waves + 2, 0.8 * unit[other]}},
+                                      moved[k + 1], waves, "the larger of two turns in place");
+                modes_compare(m, &s, R, 2,
+                              (modes_part[]){{turn[k], waves, unit[k]}, {1, waves + 1, 1e-3}},
+                              moved[1], waves + 1, "the least motion counts before turns");
+                modes_compare(m, &s, R, 2,
+                              (modes_part[]){{turn[k], waves, unit[k]}, {1, waves + 1, 1e-12}},
+                              moved[k + 1], waves, "but for round-off");
             }
         }
     }

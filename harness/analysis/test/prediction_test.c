@@ -7,7 +7,7 @@
 #include "harness/formulations/case_find.h"
 #include "harness/tools/kit/cells.h"
 
-static void solve(const char *const assignment[], cell_result *out)
+static void prediction_solve(const char *const assignment[], cell_result *out)
 {
     cell_request request = cells_of(case_find("sheet_cantilever", NULL), "sheet_third", 1);
     fault f = {""};
@@ -21,7 +21,7 @@ static void beside_the_element(const char *const assignment[], double in_plane, 
 {
     cell_result r;
     int predicted = 0;
-    solve(assignment, &r);
+    prediction_solve(assignment, &r);
     for (int i = 0; i < r.scene.quantities; i++) {
         const scene_quantity *q = &r.scene.quantity[i];
         const double value = r.solve.quantity[i].value;
@@ -44,7 +44,7 @@ static void undeformed(void)
     const double E = 200e9, w = 0.1, t = 0.00225, L = 0.1, nu = 0.3,
                  k = 10 * (1 + nu) / (12 + 11 * nu);
     cell_result r;
-    solve(straight, &r);
+    prediction_solve(straight, &r);
     for (int i = 0; i < r.scene.quantities; i++)
         if (strcmp(r.scene.quantity[i].name, "C_zz") == 0)
             gsl_test_rel(r.scene.quantity[i].prediction.value,

@@ -47,7 +47,7 @@ static void make(scene *s, const released_request *what)
     }
 }
 
-static void solve(const element_type *type, const released_request *what, answer *out)
+static void released_solve(const element_type *type, const released_request *what, answer *out)
 {
     scene s;
     scene_init(&s, "released");
@@ -79,8 +79,8 @@ int main(void)
             released_request loaded = driven[k];
             loaded.moment += 0.9;
             loaded.force += (loaded.driven & 7U) != 0 ? 0.6 : 0;
-            solve(type, &driven[k], &without);
-            solve(type, &loaded, &with);
+            released_solve(type, &driven[k], &without);
+            released_solve(type, &loaded, &with);
             if (!ask_count(&t, &without, "reactions alone") ||
                 !ask_count(&t, &with, "a load beside them"))
                 continue;

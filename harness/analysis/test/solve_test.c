@@ -9,8 +9,9 @@
 #include "harness/formulations/formulation.h"
 #include "harness/tools/kit/cells.h"
 
-static double value_of(const char *case_name, const char *formulation_text, int n, int keep_all,
-                       const char *assignment, const char *quantity, long *iterations)
+static double solve_value_of(const char *case_name, const char *formulation_text, int n,
+                             int keep_all, const char *assignment, const char *quantity,
+                             long *iterations)
 {
     cell_request request = cells_of(case_find(case_name, NULL), formulation_text, n);
     cell_result result;
@@ -38,9 +39,9 @@ static void leaving_out_changes_nothing(void)
                  {"wagner_torsion", "shortening"}};
     for (size_t i = 0; i < 4; i++) {
         const double lean =
-            value_of(pairs[i].case_name, "beamw", 4, 0, "", pairs[i].quantity, NULL);
+            solve_value_of(pairs[i].case_name, "beamw", 4, 0, "", pairs[i].quantity, NULL);
         const double full =
-            value_of(pairs[i].case_name, "beamw", 4, 1, "", pairs[i].quantity, NULL);
+            solve_value_of(pairs[i].case_name, "beamw", 4, 1, "", pairs[i].quantity, NULL);
         gsl_test_rel(full, lean, 1e-10, "%s: keeping everything gives the same %s",
                      pairs[i].case_name, pairs[i].quantity);
     }
@@ -49,12 +50,13 @@ static void leaving_out_changes_nothing(void)
 static void newton(void)
 {
     long mixed = 0, displacement = 0;
-    const double a = value_of("sheet_cantilever", "beamw_consistent", 4, 0, "", "C_xx", &mixed);
-    const double b = value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4, 0, "",
-                              "C_xx", &displacement);
+    const double a =
+        solve_value_of("sheet_cantilever", "beamw_consistent", 4, 0, "", "C_xx", &mixed);
+    const double b = solve_value_of("sheet_cantilever", "beamw_consistent:newton=displacement", 4,
+                                    0, "", "C_xx", &displacement);
     gsl_test_rel(b, a, 1e-9, "both kinds of Newton find the same equilibrium");
     const double c =
-        value_of("sheet_cantilever", "beamw_consistent:newton=dense", 4, 0, "", "C_xx", NULL);
+        solve_value_of("sheet_cantilever", "beamw_consistent:newton=dense", 4, 0, "", "C_xx", NULL);
     gsl_test_rel(c, a, 1e-10, "and so does the uncondensed system");
     gsl_test(!(mixed <= 4 * 15),
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
@@ -64,8 +66,8 @@ static void newton(void)
  * the solver must. */
 static void no_element_is_turned_round(void)
 {
-    const double value = value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
-                                  "support_stiffness_max", NULL);
+    const double value = solve_value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
+                                        "support_stiffness_max", NULL);
     gsl_test_rel(value, 953153.87, 1e-3,
                  "spherical joint on fine meshes: no silent jump to a reversed element");
 }
@@ -73,9 +75,9 @@ static void no_element_is_turned_round(void)
 static void fine_mesh(void)
 {
     const double coarse =
-        value_of("c_column", "beamw_vlasov", 256, 0, "shear=0", "buckling_load", NULL);
+        solve_value_of("c_column", "beamw_vlasov", 256, 0, "shear=0", "buckling_load", NULL);
     const double fine =
-        value_of("c_column", "beamw_vlasov", 1024, 0, "shear=0", "buckling_load", NULL);
+        solve_value_of("c_column", "beamw_vlasov", 1024, 0, "shear=0", "buckling_load", NULL);
     const double exact = 16117335.51891;
     gsl_test_rel(fine, exact, 2e-6, "1024 elements: %.3g from the exact load", fine / exact - 1);
     const double order = log((coarse - exact) / (fine - exact)) / log(4);
@@ -89,8 +91,8 @@ static void frame_of_strips(void)
 {
     const double exact = 0.6222080872197;
     for (int n = 8; n <= 32; n *= 2) {
-        const double moment =
-            value_of("right_angle_frame", "beamw_consistent", n, 0, "", "critical_moment", NULL);
+        const double moment = solve_value_of("right_angle_frame", "beamw_consistent", n, 0, "",
+                                             "critical_moment", NULL);
         gsl_test_rel((moment / exact - 1) * n * n, 0.411, 0.01,
                      "right-angle frame of %d elements a leg: second order", n);
     }
@@ -100,8 +102,8 @@ static void frame_of_strips(void)
  * inertia is that of the sums. */
 static void equal_elements(void)
 {
-    const double critical = value_of("lateral_buckling", "geometrically_exact", 256, 0, "load=mid",
-                                     "load_factor", NULL);
+    const double critical = solve_value_of("lateral_buckling", "geometrically_exact", 256, 0,
+                                           "load=mid", "load_factor", NULL);
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
@@ -114,7 +116,7 @@ static void modes_in_place(void)
             char name[SCENE_NAME];
             snprintf(name, sizeof name, "frequency_%d", k);
             const double value =
-                value_of("c_column", "beamw_consistent", 2, keep_all, "", name, NULL);
+                solve_value_of("c_column", "beamw_consistent", 2, keep_all, "", name, NULL);
             gsl_test(isfinite(value) != (k <= 12), "c_column, keep_all = %d: %s is %g Hz", keep_all,
                      name, value);
         }

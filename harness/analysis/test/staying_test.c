@@ -10,10 +10,10 @@
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/scenes.h"
 
-enum { NONE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
+enum { NO_MODE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 
 /* A clamped bar of EI = 1 and 2 along x, pushed by the growing load 1. */
-static void column(int way, scene *s)
+static void staying_column(int way, scene *s)
 {
     static const double stays[WAYS] = {0, -1.5, 2, -0.5, -4, 0}, zero = 0, one = 1,
                         ends[3] = {0, 0.5, 1};
@@ -26,7 +26,7 @@ static void column(int way, scene *s)
         scene_set_factor(s, push, 3, ends, growing);
     else if (way == BENT)
         scene_set_factor(s, push, 3, ends, bent);
-    else if (way != NONE)
+    else if (way != NO_MODE)
         scene_set_factor(s, scene_add_load(s, SCENE_FORCE, tip, stays[way], 0, 0), 1, &zero, &one);
     const int buckling = scene_add_buckling(s, SCENE_NONE);
     scene_add_quantity(s, "first", "N", buckling, scene_critical_factor(1, 0));
@@ -36,17 +36,17 @@ static void column(int way, scene *s)
 static int answered(const element_type *e, ask_tally *tally, int way, answer *a)
 {
     scene s;
-    column(way, &s);
+    staying_column(way, &s);
     ask_scene(&s, e, NULL, 4, a);
     scene_free(&s);
     return ask_count(tally, a, "column %d", way);
 }
 
-static void refuses(const element_type *e, int way, const char *words)
+static void staying_refuses(const element_type *e, int way, const char *words)
 {
     answer a;
     scene s;
-    column(way, &s);
+    staying_column(way, &s);
     ask_scene(&s, e, NULL, 4, &a);
     scene_free(&s);
     if (e->offers & FEATURE_GEOMETRIC)
@@ -60,7 +60,7 @@ int main(void)
         const element_type *e = registry_formulations[i];
         ask_tally tally = {0};
         static answer alone, other;
-        if (answered(e, &tally, NONE, &alone)) {
+        if (answered(e, &tally, NO_MODE, &alone)) {
             if (answered(e, &tally, PUSHES, &other))
                 for (int k = 0; k < 2; k++)
                     gsl_test_rel(other.value[k], alone.value[k] - 1.5, 1e-8,
@@ -74,8 +74,8 @@ int main(void)
                     gsl_test_rel(other.value[k], (alone.value[k] - 0.5) / 0.5, 1e-8,
                                  "%s: half of it grows", e->name);
         }
-        refuses(e, CRITICAL, "critical by themselves");
-        refuses(e, BENT, "not on a line");
+        staying_refuses(e, CRITICAL, "critical by themselves");
+        staying_refuses(e, BENT, "not on a line");
         ask_conclude(&tally, e, "loads that stay");
     }
     return gsl_test_summary();

@@ -8,8 +8,8 @@
 
 enum { STATIONS = 15 };
 
-static void solve(const char *name, const char *type, int elements, newton_form newton,
-                  cell_result *out)
+static void walk_solve(const char *name, const char *type, int elements, newton_form newton,
+                       cell_result *out)
 {
     cell_request request = cells_of(case_find(name, NULL), type, elements);
     fault f = {""};
@@ -32,8 +32,8 @@ static double worst_difference(const cell_result *a, const cell_result *b)
 static void compliances(void)
 {
     cell_result taken, own;
-    solve("sheet_cantilever", "sheet_third", 2, NEWTON_MIXED, &taken);
-    solve("sheet_cantilever", "sheet_third", 2, NEWTON_DENSE, &own);
+    walk_solve("sheet_cantilever", "sheet_third", 2, NEWTON_MIXED, &taken);
+    walk_solve("sheet_cantilever", "sheet_third", 2, NEWTON_DENSE, &own);
     gsl_test_int((int)(own.counters.factorisations - own.counters.iterations), STATIONS,
                  "a tangent of its own at every station");
     gsl_test(taken.counters.factorisations - taken.counters.iterations > STATIONS / 2,
@@ -51,7 +51,7 @@ static void turning_back(void)
     enum { BEGINNING = 10 };
     cell_result r;
     int most = 0;
-    solve("spherical_joint", "sheet_third", 1, NEWTON_MIXED, &r);
+    walk_solve("spherical_joint", "sheet_third", 1, NEWTON_MIXED, &r);
     for (int i = BEGINNING; i < r.solve.steps; i++)
         most = r.solve.step[i].iterations > most ? r.solve.step[i].iterations : most;
     gsl_test_int(most, 2, "iterations of a step of a smooth path");
@@ -64,7 +64,7 @@ static void shorter_first_steps(void)
     cell_result whole, shorter;
     cell_request request = cells_of(case_find("sheet_cantilever", NULL), "sheet_third", 2);
     fault f = {""};
-    solve("sheet_cantilever", "sheet_third", 2, NEWTON_MIXED, &whole);
+    walk_solve("sheet_cantilever", "sheet_third", 2, NEWTON_MIXED, &whole);
     request.solve.steps_between = 3;
     gsl_test(cell_run(&request, &shorter, &f) != STATUS_OK, "three steps: %s", f.text);
     gsl_test_int(whole.solve.steps, STATIONS, "a step to each station");
@@ -99,7 +99,7 @@ static void large_deflection(void)
 static void continuations(void)
 {
     cell_result r;
-    solve("c_cantilever", "geometrically_exact", 4, NEWTON_MIXED, &r);
+    walk_solve("c_cantilever", "geometrically_exact", 4, NEWTON_MIXED, &r);
     const counters *n = &r.counters;
     gsl_test(n->rejected_steps == 0 && n->factorisations > n->iterations - n->steps + 2,
              "%ld factorisations, %ld iterations of %ld steps", n->factorisations, n->iterations,

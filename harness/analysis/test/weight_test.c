@@ -11,7 +11,7 @@
 
 extern const element_type element_collocation, element_geometrically_exact;
 
-static const double g = 9.81, end = 1, y_axis[3] = {0, 0, 1};
+static const double g = 9.81, weight_end = 1, y_axis[3] = {0, 0, 1};
 
 static int leaf_profile(scene *s)
 {
@@ -56,7 +56,7 @@ static void all_analyses(scene *s, int by_hand)
     scene_set_body(s, body, heavy);
     add_weight(s, body, down, by_hand);
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
-    const int bent = scene_add_static(s, 1, &end, 2);
+    const int bent = scene_add_static(s, 1, &weight_end, 2);
     scenes_ask_motion(s, "linear", scene_add_linear(s), body);
     scenes_ask_motion(s, "bent", bent, body);
     scenes_ask_frequencies(s, "frequency", scene_add_modal(s, bent), 4);
@@ -64,7 +64,7 @@ static void all_analyses(scene *s, int by_hand)
                        scene_critical_factor(1, 0));
     scene_rotating_frame frame = {.centre = {0}};
     memcpy(frame.omega, spin, sizeof spin);
-    scenes_ask_motion(s, "rotation", scene_add_rotation(s, 1, &end, 2, 4, frame), body);
+    scenes_ask_motion(s, "rotation", scene_add_rotation(s, 1, &weight_end, 2, 4, frame), body);
     for (int i = 0; i < SCENE_SCHEMES; i++) {
         char name[SCENE_NAME];
         const scene_motion how = {.scheme = (scene_scheme)i,
@@ -112,7 +112,7 @@ static void hung(void)
     scene_set_body(&s, low, heavy);
     add_weight(&s, low, down, 0);
     scene_add_load(&s, SCENE_GRAVITY, bar, down[0], down[1], down[2]);
-    const int path = scene_add_static(&s, 1, &end, 2);
+    const int path = scene_add_static(&s, 1, &weight_end, 2);
     scene_add_quantity(&s, "fy", "N", path, scene_reaction(top, SCENE_UY));
     scene_add_quantity(&s, "mz", "N m", path, scene_reaction(top, SCENE_RZ));
     scene_add_quantity(&s, "ux", "m", path, scene_coordinate(centre, SCENE_UX));
@@ -154,7 +154,7 @@ static void period(void)
                  T = 2 * pi * sqrt(I / (body.mass * g * d)), until = 3.2 * T;
     scene s;
     answer a;
-    const int pin = pinned(&s, 0, body), still = scene_add_static(&s, 1, &end, 1);
+    const int pin = pinned(&s, 0, body), still = scene_add_static(&s, 1, &weight_end, 1);
     scenes_ask_frequencies(&s, "about", scene_add_modal(&s, still), 1);
     for (int i = 0; i < SCENE_SCHEMES; i++) {
         char name[8];

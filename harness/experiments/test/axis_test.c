@@ -5,14 +5,14 @@
 
 #include "harness/experiments/axis.h"
 
-static const parameter_type table[] = {
+static const parameter_type axis_table[] = {
     {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},
     {"turn", "rad", 0, -1, 1, NULL, "of an end"},
     {"shear", "1", 1, 0, 1, NULL, "0 or 1"},
     {"ends", "", 0, 0, 0, "fixed|free|sliding", "how they are held"},
     {NULL, NULL, 0, 0, 0, NULL, NULL},
 };
-static const case_type strip = {.name = "strip", .parameters = {table}};
+static const case_type strip = {.name = "strip", .parameters = {axis_table}};
 
 static sweep_axis read_good(const char *text)
 {

@@ -8,8 +8,8 @@
 
 enum { PLACES = 8 };
 
-static const parameter_type table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
-static const case_type box = {.name = "box", .parameters = {table}};
+static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
+static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
 /* With a truth at some points, and elsewhere with none. */
 static const struct {
@@ -26,9 +26,9 @@ static const struct {
     {{.points = 2, .asked = 1, .proven = 1, .least = 4}, "4*?", "4?"},
 };
 
-static void map_is(int mixed)
+static void map_map_is(int mixed)
 {
-    parameter_ranges r = {.request = {.type = &box, .tolerance = 0.01},
+    parameter_ranges r = {.request = {.type = &map_box, .tolerance = 0.01},
                           .formulations = 1,
                           .meshes = 2,
                           .mesh = {4, 8},
@@ -39,7 +39,7 @@ static void map_is(int mixed)
     fault f = {""};
     char *text = NULL;
     size_t size = 0;
-    axis_read(&box, "a=0..7/7", &r.axis[0], NULL);
+    axis_read(&map_box, "a=0..7/7", &r.axis[0], NULL);
     design_make(DESIGN_GRID, 1, r.axis, 0, 0, &r.design, NULL);
     snprintf(r.formulation[0].key, sizeof r.formulation[0].key, "beam");
     gsl_test(tally_alloc(&r, &t, &f) != STATUS_OK, "%s", f.text);
@@ -72,7 +72,7 @@ static void map_is(int mixed)
 
 int main(void)
 {
-    map_is(0);
-    map_is(1);
+    map_map_is(0);
+    map_map_is(1);
     return gsl_test_summary();
 }

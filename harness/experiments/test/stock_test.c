@@ -182,9 +182,8 @@ static void machines(void)
     stock s;
     char said[1200];
     fault f = {""};
-    static const char *const model[] = {"another processor", NULL, NULL}, *const blas[] = {
-                                                                              NULL, "another BLAS",
-                                                                              NULL};
+    static const char *const other_processor[] = {"another processor", NULL, NULL},
+                             *const blas[] = {NULL, "another BLAS", NULL};
     for (int i = 0; i < 3; i++) {
         batch_label label;
         FILE *from;
@@ -195,8 +194,8 @@ static void machines(void)
         const size_t size = fread(bytes, 1, (size_t)(end - ftell(from)), from);
         fclose(from);
         snprintf(label.node.host, sizeof label.node.host, "elsewhere");
-        if (model[i] != NULL)
-            snprintf(label.node.processor, sizeof label.node.processor, "%s", model[i]);
+        if (other_processor[i] != NULL)
+            snprintf(label.node.processor, sizeof label.node.processor, "%s", other_processor[i]);
         if (blas[i] != NULL)
             snprintf(label.node.blas, sizeof label.node.blas, "%s", blas[i]);
         gsl_test(batch_write(of.of.path, &label, bytes, size, &f) != STATUS_OK, "%s", f.text);
@@ -209,7 +208,7 @@ static void machines(void)
         gsl_test_int(s.kinds, i < 2 ? 2 : 1, "kinds of machines");
         gsl_test(i < 2 && (strstr(said, "the last digits may differ") == NULL ||
                            strstr(said, "1 on elsewhere") == NULL ||
-                           strstr(said, i == 0 ? model[0] : blas[1]) == NULL),
+                           strstr(said, i == 0 ? other_processor[0] : blas[1]) == NULL),
                  "what differs is told: %s", said);
         gsl_test(i == 2 && said[0] != '\0', "another host of the same kind is not told: %s", said);
         stock_free(&s);

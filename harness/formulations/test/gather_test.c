@@ -12,10 +12,10 @@
 #include "harness/formulations/parameters.h"
 #include "harness/formulations/registry.h"
 
-enum { ELEMENTS = 5, M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };
+enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 
-static const element_type *source;
-static double options[ELEMENT_MAX_OPTIONS];
+static const element_type *gather_source;
+static double gather_options[ELEMENT_MAX_OPTIONS];
 static int requests, most; /* of many, and the largest */
 
 static void note(int count)
@@ -29,16 +29,18 @@ static void strain_many(int count, const element_data *const data[], const node_
 {
     note(count);
     for (int i = 0; i < count; i++)
-        source->strain(data[i], x + i * element_nodes(source, options), &out[i]);
+        gather_source->strain(data[i], x + i * element_nodes(gather_source, gather_options),
+                              &out[i]);
 }
 
 /* An energy of the strains and its derivatives; none where the first node warps one way. */
 static status force(const element_data *d, const node_state x[], force_output *out)
 {
-    double e[M] = {0}, J[M * N], C[M * M] = {0}, work[M * N];
-    const int m = element_strains(source, options),
-              n = NODE_COORDINATES * element_nodes(source, options);
-    source->strain(d, x, &(strain_output){.e = e, .J = J});
+    double e[GATHER_M] = {0}, J[GATHER_M * GATHER_N], C[GATHER_M * GATHER_M] = {0},
+           work[GATHER_M * GATHER_N];
+    const int m = element_strains(gather_source, gather_options),
+              n = NODE_COORDINATES * element_nodes(gather_source, gather_options);
+    gather_source->strain(d, x, &(strain_output){.e = e, .J = J});
     if (x[0].a > 0)
         return STATUS_NOT_CONVERGED;
     for (int i = 0; i < m; i++)
@@ -63,7 +65,7 @@ static void force_many(int count, const element_data *const data[], const node_s
 {
     note(count);
     for (int i = 0; i < count; i++)
-        outcome[i] = force(data[i], x + i * element_nodes(source, options), &out[i]);
+        outcome[i] = force(data[i], x + i * element_nodes(gather_source, gather_options), &out[i]);
 }
 
 /* One type completed twice, and elements of it. */
@@ -84,7 +86,7 @@ static void begin(both *b, element_type given)
     const element_request request = {.section = &c,
                                      .length = 0.2385,
                                      .features = given.offers & FEATURE_SHEAR,
-                                     .options = options,
+                                     .options = gather_options,
                                      .type = &b->given[0]};
     fault f = {""};
     for (int k = 0; k < 2; k++) {
@@ -99,17 +101,17 @@ static void begin(both *b, element_type given)
         }
         element_request own = request;
         own.type = &b->given[k];
-        gsl_test(adapters_complete(&b->given[k], options, &b->type[k], &f) != STATUS_OK,
-                 "%s: completed: %s", source->name, f.text);
+        gsl_test(adapters_complete(&b->given[k], gather_options, &b->type[k], &f) != STATUS_OK,
+                 "%s: completed: %s", gather_source->name, f.text);
         b->data[k] = calloc(1, b->type[k].data_size(&own));
         gsl_test(b->type[k].prepare(&own, b->data[k], &f) != STATUS_OK, "%s: prepared: %s",
-                 source->name, f.text);
+                 gather_source->name, f.text);
     }
-    b->nodes = element_nodes(&b->type[0], options);
-    b->m = element_strains(&b->type[0], options);
+    b->nodes = element_nodes(&b->type[0], gather_options);
+    b->m = element_strains(&b->type[0], gather_options);
     b->n = NODE_COORDINATES * b->nodes;
     for (int i = 0; i < ELEMENTS; i++) {
-        double d[N];
+        double d[GATHER_N];
         nodes_increments(b->nodes, request.length, 0.4, (unsigned)i + 1, d);
         nodes_place(b->nodes, request.length, d, b->x + i * b->nodes);
         b->list[i] = b->data[1];
@@ -134,8 +136,9 @@ static void same(const both *b, const char *what, const double mine[], const dou
 static void strains(unsigned leaves)
 {
     both b;
-    element_type given = *source;
-    static double e[2][ELEMENTS][M], J[2][ELEMENTS][M * N], H[2][ELEMENTS][N * N], s[ELEMENTS][M];
+    element_type given = *gather_source;
+    static double e[2][ELEMENTS][GATHER_M], J[2][ELEMENTS][GATHER_M * GATHER_N],
+        H[2][ELEMENTS][GATHER_N * GATHER_N], s[ELEMENTS][GATHER_M];
     strain_output out[ELEMENTS];
     given.leaves = leaves;
     begin(&b, given);
@@ -154,7 +157,7 @@ static void strains(unsigned leaves)
     }
     const int states = leaves & LEAVES_J ? 6 * b.n * ELEMENTS : 1;
     gsl_test(most < states || requests > 5, "%s: %d requests, the largest of %d states",
-             source->name, requests, most);
+             gather_source->name, requests, most);
     end(&b);
 }
 
@@ -162,8 +165,9 @@ static void strains(unsigned leaves)
 static void stresses(unsigned leaves)
 {
     both b;
-    element_type given = *source;
-    static double e[ELEMENTS][M], sigma[2][ELEMENTS][M], C[2][ELEMENTS][M * M];
+    element_type given = *gather_source;
+    static double e[ELEMENTS][GATHER_M], sigma[2][ELEMENTS][GATHER_M],
+        C[2][ELEMENTS][GATHER_M * GATHER_M];
     double energy[2][ELEMENTS];
     const double *at[ELEMENTS], *inner[ELEMENTS] = {NULL};
     stress_output out[ELEMENTS];
@@ -184,7 +188,7 @@ static void stresses(unsigned leaves)
         const status alone = b.type[0].stress(
             b.data[0], e[i], NULL,
             &(stress_output){.energy = &energy[0][i], .sigma = sigma[0][i], .C = C[0][i]});
-        gsl_test_int(outcome[i], alone, "%s: outcome of element %d", source->name, i);
+        gsl_test_int(outcome[i], alone, "%s: outcome of element %d", gather_source->name, i);
         failed += alone != STATUS_OK;
         if (alone != STATUS_OK)
             continue;
@@ -192,16 +196,16 @@ static void stresses(unsigned leaves)
         same(&b, "stresses", sigma[1][i], sigma[0][i], b.m);
         same(&b, "stiffness", C[1][i], C[0][i], b.m * b.m);
     }
-    gsl_test(failed == 0 || failed == ELEMENTS, "%s: %d of %d elements fail, some do", source->name,
-             failed, ELEMENTS);
+    gsl_test(failed == 0 || failed == ELEMENTS, "%s: %d of %d elements fail, some do",
+             gather_source->name, failed, ELEMENTS);
     end(&b);
 }
 
 int main(void)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++) {
-        source = registry_formulations[i];
-        parameter_defaults(source->options, options);
+        gather_source = registry_formulations[i];
+        parameter_defaults(gather_source->options, gather_options);
         strains(LEAVES_J);
         strains(LEAVES_H);
         stresses(LEAVES_FORCE);

@@ -7,7 +7,7 @@
 #include "harness/formulations/registry.h"
 #include "harness/numerics/clock.h"
 
-enum { REPEATS = 40, CALLS = 300, PHASES = 4 };
+enum { REPEATS = 40, CALLS = 300, TIMED = 4 };
 
 /* Seconds of one call of phase `phase`. */
 static double lap(chain *c, chain_linearised *w, int phase)
@@ -42,12 +42,12 @@ static void measure(const element_type *type, const double option[], const char 
     static chain_linearised w;
     const unsigned wanted =
         FEATURE_SHEAR | FEATURE_WARPING | FEATURE_TRAPEZE | FEATURE_HARINGX | FEATURE_LARGE;
-    double least[PHASES], held[7] = {0}, step[7] = {0, 0.003};
+    double least[TIMED], held[7] = {0}, step[7] = {0, 0.003};
     if (chain_start(&c, type, option, s, 0.1, 1, wanted & type->offers) != 0)
         return;
     c.held[1] = c.held[5] = c.held[6] = 1;
     chain_solve(&c, step, held);
-    for (int phase = 0; phase < PHASES; phase++) {
+    for (int phase = 0; phase < TIMED; phase++) {
         least[phase] = 1;
         for (int i = 0; i < REPEATS; i++)
             least[phase] = fmin(least[phase], lap(&c, &w, phase));

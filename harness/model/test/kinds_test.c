@@ -11,13 +11,13 @@
 enum { SECTIONS = 2, MOST_MEMBERS = 3 };
 static const double young = 1e4, side[SECTIONS] = {0.1, 0.1 * (1 + 1e-6)};
 
-typedef struct link {
+typedef struct kinds_link {
     int section;
     double length, strain, curvature; /* curvature about z; 0: straight */
-} link;
+} kinds_link;
 
 /* Links in a row along x between two nodes that are clamped; a force along x at the first joint. */
-static void row_of(int count, const link links[], double force, scene *s)
+static void row_of(int count, const kinds_link links[], double force, scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
     int profile[SECTIONS], last = 0;
@@ -49,7 +49,7 @@ static void row_of(int count, const link links[], double force, scene *s)
 }
 
 /* 1: solved. value: reaction at the end, shift of the first joint. */
-static int solve(const element_type *type, int count, const link links[], double force,
+static int solve(const element_type *type, int count, const kinds_link links[], double force,
                  int elements, double value[2], int *kinds)
 {
     scene s;
@@ -78,7 +78,7 @@ static int solve(const element_type *type, int count, const link links[], double
 static void counts(const element_type *type)
 {
     static const struct {
-        link second;
+        kinds_link second;
         int kinds;
         const char *what;
     } row[] = {{{0, 1, 0, 0}, 1, "equal members"},
@@ -87,7 +87,7 @@ static void counts(const element_type *type)
                {{0, 1, 1e-9, 0}, 2, "another initial strain"},
                {{0, 1, 0, 1e-3}, 2, "another curvature"}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        const link links[] = {{0, 1, 0, 0}, row[i].second, {0, 1, 0, 0}};
+        const kinds_link links[] = {{0, 1, 0, 0}, row[i].second, {0, 1, 0, 0}};
         for (int elements = 1; elements <= 7; elements += 3) {
             double value[2];
             int kinds = 0;
@@ -103,7 +103,7 @@ static void counts(const element_type *type)
 /* Arcs of one length to either side: their curvature is all that differs. */
 static void arcs(const element_type *type)
 {
-    const link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
+    const kinds_link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
     double value[2];
     int kinds = 0;
     if ((type->offers & FEATURE_CURVATURE) && solve(type, 2, links, 0, 2, value, &kinds))
@@ -117,7 +117,7 @@ static void lengths(const element_type *type)
     static const double apart[] = {1e-3, 1e-6, 1e-9, 1e-11};
     const double A = side[0] * side[0];
     for (size_t i = 0; i < sizeof apart / sizeof apart[0]; i++) {
-        const link links[] = {{0, 1, 0, 0}, {0, 1 + apart[i], 0, 0}};
+        const kinds_link links[] = {{0, 1, 0, 0}, {0, 1 + apart[i], 0, 0}};
         double value[2];
         int kinds;
         if (solve(type, 2, links, 0, 2, value, &kinds))
@@ -133,7 +133,7 @@ static void strains(const element_type *type)
     static const double strain[] = {1e-3, -1e-7, 1e-10};
     const double A = side[0] * side[0];
     for (size_t i = 0; i < sizeof strain / sizeof strain[0]; i++) {
-        const link links[] = {{0, 1, strain[i], 0}, {0, 1, 0, 0}};
+        const kinds_link links[] = {{0, 1, strain[i], 0}, {0, 1, 0, 0}};
         double value[2];
         int kinds;
         if (!solve(type, 2, links, 0, 1, value, &kinds))
@@ -150,7 +150,7 @@ static void sections(const element_type *type)
 {
     const double A0 = side[0] * side[0], A1 = side[1] * side[1], force = 1e-6 * young * A0;
     for (int first = 0; first < 2; first++) {
-        const link links[] = {{first, 1, 0, 0}, {1 - first, 1, 0, 0}};
+        const kinds_link links[] = {{first, 1, 0, 0}, {1 - first, 1, 0, 0}};
         double value[2];
         int kinds;
         const double area = first == 0 ? A1 : A0;

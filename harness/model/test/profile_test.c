@@ -8,7 +8,7 @@
 #include "harness/formulations/registry.h"
 #include "harness/model/model_impl.h"
 
-enum { ELEMENTS = 5 };
+enum { PROFILE_ELEMENTS = 5 };
 
 static section_spec rectangle(double width)
 {
@@ -18,7 +18,7 @@ static section_spec rectangle(double width)
 }
 
 /* Members in a row along x between the sections of these indices. */
-static void row_of(int members, const int ends[][2], scene *s)
+static void profile_row_of(int members, const int ends[][2], scene *s)
 {
     const double y[3] = {0, 1, 0};
     scene_init(s, "row");
@@ -47,16 +47,16 @@ static void kinds(const element_type *type)
         int members, ends[3][2], kinds;
         const char *what;
     } row[] = {{3, {{0, 0}, {0, 0}, {0, 0}}, 1, "none changes"},
-               {1, {{0, 1}}, ELEMENTS, "one changes"},
-               {3, {{0, 1}, {0, 1}, {0, 1}}, ELEMENTS, "the same change three times"},
-               {2, {{0, 1}, {1, 2}}, 2 * ELEMENTS, "two changes"},
-               {2, {{0, 1}, {1, 0}}, 2 * ELEMENTS, "there and back"},
-               {3, {{0, 1}, {1, 1}, {1, 1}}, ELEMENTS + 1, "one of three"}};
+               {1, {{0, 1}}, PROFILE_ELEMENTS, "one changes"},
+               {3, {{0, 1}, {0, 1}, {0, 1}}, PROFILE_ELEMENTS, "the same change three times"},
+               {2, {{0, 1}, {1, 2}}, 2 * PROFILE_ELEMENTS, "two changes"},
+               {2, {{0, 1}, {1, 0}}, 2 * PROFILE_ELEMENTS, "there and back"},
+               {3, {{0, 1}, {1, 1}, {1, 1}}, PROFILE_ELEMENTS + 1, "one of three"}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         scene s;
         fault f = {""};
-        row_of(row[i].members, row[i].ends, &s);
-        model *m = meshed(&s, type, ELEMENTS, &f);
+        profile_row_of(row[i].members, row[i].ends, &s);
+        model *m = meshed(&s, type, PROFILE_ELEMENTS, &f);
         gsl_test(m == NULL, "%s, %s: %s", type->name, row[i].what, f.text);
         if (m != NULL)
             gsl_test_int(m->mesh.kinds, row[i].kinds, "%s: kinds where %s", type->name,
@@ -72,11 +72,11 @@ static void middles(const element_type *type)
     const int ends[][2] = {{2, 0}};
     scene s;
     fault f = {""};
-    row_of(1, ends, &s);
-    model *m = meshed(&s, type, ELEMENTS, &f);
+    profile_row_of(1, ends, &s);
+    model *m = meshed(&s, type, PROFILE_ELEMENTS, &f);
     gsl_test(m == NULL, "%s: %s", type->name, f.text);
-    for (int i = 0; m != NULL && i < ELEMENTS; i++) {
-        const double width = 0.03 - 0.02 * (i + 0.5) / ELEMENTS;
+    for (int i = 0; m != NULL && i < PROFILE_ELEMENTS; i++) {
+        const double width = 0.03 - 0.02 * (i + 0.5) / PROFILE_ELEMENTS;
         gsl_test_rel(m->section[m->mesh.kind[m->mesh.element[i].kind].section].width, width, 1e-14,
                      "%s: width of element %d", type->name, i);
     }

@@ -24,7 +24,7 @@ static void to_ground(const element_data *data, const node_state x[], strain_out
 static const element_type spring[2] = {{.name = "to ground", .strain = to_ground},
                                        {.name = "two ends", .strain = two_ends}};
 
-enum { MOST = 2 * NODE_COORDINATES };
+enum { SPRING_MOST = 2 * NODE_COORDINATES };
 
 static void turn_end(double angle, uint64_t *seed, node_state *x)
 {
@@ -40,7 +40,7 @@ static void turn_end(double angle, uint64_t *seed, node_state *x)
 
 static void derivatives(int nodes, double angle, uint64_t *seed)
 {
-    double d[MOST], s[SPRING_STRAINS];
+    double d[SPRING_MOST], s[SPRING_STRAINS];
     node_state x[2];
     nodes_straight(2, 0.31, x);
     nodes_increments(nodes, 0.31, 1, (unsigned)random_bits(seed), d);
@@ -64,7 +64,7 @@ static void derivatives(int nodes, double angle, uint64_t *seed)
 /* Both ends move as one rigid body: nothing; then one turns about an axis of the other. */
 static void known(uint64_t *seed)
 {
-    double d[MOST], e[SPRING_STRAINS];
+    double d[SPRING_MOST], e[SPRING_STRAINS];
     node_state x[2];
     nodes_straight(2, 0.31, x);
     nodes_increments(1, 0.31, 1, (unsigned)random_bits(seed), d);

@@ -34,7 +34,8 @@ static status turned(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-static status solve(int original, double angle, const element_type *element, cell_result *out)
+static status turned_solve(int original, double angle, const element_type *element,
+                           cell_result *out)
 {
     case_type type = *registry_cases[original];
     cell_request request = {.type = &type, .elements = 4};
@@ -56,15 +57,16 @@ static int compare(int original, const element_type *element)
     static const double angle[] = {0.5, 1.5707963267948966, -2.2};
     cell_result before, after;
     int compared = 0;
-    const int runs = solve(original, 0, element, &before) == STATUS_OK;
+    const int runs = turned_solve(original, 0, element, &before) == STATUS_OK;
     gsl_test(!runs && ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
              before.scene.name, element->name, before.solve.reason);
     /* what lacks shear along y is another model where y is another axis */
     const int lacks = (element->lacks & LACKS_SHEAR_Y) && !ask_offered(&before.scene, element);
     const size_t angles = runs && !lacks ? sizeof angle / sizeof angle[0] : 0;
     for (size_t k = 0; k < angles; k++) {
-        gsl_test(solve(original, angle[k], element, &after) != STATUS_OK, "%s, %s turned by %g: %s",
-                 before.scene.name, element->name, angle[k], after.solve.reason);
+        gsl_test(turned_solve(original, angle[k], element, &after) != STATUS_OK,
+                 "%s, %s turned by %g: %s", before.scene.name, element->name, angle[k],
+                 after.solve.reason);
         for (int i = 0; i < after.solve.quantities; i++) {
             const double expected = before.solve.quantity[i].value,
                          value = after.solve.quantity[i].value;

@@ -19,8 +19,8 @@ static void shorten(const case_type *type, double parameter[])
         parameter[time] /= 5;
 }
 
-static status solve(const case_type *type, const char *of, int elements, int condensed,
-                    cell_result *out)
+static status test_condensation_solve(const case_type *type, const char *of, int elements,
+                                      int condensed, cell_result *out)
 {
     cell_request request = cells_of(type, of, elements);
     fault f = {""};
@@ -62,8 +62,8 @@ static int compare(const char *name, const char *of, const cell_result *a, const
 static int both_ways(const case_type *type, const char *of, int elements)
 {
     cell_result assembled, condensed;
-    const status one = solve(type, of, elements, NEVER, &assembled),
-                 other = solve(type, of, elements, 1, &condensed);
+    const status one = test_condensation_solve(type, of, elements, NEVER, &assembled),
+                 other = test_condensation_solve(type, of, elements, 1, &condensed);
     gsl_test(one != other, "%s, %s: solved both ways", type->name, of);
     const int compared = one == STATUS_OK && other == STATUS_OK
                              ? compare(type->name, of, &assembled, &condensed)
@@ -127,8 +127,8 @@ static void released(void)
 static void many(const case_type *type)
 {
     cell_result few, more;
-    const status one = solve(type, "beamw_consistent", 128, 0, &few),
-                 other = solve(type, "beamw_consistent", 4000, 0, &more);
+    const status one = test_condensation_solve(type, "beamw_consistent", 128, 0, &few),
+                 other = test_condensation_solve(type, "beamw_consistent", 4000, 0, &more);
     gsl_test(one != STATUS_OK || other != STATUS_OK, "%s: solved with 4000 elements", type->name);
     gsl_test(more.counters.iterations > few.counters.iterations + 5,
              "%s: %ld iterations with 4000 elements, %ld with 128", type->name,

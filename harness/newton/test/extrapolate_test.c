@@ -17,7 +17,7 @@
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
 /* A path of that degree in its parameter; every vertex turns about an axis of its own. */
-static void fill(const model *m, int degree, double path, model_state *s)
+static void extrapolate_fill(const model *m, int degree, double path, model_state *s)
 {
     uint64_t seed = 42;
     s->path = path;
@@ -72,13 +72,13 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
                  kinematics_state_alloc(m, &exact, &f) != STATUS_OK,
              "states: %s", f.text);
     for (int i = 0; i < count; i++) {
-        fill(m, degree, fabs(path[i] - kink), s);
+        extrapolate_fill(m, degree, fabs(path[i] - kink), s);
         s->path = path[i];
         gsl_test(predictor_add(&eq, s, 3, &t, &f) != STATUS_OK, "a state: %s", f.text);
     }
     predictor_guess(&eq, &t, to, s);
     run_state_end(&run);
-    fill(m, degree, fabs(to - kink), exact);
+    extrapolate_fill(m, degree, fabs(to - kink), exact);
     const double error = apart(m, s, exact);
     predictor_free(&t);
     kinematics_state_free(s);

@@ -6,7 +6,7 @@
 
 #include "harness/numerics/team.h"
 
-enum { MOST = 1000 };
+enum { TEST_TEAM_MOST = 1000 };
 
 static void add_one(void *context, int first, int end)
 {
@@ -17,8 +17,8 @@ static void add_one(void *context, int first, int end)
 
 static void every_index_once(int threads)
 {
-    static const int counts[] = {0, 1, 2, 3, 7, 64, MOST};
-    int visits[MOST] = {0}, expected = 0;
+    static const int counts[] = {0, 1, 2, 3, 7, 64, TEST_TEAM_MOST};
+    int visits[TEST_TEAM_MOST] = {0}, expected = 0;
     thread_team *t = NULL;
     fault f = {""};
     gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
@@ -27,13 +27,14 @@ static void every_index_once(int threads)
         const int count = counts[round % 7];
         memset(visits, 0, sizeof visits);
         team_run(t, count, add_one, visits);
-        for (int i = 0; i < MOST; i++)
+        for (int i = 0; i < TEST_TEAM_MOST; i++)
             expected += visits[i] == (i < count);
         if (round % 500 == 0)
             nanosleep(&(struct timespec){.tv_nsec = 2000000},
                       NULL); /* long enough for the others to fall asleep */
     }
-    gsl_test_int(expected, 2000 * MOST, "%d threads: every index once in every round", threads);
+    gsl_test_int(expected, 2000 * TEST_TEAM_MOST, "%d threads: every index once in every round",
+                 threads);
     team_free(t);
 }
 
@@ -46,12 +47,12 @@ static void count_parts(void *context, int first, int end)
 /* However many are asked for, there are TEAM_MOST at most; as many parts as threads. */
 static void no_more_than_there_is_room_for(int threads)
 {
-    int begins[MOST] = {0}, parts = 0;
+    int begins[TEST_TEAM_MOST] = {0}, parts = 0;
     thread_team *t = NULL;
     fault f = {""};
     gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
-    team_run(t, MOST, count_parts, begins);
-    for (int i = 0; i < MOST; i++)
+    team_run(t, TEST_TEAM_MOST, count_parts, begins);
+    for (int i = 0; i < TEST_TEAM_MOST; i++)
         parts += begins[i];
     gsl_test_int(parts, threads < TEAM_MOST ? threads : TEAM_MOST, "%d threads: parts", threads);
     team_free(t);

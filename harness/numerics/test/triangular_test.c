@@ -10,20 +10,26 @@
 #include "harness/numerics/triangular_groups.h"
 #include "harness/numerics/triangular_solve.h"
 
-enum { MOST = 90, SIDES = 7, STRIDE = MOST + 3, FILL = MOST * MOST };
+enum {
+    TRIANGULAR_MOST = 90,
+    SIDES = 7,
+    STRIDE = TRIANGULAR_MOST + 3,
+    FILL = TRIANGULAR_MOST * TRIANGULAR_MOST
+};
 
 /* A matrix in the order of elimination, and its factor by LDL. */
 typedef struct triangular_problem {
-    int n, column[MOST + 1], row[FILL], source[FILL];
+    int n, column[TRIANGULAR_MOST + 1], row[FILL], source[FILL];
     double value[FILL];
-    int parent[MOST], begin[MOST + 1], filled[MOST], mark[MOST], path[MOST], L_row[FILL];
-    double L_value[FILL], D[MOST], y[MOST];
+    int parent[TRIANGULAR_MOST], begin[TRIANGULAR_MOST + 1], filled[TRIANGULAR_MOST],
+        mark[TRIANGULAR_MOST], path[TRIANGULAR_MOST], L_row[FILL];
+    double L_value[FILL], D[TRIANGULAR_MOST], y[TRIANGULAR_MOST];
 } triangular_problem;
 
 /* Blocks of `size`, coupled with one at random, and a few entries anywhere. */
 static void fill(int n, int size, uint64_t *state, triangular_problem *p)
 {
-    int linked[MOST], entries = 0;
+    int linked[TRIANGULAR_MOST], entries = 0;
     p->n = n;
     for (int b = 0; b <= n / size; b++)
         linked[b] = (int)((random_number(state) + 1) / 2 * b);
@@ -55,9 +61,10 @@ typedef void solves(const triangular_factors *, int, int, double[], double[]);
 static void hold(const triangular_problem *p, const triangular_groups *g, const int L_row[],
                  factors *factor, solves *solve, const char *name)
 {
-    static double value[FILL], D[MOST], diagonal[MOST], rest[TRIANGULAR_LANES * STRIDE + 8],
-        work[TRIANGULAR_TOGETHER * MOST], x[SIDES * STRIDE], y[SIDES * STRIDE];
-    int filled[MOST];
+    static double value[FILL], D[TRIANGULAR_MOST], diagonal[TRIANGULAR_MOST],
+        rest[TRIANGULAR_LANES * STRIDE + 8], work[TRIANGULAR_TOGETHER * TRIANGULAR_MOST],
+        x[SIDES * STRIDE], y[SIDES * STRIDE];
+    int filled[TRIANGULAR_MOST];
     uint64_t state = 11;
     const triangular_rows rows = {g->groups,       g->first_of_group,
                                   g->run_of_group, g->run,
@@ -128,7 +135,7 @@ int main(void)
     uint64_t state = 5;
     triangular_problem *p = malloc(sizeof *p);
     for (int size = 1; p != NULL && size <= 9; size++)
-        for (int n = size; n <= MOST; n += 1 + 2 * size)
+        for (int n = size; n <= TRIANGULAR_MOST; n += 1 + 2 * size)
             blocks(p, n, size, &state);
     gsl_test(p == NULL, "memory");
     free(p);

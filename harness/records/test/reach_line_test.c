@@ -9,9 +9,9 @@
 #include "harness/study/families.h"
 #include "harness/study/price.h"
 
-enum { MESHES = 5, SERIES = 4 };
+enum { LINE_MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};
-static const case_type made_up = {
+static const case_type line_made_up = {
     .name = "made_up", .summary = "of the test", .source = "none", .parameters = {parameter}};
 static const element_type type[SERIES] = {{.name = "red", .family = "red", .abi = ELEMENT_ABI},
                                           {.name = "blue", .family = "blue", .abi = ELEMENT_ABI},
@@ -22,8 +22,8 @@ typedef struct reach_line_bench {
     sweep s;
     sweep_point p;
     series one[SERIES];
-    cell_result cell[SERIES][MESHES];
-    quantity_result quantity[SERIES][MESHES];
+    cell_result cell[SERIES][LINE_MESHES];
+    quantity_result quantity[SERIES][LINE_MESHES];
     truths t;
 } reach_line_bench;
 
@@ -32,9 +32,10 @@ typedef struct reach_line_bench {
 static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;
-    b->one[i] = (series){.formulation = {.type = &type[i]}, .meshes = MESHES, .cell = b->cell[i]};
+    b->one[i] =
+        (series){.formulation = {.type = &type[i]}, .meshes = LINE_MESHES, .cell = b->cell[i]};
     strcpy(b->one[i].formulation.key, type[i].name);
-    for (int k = 0; k < MESHES; k++) {
+    for (int k = 0; k < LINE_MESHES; k++) {
         const double n = b->one[i].mesh[k] = 2 << k;
         b->quantity[i][k].value = limit * (1 + 0.1 / n / n);
         b->cell[i][k].size.strains = 8;
@@ -45,11 +46,11 @@ static void add(reach_line_bench *b, double limit, long work)
 }
 
 /* Three agree, the work of the second is `times` times that of the first; the fourth does not. */
-static void make(reach_line_bench *b, double times)
+static void line_make(reach_line_bench *b, double times)
 {
     fault f;
     memset(b, 0, sizeof *b);
-    b->p.type = &made_up;
+    b->p.type = &line_made_up;
     scene_init(&b->p.scene, "made_up");
     scene_quantity *q =
         scene_add_quantity(&b->p.scene, "load", "N", 0, scene_coordinate(0, SCENE_UX));
@@ -69,7 +70,7 @@ static void add_model(reach_line_bench *b, const char *kind, double value)
     truth *row = realloc(b->t.row, (size_t)(b->t.rows + 1) * sizeof *row);
     gsl_test(row == NULL, "room for a truth");
     b->t.row = row;
-    row[b->t.rows++] = (truth){.type = &made_up,
+    row[b->t.rows++] = (truth){.type = &line_made_up,
                                .formulation = strdup(""),
                                .theory = strdup(""),
                                .quantity = strdup("load"),
@@ -114,7 +115,7 @@ static void line_of(const reach_line_bench *b, double level, char out[1000])
     free(text);
 }
 
-static void expect(const reach_line_bench *b, double level, const char *right)
+static void line_expect(const reach_line_bench *b, double level, const char *right)
 {
     char line[1000];
     line_of(b, level, line);
@@ -125,22 +126,25 @@ static void expect(const reach_line_bench *b, double level, const char *right)
 static void not_every_quantity(void)
 {
     reach_line_bench b;
-    make(&b, 2 * price_noise);
+    line_make(&b, 2 * price_noise);
     add_quantity(&b, "curve", SCENE_CURVE);
-    expect(&b, 1e-9,
-           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
-           "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
+    line_expect(
+        &b, 1e-9,
+        "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
+        "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
     add_quantity(&b, "sway", SCENE_LAST);
     add_quantity(&b, "tilt", SCENE_LAST);
     b.s.seriess = 3;
-    expect(&b, 0.01,
-           "for 1 % in 1 of 3 quantities (without a reference: sway, tilt): red n = 4; blue n = 4; "
-           "green n = 4; without cost coefficients of its own: red, blue, green\n");
+    line_expect(
+        &b, 0.01,
+        "for 1 % in 1 of 3 quantities (without a reference: sway, tilt): red n = 4; blue n = 4; "
+        "green n = 4; without cost coefficients of its own: red, blue, green\n");
     b.s.seriess = 1;
     b.t.rows--;
-    expect(&b, 0.01,
-           "for 1 % in no quantity (without a reference: load, sway, tilt): nothing to measure "
-           "by\n");
+    line_expect(
+        &b, 0.01,
+        "for 1 % in no quantity (without a reference: load, sway, tilt): nothing to measure "
+        "by\n");
     b.t.rows++;
     finish(&b);
 }
@@ -149,48 +153,54 @@ static void not_every_quantity(void)
 static void other_models(void)
 {
     reach_line_bench b;
-    make(&b, 2 * price_noise);
+    line_make(&b, 2 * price_noise);
     b.s.seriess = 1;
     add_model(&b, "agreement", 4);
-    expect(&b, 0.01,
-           "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n");
+    line_expect(
+        &b, 0.01,
+        "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red\n");
     add_model(&b, "independent", 3.1);
-    expect(&b, 0.01,
-           "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red; of "
-           "another model "
-           "(solid, plate): up to 3.2 % off (load)\n");
-    expect(&b, 1e-9,
-           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
-           "(load: 0.0098 %)\n");
+    line_expect(
+        &b, 0.01,
+        "for 1 % in every quantity: red n = 4; without cost coefficients of its own: red; of "
+        "another model "
+        "(solid, plate): up to 3.2 % off (load)\n");
+    line_expect(&b, 1e-9,
+                "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
+                "(load: 0.0098 %)\n");
     b.s.seriess = 4;
-    expect(&b, 0.2,
-           "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-           "cost coefficients of its own: grey, red, blue, green; of another model (solid, plate): "
-           "up to 6.5 "
-           "% off (load)\n");
+    line_expect(
+        &b, 0.2,
+        "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
+        "cost coefficients of its own: grey, red, blue, green; of another model (solid, plate): "
+        "up to 6.5 "
+        "% off (load)\n");
     finish(&b);
 }
 
 int main(void)
 {
     reach_line_bench b;
-    make(&b, 2 * price_noise);
-    expect(&b, 0.01,
-           "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without cost "
-           "coefficients of its "
-           "own: red, blue, green; not reached by grey (load: 10 %)\n");
-    expect(&b, 1e-9,
-           "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
-           "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
+    line_make(&b, 2 * price_noise);
+    line_expect(&b, 0.01,
+                "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; without cost "
+                "coefficients of its "
+                "own: red, blue, green; not reached by grey (load: 10 %)\n");
+    line_expect(
+        &b, 1e-9,
+        "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
+        "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
     finish(&b);
-    make(&b, 1 + (price_noise - 1) / 2);
-    expect(&b, 0.2,
-           "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
-           "cost coefficients of its own: grey, red, blue, green\n");
-    expect(&b, 0.03,
-           "for 3 % in every quantity: red n = 2, blue n = 2: within noise of each other; green n "
-           "= 2; without cost coefficients of its own: red, blue, green; not reached by grey "
-           "(load: 10 %)\n");
+    line_make(&b, 1 + (price_noise - 1) / 2);
+    line_expect(
+        &b, 0.2,
+        "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; without "
+        "cost coefficients of its own: grey, red, blue, green\n");
+    line_expect(
+        &b, 0.03,
+        "for 3 % in every quantity: red n = 2, blue n = 2: within noise of each other; green n "
+        "= 2; without cost coefficients of its own: red, blue, green; not reached by grey "
+        "(load: 10 %)\n");
     finish(&b);
     not_every_quantity();
     other_models();

@@ -4,9 +4,9 @@
 
 #include "harness/study/limit.h"
 
-enum { MOST = 7, DOUBLED = 6 };
-static const double value = 3; /* the limit of all sequences of one term */
-static const int mesh[MOST] = {1, 2, 4, 8, 16, 32, 64};
+enum { LIMIT_MOST = 7, DOUBLED = 6 };
+static const double limit_value = 3; /* the limit of all sequences of one term */
+static const int mesh[LIMIT_MOST] = {1, 2, 4, 8, 16, 32, 64};
 
 /* Values on 1, 2, 4, ... elements; round-off not measured, nominal order 2. */
 static mesh_limit doubled(int count, const double v[])
@@ -23,31 +23,31 @@ static void is_kind(mesh_limit l, limit_kind kind, const char *what)
 static void fill(int count, const int n[], double size, double order, double v[])
 {
     for (int i = 0; i < count; i++)
-        v[i] = value + size * pow(n[i], -order);
+        v[i] = limit_value + size * pow(n[i], -order);
 }
 
 static void orders(void)
 {
-    double v[MOST];
+    double v[LIMIT_MOST];
     for (double order = 1; order <= 4; order += 0.5) {
         fill(DOUBLED, mesh, 0.3, order, v);
         const mesh_limit l = doubled(DOUBLED, v);
         is_kind(l, LIMIT_ASYMPTOTIC, "one term");
         gsl_test_rel(l.order, order, 1e-6, "its order");
         gsl_test_abs(l.order_uncertainty, 0, 1e-5, "without doubt");
-        gsl_test_rel(l.limit, value, 1e-9, "its limit");
+        gsl_test_rel(l.limit, limit_value, 1e-9, "its limit");
         gsl_test_int(l.from, 4, "four meshes say so");
     }
     const int uneven[] = {3, 5, 9, 30};
     fill(4, uneven, 2, 3, v);
     const mesh_limit l = limit_of(&(limit_sequence){4, uneven, v, NAN, 2, 4, 0});
     gsl_test_rel(l.order, 3, 1e-6, "order on uneven meshes");
-    gsl_test_rel(l.limit, value, 1e-9, "limit on uneven meshes");
+    gsl_test_rel(l.limit, limit_value, 1e-9, "limit on uneven meshes");
 }
 
 static mesh_limit of_changes(int changes, const double change[], double noise)
 {
-    double v[MOST] = {0};
+    double v[LIMIT_MOST] = {0};
     for (int i = 0; i < changes; i++)
         v[i + 1] = v[i] + change[i];
     return limit_of(&(limit_sequence){changes + 1, mesh, v, noise, 2, 4, 0});
@@ -75,7 +75,7 @@ static void worked(void)
                  "the change of the limit");
     gsl_test_rel(of_changes(4, unsettled, NAN).limit_uncertainty, 3 * change, 1e-6,
                  "which noise may have made, where it is not known");
-    double v[MOST];
+    double v[LIMIT_MOST];
     fill(DOUBLED, mesh, 0.3, 0.3, v);
     const mesh_limit slow = doubled(DOUBLED, v);
     is_kind(slow, LIMIT_NOT_YET, "an order of 0.3");
@@ -152,9 +152,9 @@ static void orders_beyond_the_highest(void)
 
 static void out_of_order(void)
 {
-    double v[MOST];
+    double v[LIMIT_MOST];
     for (int i = 0; i < DOUBLED; i++)
-        v[i] = value + (i % 2 ? 0.1 : -0.1) / mesh[i];
+        v[i] = limit_value + (i % 2 ? 0.1 : -0.1) / mesh[i];
     mesh_limit l = doubled(DOUBLED, v);
     is_kind(l, LIMIT_OSCILLATING, "values that alternate");
     gsl_test(isfinite(l.order), "show no order");
@@ -164,7 +164,7 @@ static void out_of_order(void)
     is_kind(l, LIMIT_NOT_YET, "changes that grow");
     gsl_test_rel(l.limit_uncertainty, 3 * 0.4 * 2, 1e-6, "count more, as they grow");
     for (int i = 0; i < DOUBLED; i++)
-        v[i] = value + 1e-6 * (i % 2 ? 1 : -1) / mesh[i];
+        v[i] = limit_value + 1e-6 * (i % 2 ? 1 : -1) / mesh[i];
     is_kind(doubled(DOUBLED, v), LIMIT_SETTLED, "alternating beyond interest");
 }
 
@@ -180,7 +180,7 @@ static void gaps(void)
     v[7] = NAN;
     mesh_limit l = limit_of(&(limit_sequence){8, n, v, NAN, 2, 4, 0});
     gsl_test_int(l.meshes, 4, "meshes without a value or too close are left out");
-    gsl_test_rel(l.limit, value, 1e-9, "the others have a limit");
+    gsl_test_rel(l.limit, limit_value, 1e-9, "the others have a limit");
     v[4] = NAN; /* 4, 16, 32 are left */
     l = limit_of(&(limit_sequence){8, n, v, NAN, 2, 4, 0});
     gsl_test_rel(l.order, 2, 1e-6, "a gap in the middle changes the ratio only");

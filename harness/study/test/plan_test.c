@@ -9,7 +9,7 @@
 #include "harness/study/plan.h"
 
 enum { ROWS = 4, OWN_MESH = 37 };
-static char words[][32] = {"", "exact", "same", "m", "geometrically_exact"};
+static char plan_words[][32] = {"", "exact", "same", "m", "geometrically_exact"};
 
 /* The first two parameters of a case that are plain numbers. */
 static int numbers_of(const case_type *type, int out[2])
@@ -24,12 +24,12 @@ static int numbers_of(const case_type *type, int out[2])
 static truth row_of(const case_type *type)
 {
     truth row = {.type = type,
-                 .formulation = words[0],
-                 .theory = words[0],
-                 .quantity = words[3],
-                 .unit = words[3],
-                 .kind = words[1],
-                 .model = words[2],
+                 .formulation = plan_words[0],
+                 .theory = plan_words[0],
+                 .quantity = plan_words[3],
+                 .unit = plan_words[3],
+                 .kind = plan_words[1],
+                 .model = plan_words[2],
                  .value = 1};
     parameters_default(type, row.parameter);
     return row;
@@ -45,7 +45,7 @@ static int count_points(const sweep *s, const case_type *type, int *own)
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < s->series[i].meshes && s->point[s->series[i].point].type == type; k++)
             *own += s->series[i].mesh[k] == OWN_MESH &&
-                    strcmp(s->series[i].formulation.key, words[4]) == 0;
+                    strcmp(s->series[i].formulation.key, plan_words[4]) == 0;
     return points;
 }
 
@@ -78,7 +78,7 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "any value of one parameter is no point");
     for (int i = 0; i < parameter_count(type->parameters); i++)
         row[2].any[i] = 1;
-    row[2].formulation = words[4];
+    row[2].formulation = plan_words[4];
     row[2].elements = OWN_MESH;
     expect(type, 3, row, 2, 2, "the mesh of a row that holds everywhere");
     row[2].any[number[0]] = 0;

@@ -20,7 +20,7 @@ static char *shown(double now, int done, double share, int ends)
     return text;
 }
 
-static void says(double seconds, double share, const char *expected)
+static void progress_says(double seconds, double share, const char *expected)
 {
     char *text = shown(1000 + seconds, 10, share, 0);
     gsl_test(strcmp(text, expected) != 0, "says '%s', should say '%s'", text, expected);
@@ -56,11 +56,11 @@ static void too_long(void)
 
 int main(void)
 {
-    says(30, 0.25, "\rcells 10 of 40, 25 %, about 2 min left: case, beam, n = 8\r");
-    says(30, 0.5, "\rcells 10 of 40, 50 %, about 30 s left: case, beam, n = 8\r");
-    says(60, 0.01, "\rcells 10 of 40, 1 %, about 1 h 39 min left: case, beam, n = 8\r");
-    says(0.5, 0.5, "\rcells 10 of 40, 50 %: case, beam, n = 8\r");
-    says(30, 0.001, "\rcells 10 of 40, 0 %: case, beam, n = 8\r");
+    progress_says(30, 0.25, "\rcells 10 of 40, 25 %, about 2 min left: case, beam, n = 8\r");
+    progress_says(30, 0.5, "\rcells 10 of 40, 50 %, about 30 s left: case, beam, n = 8\r");
+    progress_says(60, 0.01, "\rcells 10 of 40, 1 %, about 1 h 39 min left: case, beam, n = 8\r");
+    progress_says(0.5, 0.5, "\rcells 10 of 40, 50 %: case, beam, n = 8\r");
+    progress_says(30, 0.001, "\rcells 10 of 40, 0 %: case, beam, n = 8\r");
     the_end();
     too_long();
     progress quiet = progress_begin(NULL, "cells", 40, 0);

@@ -7,7 +7,7 @@
 #include "harness/study/price.h"
 #include "harness/study/reach.h"
 
-enum { SERIES = 4, MESHES = 4, QUANTITIES = 2 };
+enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
 enum { CHEAP, DEAR, OTHER, LAST };
 
 typedef struct reach_bench {
@@ -15,8 +15,8 @@ typedef struct reach_bench {
     sweep_point p;
     scene_quantity quantity[QUANTITIES];
     series one[SERIES];
-    cell_result cell[SERIES][MESHES];
-    quantity_result value[SERIES][MESHES][QUANTITIES];
+    cell_result cell[SERIES][REACH_MESHES];
+    quantity_result value[SERIES][REACH_MESHES][QUANTITIES];
     truth row;
     verdict v[SERIES * QUANTITIES];
     reached list[SERIES];
@@ -25,7 +25,7 @@ typedef struct reach_bench {
 
 /* Four formulations without prices of their own, exact on every mesh; the truth is 1. The work of
  * each is ten times that of the one before it. */
-static void make(reach_bench *b)
+static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
     memset(b, 0, sizeof *b);
@@ -35,9 +35,9 @@ static void make(reach_bench *b)
     b->s = (sweep){.points = 1, .seriess = SERIES, .point = &b->p, .series = b->one};
     long work = 100000;
     for (int i = 0; i < SERIES; i++, work *= 10) {
-        b->one[i] = (series){.meshes = MESHES, .mesh = {1, 2, 4, 8}, .cell = b->cell[i]};
+        b->one[i] = (series){.meshes = REACH_MESHES, .mesh = {1, 2, 4, 8}, .cell = b->cell[i]};
         strcpy(b->one[i].formulation.key, key[i]);
-        for (int k = 0; k < MESHES; k++) {
+        for (int k = 0; k < REACH_MESHES; k++) {
             for (int q = 0; q < QUANTITIES; q++)
                 b->value[i][k][q].value = 1;
             b->cell[i][k].size.strains = 8;
@@ -66,13 +66,13 @@ static void expect(const reach_bench *b, const int order[], int count, const cha
 static void by_work(void)
 {
     reach_bench b;
-    make(&b);
+    reach_make(&b);
     ask(&b, 0, 0.01);
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
     for (int i = 0; i < SERIES; i++) /* the first one took longest */
-        for (int k = 0; k < MESHES; k++)
+        for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "whatever the clock says");
@@ -82,7 +82,7 @@ static void by_work(void)
 static void by_accident(void)
 {
     reach_bench b;
-    make(&b);
+    reach_make(&b);
     b.value[CHEAP][1][0].value = 1.05;
     b.cell[CHEAP][2].counters.strain_evaluations = 5000000;
     ask(&b, 0, 0.01);
@@ -97,7 +97,7 @@ static void by_accident(void)
 static void wrong_ones(void)
 {
     reach_bench b;
-    make(&b);
+    reach_make(&b);
     b.v[QUANTITIES * CHEAP].kind = VERDICT_WRONG_AS_PREDICTED;
     ask(&b, 0, 0.01);
     expect(&b, (int[]){DEAR, OTHER, LAST, CHEAP}, 4, "the cheapest has a limit of its own");
@@ -120,7 +120,7 @@ static void wrong_ones(void)
 static void ties(void)
 {
     reach_bench b;
-    make(&b);
+    reach_make(&b);
     b.cell[DEAR][0].counters.strain_evaluations = (long)(100000 * (price_noise - 0.02));
     b.cell[OTHER][0].counters.strain_evaluations = (long)(100000 * (price_noise + 0.02));
     ask(&b, 0, 0.01);
@@ -142,7 +142,7 @@ static void not_asked(void)
 {
     reach_bench b;
     imported other = {.gates = 0};
-    make(&b);
+    reach_make(&b);
     b.v[QUANTITIES * CHEAP + 1].truth = NULL;
     strcpy(b.one[DEAR].missing, "shear");
     b.one[OTHER].imported = &other;

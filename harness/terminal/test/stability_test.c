@@ -6,14 +6,14 @@
 
 #include "harness/terminal/table_stability.h"
 
-enum { MOST = 16 };
+enum { STABILITY_MOST = 16 };
 
 /* A letter for each step: o open, d no divergence, s stable, u unstable, h held; paths 0.5, 1, ...
  */
 static void is(const char *letters, scene_analysis_kind kind, const char *expected)
 {
     static const char letter[] = "odsugh";
-    step_record step[MOST];
+    step_record step[STABILITY_MOST];
     scene_analysis analysis[2] = {{.kind = SCENE_LINEAR}, {.kind = kind}};
     const scene s = {.analyses = 2, .analysis = analysis};
     const int steps = (int)strlen(letters);

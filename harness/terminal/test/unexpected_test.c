@@ -29,7 +29,7 @@ typedef struct unexpected_bench {
     rule known[2];
 } unexpected_bench;
 
-static void make(unexpected_bench *b)
+static void unexpected_make(unexpected_bench *b)
 {
     static char cause[300];
     memset(cause, 'c', 40);
@@ -71,7 +71,7 @@ static void make(unexpected_bench *b)
 }
 
 /* What is shown; the caller frees it. */
-static char *shown(const unexpected_bench *b)
+static char *unexpected_shown(const unexpected_bench *b)
 {
     char *text = NULL;
     size_t size = 0;
@@ -83,7 +83,7 @@ static char *shown(const unexpected_bench *b)
 
 static void holds(const unexpected_bench *b, const char *part)
 {
-    char *text = shown(b);
+    char *text = unexpected_shown(b);
     gsl_test(strstr(text, part) == NULL, "'%s' stands in: %s", part, text);
     for (char *rest = text, *line; (line = strsep(&rest, "\n")) != NULL;)
         gsl_test(paragraph_columns(line) > PARAGRAPH_WIDTH, "%s", line);
@@ -93,9 +93,9 @@ static void holds(const unexpected_bench *b, const char *part)
 int main(void)
 {
     unexpected_bench b;
-    make(&b);
+    unexpected_make(&b);
     b.v.matches = 1;
-    char *text = shown(&b);
+    char *text = unexpected_shown(&b);
     gsl_test(text[0] != '\0', "nothing where all is as expected: %s", text);
     free(text);
 

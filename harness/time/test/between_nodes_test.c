@@ -9,14 +9,15 @@
 
 extern const element_type element_geometrically_exact, element_collocation;
 
-#define RODS "harness/time/test/rods.yaml"
+#define NODES_RODS "harness/time/test/rods.yaml"
 
 enum { PLACES = 3, MESHES = 4 };
-static const double length = 2, omega = 3, EA = 200, mass = 1.5, place[PLACES] = {0, 0.3, 0.5};
+static const double length = 2, nodes_omega = 3, EA = 200, mass = 1.5,
+                    place[PLACES] = {0, 0.3, 0.5};
 
 static double expected(int i)
 {
-    const double k = sqrt(mass / EA) * omega;
+    const double k = sqrt(mass / EA) * nodes_omega;
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
@@ -26,7 +27,7 @@ static void spin(const element_type *type, scene_scheme scheme, double order)
     double error[MESHES][PLACES];
     for (int n = 0; n < MESHES; n++) {
         answer a;
-        scenes_ask(RODS, type, 2 << n, &a, "of=spun;end=0.02;step=5e-4;integrator=%s",
+        scenes_ask(NODES_RODS, type, 2 << n, &a, "of=spun;end=0.02;step=5e-4;integrator=%s",
                    scenes_integrator[scheme]);
         for (int i = 0; i < PLACES; i++) {
             const char name[] = {'N', (char)('0' + i), 0};

@@ -5,7 +5,7 @@
 #include "harness/time/test/flight.h"
 #include "harness/tools/kit/scenes.h"
 
-static const double y_axis[] = {0, 1, 0};
+static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
@@ -24,7 +24,7 @@ static int profile_of(scene *s, double E, double mass)
     return scene_add_section(s, &spec);
 }
 
-static void add_motion(scene *s, const double spin[3])
+static void bodies_add_motion(scene *s, const double spin[3])
 {
     static const double end = 10;
     scene_motion motion = {
@@ -43,15 +43,15 @@ static status free_body(const double value[], scene *s, fault *f)
     if (how.rod == 0) {
         const int hub = scene_add_node(s, 0, 0, 0), A = scene_add_attached(s, hub, -0.5, 0, 0),
                   B = scene_add_attached(s, hub, 0.5, 0, 0);
-        scene_add_member(s, A, B, profile, y_axis);
+        scene_add_member(s, A, B, profile, bodies_y_axis);
         scene_set_body(s, hub, (scene_body){.mass = 1, .inertia = {1, 2, 3}});
     } else {
         const int A = scene_add_node(s, -0.5, 0, 0), B = scene_add_node(s, 0.5, 0, 0);
-        scene_add_member(s, A, B, profile, y_axis);
+        scene_add_member(s, A, B, profile, bodies_y_axis);
         scene_set_body(s, A, (scene_body){.mass = 1, .inertia = {0.5, 0.75, 1.25}});
         scene_set_body(s, B, (scene_body){.mass = 1, .inertia = {0.5, 0.75, 1.25}});
     }
-    add_motion(s, spin);
+    bodies_add_motion(s, spin);
     return STATUS_OK;
 }
 
@@ -62,15 +62,15 @@ static status on_offsets(const double value[], scene *s, fault *f)
               b = scene_add_node(s, 2, -0.3, 0.7), A = scene_add_attached(s, a, -1.5, 0, 0),
               B = scene_add_attached(s, b, 1.5, 0, 0);
     (void)value, (void)f;
-    scene_add_member(s, A, B, profile, y_axis);
+    scene_add_member(s, A, B, profile, bodies_y_axis);
     scene_set_body(s, a, (scene_body){.mass = 2, .inertia = {0.4, 0.5, 0.7, 0.1}});
     scene_set_body(s, b,
                    (scene_body){.mass = 3, .centre = {0.1, 0.2, 0}, .inertia = {0.6, 0.9, 0.8}});
-    add_motion(s, spin);
+    bodies_add_motion(s, spin);
     return STATUS_OK;
 }
 
-static void fly(flight *f, int steps, double h, double *drift, double *angular)
+static void bodies_fly(flight *f, int steps, double h, double *drift, double *angular)
 {
     const double energy = flight_energy(f);
     const inertia_balance before = flight_inertia(f);
@@ -95,7 +95,7 @@ static double error_of_body(double h)
     flight f;
     double drift = 0, angular = 0, error = 0, R[9];
     gsl_test(flight_begin(&f, free_body, "geometrically_exact", 1) != STATUS_OK, "%s", f.why.text);
-    fly(&f, (int)lround(10 / h), h, &drift, &angular);
+    bodies_fly(&f, (int)lround(10 / h), h, &drift, &angular);
     rotation_matrix(f.now.state->q, R);
     for (int i = 0; i < 9; i++)
         error = fmax(error, fabs(R[i] - exact[i]));
@@ -133,12 +133,12 @@ static void offset_flight(double h)
     double drift = 0, angular = 0, from[3], to[3];
     gsl_test(flight_begin(&f, on_offsets, "geometrically_exact", 2) != STATUS_OK, "%s", f.why.text);
     kinematics_position(f.m, f.now.state, 0, from);
-    fly(&f, steps, h, &drift, &angular);
+    bodies_fly(&f, steps, h, &drift, &angular);
     gsl_test(!(drift < 1e-12 && angular < 1e-12), "EA x %g, %g s: energy %.1e, momentum %.1e",
              how.stiffness, h, drift, angular);
     gsl_test(f.sum > 4.2 * f.steps, "EA x %g, %g s: %.2f iterations", how.stiffness, h,
              (double)f.sum / f.steps);
-    fly(&f, steps, -h, &drift, &angular);
+    bodies_fly(&f, steps, -h, &drift, &angular);
     kinematics_position(f.m, f.now.state, 0, to);
     for (int i = 0; i < 3; i++)
         to[i] -= from[i];

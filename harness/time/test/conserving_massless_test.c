@@ -7,34 +7,34 @@
 #include "harness/time/test/flight.h"
 #include "harness/tools/kit/scenes.h"
 
-static const double y_axis[] = {0, 1, 0};
+static const double massless_y_axis[] = {0, 1, 0};
 
 static struct {
     double polar;
     int angles;
-} how = {20, 0};
+} massless_how = {20, 0};
 
 /* A rod thrown by a force and a moment that come and go. */
-static status build(const double value[], scene *s, fault *f)
+static status massless_build(const double value[], scene *s, fault *f)
 {
     static const double end = 10;
     const section_spec spec = timed_profile(&(timed_section){
-        .EA = 1e4, .GA = 1e4, .GJ = 500, .EI = 500, .mass = 1, .polar = how.polar});
+        .EA = 1e4, .GA = 1e4, .GJ = 500, .EI = 500, .mass = 1, .polar = massless_how.polar});
     const int profile = scene_add_section(s, &spec), A = scene_add_node(s, 0, 0, 0),
               B = scene_add_node(s, 6, 0, 0);
     (void)value, (void)f;
-    scene_add_member(s, A, B, profile, y_axis);
+    scene_add_member(s, A, B, profile, massless_y_axis);
     const int loads[] = {scene_add_load(s, SCENE_FORCE, B, 0.1, 0, 0),
                          scene_add_load(s, SCENE_MOMENT, B, 0.2, 1, 0.5)};
     for (int i = 0; i < 2; i++) {
         scene_load_piece(s, loads[i], 1, "40*t^2*(1 - t)^2");
         scene_load_piece(s, loads[i], 0, "0");
     }
-    if (how.angles) {
+    if (massless_how.angles) {
         scene_node *n = scene_node_at(s, A);
         scene_hold(s, A, SCENE_UX, SCENE_UZ);
         n->rotation = SCENE_ROTATION_SEQUENCE;
-        for (int k = 0; k < how.angles; k++) {
+        for (int k = 0; k < massless_how.angles; k++) {
             n->axis[k][k] = 1;
             n->angle[k] = SCENE_FREE;
         }
@@ -53,7 +53,7 @@ static double roughest(double h)
     flight f;
     double rough = 0, energy = 0, drift = 0, angular = 0, before[6] = {0};
     inertia_balance kept = {0};
-    status outcome = flight_begin(&f, build, "geometrically_exact", 4);
+    status outcome = flight_begin(&f, massless_build, "geometrically_exact", 4);
     for (int i = 0; i < 10 / h && outcome == STATUS_OK; i++) {
         outcome = flight_step(&f, h);
         if (f.now.time < 1 + 1.5 * h) {
@@ -80,7 +80,7 @@ static double roughest(double h)
 static void refused(const char *words)
 {
     flight f;
-    const status outcome = flight_begin(&f, build, "geometrically_exact", 2);
+    const status outcome = flight_begin(&f, massless_build, "geometrically_exact", 2);
     gsl_test(outcome != STATUS_REFUSED || strstr(f.why.text, words) == NULL, "refused: %s",
              f.why.text);
     flight_end(&f);
@@ -91,7 +91,7 @@ static void by_angles(void)
 {
     flight f;
     double energy = 0, drift = 0;
-    status outcome = flight_begin(&f, build, "geometrically_exact", 2);
+    status outcome = flight_begin(&f, massless_build, "geometrically_exact", 2);
     for (int i = 0; i < 200 && outcome == STATUS_OK; i++) {
         outcome = flight_step(&f, 0.05);
         energy = i == 30 ? flight_energy(&f) : energy;
@@ -108,12 +108,12 @@ int main(void)
     const double first = roughest(0.05), second = roughest(0.025);
     gsl_test(!(fabs(first / second - 2) < 0.4), "rates follow the motion: they change by %g and %g",
              first, second);
-    how.polar = 0;
+    massless_how.polar = 0;
     refused("no rotation has inertia");
-    how.polar = 20;
-    how.angles = 3;
+    massless_how.polar = 20;
+    massless_how.angles = 3;
     by_angles();
-    how.angles = 2;
+    massless_how.angles = 2;
     refused("two free angles");
     return gsl_test_summary();
 }

@@ -5,11 +5,11 @@
 
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define CONTROL_SWUNG "harness/time/test/swung.yaml"
 
 static void turn(scene_scheme by, double step, double tolerance, double spin, cell_result *r)
 {
-    scenes_solve(SWUNG, "collocation", 1, r,
+    scenes_solve(CONTROL_SWUNG, "collocation", 1, r,
                  "base=heavy;thrown=0;end=2;integrator=%s;step=%g;tolerance=%.17g;spin=%g",
                  scenes_integrator[by], step, tolerance, spin);
 }

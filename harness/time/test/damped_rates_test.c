@@ -8,7 +8,7 @@
 #include "harness/time/test/flying.h"
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define RATES_SWUNG "harness/time/test/swung.yaml"
 
 static double *strains_in(flying *f, double h)
 {
@@ -35,7 +35,7 @@ int main(void)
     const double d = 1e-3, h = 0.002;
     scene s;
     flying f;
-    scenes_read(&s, SWUNG, "damping=0.02;rho=0.5;step=0.01");
+    scenes_read(&s, RATES_SWUNG, "damping=0.02;rho=0.5;step=0.01");
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &f) != STATUS_OK, "begins: %s",
              f.why.text);
     for (int i = 0; i < 300; i++)

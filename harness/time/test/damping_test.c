@@ -8,13 +8,13 @@
 
 extern const element_type element_geometrically_exact;
 
-#define RODS "harness/time/test/rods.yaml"
+#define DAMPING_RODS "harness/time/test/rods.yaml"
 
 /* Angular frequency of the lowest mode. */
 static double lowest(void)
 {
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 6, &a, "of=modal");
+    scenes_ask(DAMPING_RODS, &element_geometrically_exact, 6, &a, "of=modal");
     return 2 * PI * answer_of(&a, "f");
 }
 
@@ -23,7 +23,7 @@ static void decay(scene_scheme scheme, double h, double drift)
 {
     const double w = lowest(), ratio = 0.03, eta = 2 * ratio / w, period = 2 * PI / w;
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 6, &a,
+    scenes_ask(DAMPING_RODS, &element_geometrically_exact, 6, &a,
                "of=damped;integrator=%s;damping=%.17g;step=%.17g;end=%.17g",
                scenes_integrator[scheme], eta, h * period, 10 * period);
     const double found = -log(answer_of(&a, "late") / answer_of(&a, "early")) / (6 * 4 * PI);
@@ -39,7 +39,7 @@ static void decay(scene_scheme scheme, double h, double drift)
 static double turn(scene_scheme scheme, double eta, double h)
 {
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 4, &a,
+    scenes_ask(DAMPING_RODS, &element_geometrically_exact, 4, &a,
                "of=free;end=2;integrator=%s;damping=%g;step=%g", scenes_integrator[scheme], eta, h);
     const double lost = moving_largest(&a, "lost"), energy = moving_largest(&a, "energy");
     gsl_test(!(lost > 0 && lost < 2e-4 * energy), "scheme %d, damping %g s: lost %g of %g J %s",

@@ -29,28 +29,28 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
 static const struct {
     const case_type *type;
     double step, end, conserving;
-} motion[] = {{&case_free_flight_space, 0.05, 6, 1e-13},
-              {&case_spin_up, 0.05, 4, 1e-13},
-              {&case_elbow, 0.125, 5, 1e-13},
-              {&case_pendulum, 0.005, 0.5, 1e-13}};
+} drift_motion[] = {{&case_free_flight_space, 0.05, 6, 1e-13},
+                    {&case_spin_up, 0.05, 4, 1e-13},
+                    {&case_elbow, 0.125, 5, 1e-13},
+                    {&case_pendulum, 0.005, 0.5, 1e-13}};
 
 int main(void)
 {
-    for (int i = 0; i < (int)(sizeof motion / sizeof motion[0]); i++) {
-        const double h = motion[i].step, end = motion[i].end;
-        const char *name = motion[i].type->name;
-        const double first = drift(motion[i].type, SCENE_ALPHA, h / 2, end),
-                     second = drift(motion[i].type, SCENE_ALPHA, h / 4, end);
+    for (int i = 0; i < (int)(sizeof drift_motion / sizeof drift_motion[0]); i++) {
+        const double h = drift_motion[i].step, end = drift_motion[i].end;
+        const char *name = drift_motion[i].type->name;
+        const double first = drift(drift_motion[i].type, SCENE_ALPHA, h / 2, end),
+                     second = drift(drift_motion[i].type, SCENE_ALPHA, h / 4, end);
         gsl_test(!(second < 1e-4 && fabs(first / second - 4) < 0.4),
                  "%s: drift of alpha of second order (%g, %g)", name, first, second);
-        const double radau = drift(motion[i].type, SCENE_RADAU, h / 2, end),
-                     shorter = drift(motion[i].type, SCENE_RADAU, h / 4, end);
+        const double radau = drift(drift_motion[i].type, SCENE_RADAU, h / 2, end),
+                     shorter = drift(drift_motion[i].type, SCENE_RADAU, h / 4, end);
         gsl_test(!(shorter < 1e-8 && radau / shorter > 5),
                  "%s: drift of radau of higher order (%g, %g)", name, radau, shorter);
         for (int k = 0; k < 2; k++) {
-            const double exact = drift(motion[i].type, SCENE_CONSERVING, h / (1 << k), end);
-            gsl_test(!(exact < motion[i].conserving), "%s: no drift of the conserving scheme (%g)",
-                     name, exact);
+            const double exact = drift(drift_motion[i].type, SCENE_CONSERVING, h / (1 << k), end);
+            gsl_test(!(exact < drift_motion[i].conserving),
+                     "%s: no drift of the conserving scheme (%g)", name, exact);
         }
     }
     return gsl_test_summary();

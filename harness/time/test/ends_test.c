@@ -9,16 +9,16 @@ extern const element_type element_geometrically_exact;
 
 enum { COMPONENTS = 3, ASKED = COMPONENTS + 2 };
 
-#define RODS "harness/time/test/rods.yaml"
+#define ENDS_RODS "harness/time/test/rods.yaml"
 
-static const char *const joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
+static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
 
 /* Places of the tip, reaction of the node that the other rod is released from, drift. */
-static void solve(const char *of, scene_scheme by, double step, double found[ASKED])
+static void ends_solve(const char *of, scene_scheme by, double step, double found[ASKED])
 {
     static const char *const name[] = {"C_ux", "C_uy", "C_uz", "held", "drift"};
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 2, &a,
+    scenes_ask(ENDS_RODS, &element_geometrically_exact, 2, &a,
                "of=ends;end=0.4;joint=%s;integrator=%s;step=%g", of, scenes_integrator[by], step);
     for (int i = 0; i < ASKED; i++)
         found[i] = answer_of(&a, name[i]);
@@ -37,8 +37,8 @@ static void compare(const char *of, scene_scheme by, const double exact[ASKED])
 {
     const double step = 0.01;
     double coarse[ASKED], fine[ASKED];
-    solve(of, by, step, coarse);
-    solve(of, by, step / 2, fine);
+    ends_solve(of, by, step, coarse);
+    ends_solve(of, by, step / 2, fine);
     const double first = distance(coarse, exact), second = distance(fine, exact);
     gsl_test(!(second < 1e-3 && first / second > 2.3), "%s, integrator %d: errors %g and %g m", of,
              by, first, second);
@@ -51,11 +51,11 @@ static void compare(const char *of, scene_scheme by, const double exact[ASKED])
 
 int main(void)
 {
-    for (int i = 0; i < (int)(sizeof joints / sizeof joints[0]); i++) {
+    for (int i = 0; i < (int)(sizeof ends_joints / sizeof ends_joints[0]); i++) {
         double exact[ASKED];
-        solve(joints[i], SCENE_RADAU, 0.005, exact);
-        compare(joints[i], SCENE_ALPHA, exact);
-        compare(joints[i], SCENE_CONSERVING, exact);
+        ends_solve(ends_joints[i], SCENE_RADAU, 0.005, exact);
+        compare(ends_joints[i], SCENE_ALPHA, exact);
+        compare(ends_joints[i], SCENE_CONSERVING, exact);
     }
     return gsl_test_summary();
 }

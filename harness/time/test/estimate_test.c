@@ -10,7 +10,7 @@
 extern const element_type element_collocation;
 
 static const double mass = 2, stiffness = 18, velocity = 0.8, length = 1;
-static const double y_axis[3] = {0, 1, 0};
+static const double estimate_y_axis[3] = {0, 1, 0};
 
 static section_spec light(double EA)
 {
@@ -36,7 +36,7 @@ static void add_oscillator(scene *s, scene_scheme by, const scene_alpha *alpha, 
     scene_init(s, "oscillator");
     const int profile = scene_add_section(s, &spec), root = scene_add_node(s, 0, 0, 0),
               tip = scene_add_node(s, length, 0, 0),
-              rod = scene_add_member(s, root, tip, profile, y_axis);
+              rod = scene_add_member(s, root, tip, profile, estimate_y_axis);
     scene_member_at(s, rod)->damping = eta;
     scene_hold_all(s, root);
     scene_hold(s, tip, SCENE_UY, SCENE_RZ);
@@ -90,7 +90,7 @@ static double radau_of(double x, double v, double eta, double F0, double F1, dou
     return fabs(right[0]);
 }
 
-static void radau(double eta)
+static void radau_errors(double eta)
 {
     const double h = 0.1;
     scene s;
@@ -159,7 +159,7 @@ static double of_lifted(double eta, double h)
     scene_init(&s, "lifted");
     const int profile = scene_add_section(&s, &spec), A = scene_add_node(&s, 0, 0, 0),
               B = scene_add_node(&s, length, 0, 0.1),
-              rod = scene_add_member(&s, A, B, profile, y_axis);
+              rod = scene_add_member(&s, A, B, profile, estimate_y_axis);
     scene_member_at(&s, rod)->damping = eta;
     scene_hold(&s, A, SCENE_UX, SCENE_UY);
     scene_set_body(&s, A, (scene_body){0.5, {0.1, 0.2, 0}, {0.03, 0.04, 0.05, 0, 0, 0}});
@@ -191,8 +191,8 @@ int main(void)
 {
     const scene_alpha trapezoidal = {0, 0}, hht = {.mass = 0, .force = 0.1},
                       strong = scene_alpha_of_radius(0.5);
-    radau(0);
-    radau(0.05);
+    radau_errors(0);
+    radau_errors(0.05);
     order(0);
     order(0.02);
     of_second_order(SCENE_ALPHA, "alpha", NULL, 0.1);

@@ -11,10 +11,10 @@ static struct {
     double stiffening, turn[4]; /* the scene's axes, a quaternion */
 } how = {1, {1, 0, 0, 0}};
 
-static const double h = 0.05, thrown = 5; /* [s] a step; until then the loads act */
+static const double flights_h = 0.05, thrown = 5; /* [s] a step; until then the loads act */
 
 /* The rod of free_flight_space. */
-static status build(const double value[], scene *s, fault *f)
+static status flights_build(const double value[], scene *s, fault *f)
 {
     static const double end = 50, y[3] = {0, 1, 0}, at[2][3] = {{0, 0, 8}, {6, 0, 0}},
                         force[3] = {0.1, 0, 0}, moment[3] = {0, 1, 0.5};
@@ -40,16 +40,17 @@ static status build(const double value[], scene *s, fault *f)
         scene_load_piece(s, loads[i], 0, "0");
     }
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE);
-    scene_add_motion(
-        s, SCENE_NONE, 1, &end,
-        (scene_motion){.scheme = SCENE_CONSERVING, .alpha = scene_alpha_of_radius(0.9), .step = h});
+    scene_add_motion(s, SCENE_NONE, 1, &end,
+                     (scene_motion){.scheme = SCENE_CONSERVING,
+                                    .alpha = scene_alpha_of_radius(0.9),
+                                    .step = flights_h});
     return STATUS_OK;
 }
 
 static status reversed(const double value[], scene *s, fault *f)
 {
     static const scene_edit edit = {SCENE_EDIT_REVERSE, 0};
-    TRY(build(value, s, f));
+    TRY(flights_build(value, s, f));
     return scene_edit_apply(s, &edit, f);
 }
 
@@ -86,12 +87,12 @@ static double long_flight(const char *with)
 {
     flight f;
     double drift = 0, angular = 0, momentum = 0;
-    gsl_test(flight_begin(&f, build, with, 4) != STATUS_OK, "%s: %s", with, f.why.text);
-    fly(&f, (int)lround(thrown / h), h);
+    gsl_test(flight_begin(&f, flights_build, with, 4) != STATUS_OK, "%s: %s", with, f.why.text);
+    fly(&f, (int)lround(thrown / flights_h), flights_h);
     const double energy = flight_energy(&f);
     const inertia_balance before = flight_inertia(&f);
     for (int i = 0; i < 80; i++) {
-        fly(&f, 10, h);
+        fly(&f, 10, flights_h);
         const inertia_balance now = flight_inertia(&f);
         drift = fmax(drift, fabs(flight_energy(&f) / energy - 1));
         for (int k = 0; k < 3; k++) {
@@ -133,28 +134,28 @@ static void order(const char *with)
     double r[4][6];
     for (int i = 0; i < 4; i++) {
         flight f;
-        gsl_test(flight_begin(&f, build, with, 4) != STATUS_OK, "%s: %s", with, f.why.text);
-        fly(&f, 150 << i, h / (1 << i));
+        gsl_test(flight_begin(&f, flights_build, with, 4) != STATUS_OK, "%s: %s", with, f.why.text);
+        fly(&f, 150 << i, flights_h / (1 << i));
         ends_of(&f, r[i]);
         flight_end(&f);
     }
     const double ratio = sqrt(apart(r[0], r[1]) / apart(r[2], r[3]));
     gsl_test(fabs(ratio - 4) > 0.6, "%s: differences fall by %.2f from %.1e, step %g s", with,
-             ratio, apart(r[0], r[1]), h);
+             ratio, apart(r[0], r[1]), flights_h);
 }
 
 static void reversal(const char *with)
 {
     flight f;
     double before[6], after[6];
-    gsl_test(flight_begin(&f, build, with, 4) != STATUS_OK, "%s: %s", with, f.why.text);
-    fly(&f, 120, h);
+    gsl_test(flight_begin(&f, flights_build, with, 4) != STATUS_OK, "%s: %s", with, f.why.text);
+    fly(&f, 120, flights_h);
     ends_of(&f, before);
-    fly(&f, 100, h);
+    fly(&f, 100, flights_h);
     ends_of(&f, after);
     gsl_test(!(apart(before, after) > 10), "%s: it goes away by %.1f m", with,
              apart(before, after));
-    fly(&f, 100, -h);
+    fly(&f, 100, -flights_h);
     ends_of(&f, after);
     gsl_test(!(apart(before, after) < 1e-10), "%s, EA x %g: back within %.1e m of %g m", with,
              how.stiffening, apart(before, after), 40.);
@@ -170,9 +171,9 @@ static void same_answers(const char *with)
         rotation_exp(turn, how.turn);
         if (i < 2)
             memcpy(how.turn, (double[4]){1, 0, 0, 0}, sizeof how.turn);
-        gsl_test(flight_begin(&f, i == 1 ? reversed : build, with, 4) != STATUS_OK, "%s: %s", with,
-                 f.why.text);
-        fly(&f, 150, h);
+        gsl_test(flight_begin(&f, i == 1 ? reversed : flights_build, with, 4) != STATUS_OK,
+                 "%s: %s", with, f.why.text);
+        fly(&f, 150, flights_h);
         ends_of(&f, r[i]);
         flight_end(&f);
     }

@@ -9,7 +9,7 @@
 #include "harness/time/test/flying.h"
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define LAUNCH_SWUNG "harness/time/test/swung.yaml"
 
 static const double driven_rate = 0.4, none = 1e-10;
 
@@ -18,7 +18,7 @@ static void launched(int driven)
 {
     scene s;
     flying at;
-    scenes_read(&s, SWUNG, "tip=%s;step=0.02", driven ? "askew_driven" : "askew");
+    scenes_read(&s, LAUNCH_SWUNG, "tip=%s;step=0.02", driven ? "askew_driven" : "askew");
     const int tip = scenes_find(&s, SCENE_NODES, driven ? "tip_askew_driven" : "tip_askew");
     const scene_start field = scene_motion_of(&s.analysis[0])->start;
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &at) != STATUS_OK, "begins: %s",
@@ -59,7 +59,7 @@ static void turning(double beside)
     scene_rotating_frame frame = {.omega = {0.8, -1.5, 1.1}, .centre = {0.3, 0.5, beside}};
     scene s;
     flying at;
-    scenes_read(&s, SWUNG, "base=held;thrown=0;step=0.02");
+    scenes_read(&s, LAUNCH_SWUNG, "base=held;thrown=0;step=0.02");
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &at) != STATUS_OK, "begins: %s",
              at.why.text);
     const status outcome = launch_turning(&at.c, &at.masses, scene_motion_of(&s.analysis[0]),

@@ -7,7 +7,7 @@
 
 extern const element_type element_geometrically_exact;
 
-#define RODS "harness/time/test/rods.yaml"
+#define LINKED_RODS "harness/time/test/rods.yaml"
 
 static const char *const joints[] = {"stiff", "hinge", "universal",
                                      "ball",  "slide", "sliding_hinge"};
@@ -16,7 +16,7 @@ static double solve(const char *joint, double damping, scene_scheme scheme, doub
                     char *why)
 {
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 2, &a,
+    scenes_ask(LINKED_RODS, &element_geometrically_exact, 2, &a,
                "of=linked;end=0.4;joint=%s;damping=%g;integrator=%s;step=%g", joint, damping,
                scenes_integrator[scheme], step);
     *x = answer_of(&a, "x");

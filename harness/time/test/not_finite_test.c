@@ -5,14 +5,14 @@
 
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define FINITE_SWUNG "harness/time/test/swung.yaml"
 
 /* Steps of 1/512 s end inside. */
 static void stop(int scheme)
 {
     cell_result r;
     fault f = {""};
-    cell_request request = cells_of(scenes_case(SWUNG), "collocation", 1);
+    cell_request request = cells_of(scenes_case(FINITE_SWUNG), "collocation", 1);
     scenes_at(request.type, request.parameter, "load=gap;integrator=%s;step=%.17g",
               scenes_integrator[scheme], 1 / 512.0);
     const status outcome = cell_run(&request, &r, &f);

@@ -5,7 +5,7 @@
 
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
 /* One station at the end: all that rises and falls before is between stations. */
 int main(void)
@@ -16,7 +16,7 @@ int main(void)
         double value[RUNS][READ];
         for (int i = 0; i < RUNS; i++) {
             cell_result out;
-            scenes_solve(SWUNG, "collocation", 1, &out,
+            scenes_solve(PEAKS_SWUNG, "collocation", 1, &out,
                          "read=peaks;end=2.5;integrator=radau;step=%g;load=%s", step[i],
                          jumps ? "push" : "none");
             for (int k = 0; k < READ; k++) {

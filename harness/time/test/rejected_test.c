@@ -9,7 +9,7 @@
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define REJECTED_SWUNG "harness/time/test/swung.yaml"
 
 extern const element_type element_geometrically_exact, element_collocation;
 extern const case_type case_free_flight_space;
@@ -25,7 +25,7 @@ static void throw_rod(scene *s, scene_scheme by)
 /* Two rods with a joint and a spring across it, on a base that shakes. */
 static void shake_rods(scene *s, scene_scheme by)
 {
-    scenes_read(s, SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
+    scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
                 by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
     /* which the reader refuses: no body is like that */
     scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
@@ -39,7 +39,7 @@ static int same(const flying *f, const double a[], const double b[])
 
 /* Pivots of an unsymmetric tangent are kept from step to step, and those of a step that was
  * rejected may be others. */
-static int close(const flying *f, const double a[], const double b[])
+static int is_close(const flying *f, const double a[], const double b[])
 {
     const double rounding = 1e-11;
     for (size_t i = 0; i < flying_numbers(f, &f->now, NULL); i++)
@@ -79,7 +79,7 @@ static void reject(const char *name, void (*build)(scene *, scene_scheme), const
     flying_step(&tried, h);
     double *then = flying_all(&tried), *without = flying_all(&plain);
     int (*const agrees)(const flying *, const double[], const double[]) =
-        by == SCENE_RADAU ? close : same;
+        by == SCENE_RADAU ? is_close : same;
     gsl_test(again != STATUS_OK || !agrees(&tried, then, without),
              "%s, scheme %d: what follows a rejected step knows nothing of it (%s)", name, by,
              plain.why.text);
@@ -100,7 +100,7 @@ enum { STATIONS = 60, CROSSINGS = 4, PERIOD = CROSSINGS, MEAN, WAY, TIP };
 /* Watched at the base, whose way is known: 0.3 sin 5 t; and the tip at many stations. */
 static void watch(int by, double step, double tolerance, cell_result *out)
 {
-    scenes_solve(SWUNG, "collocation", 1, out,
+    scenes_solve(REJECTED_SWUNG, "collocation", 1, out,
                  "base=shaken;read=passed;stations=sixty;integrator=%s;step=%g;tolerance=%g",
                  scenes_integrator[by], step, tolerance);
 }

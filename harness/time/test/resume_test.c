@@ -6,7 +6,7 @@
 
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define RESUME_SWUNG "harness/time/test/swung.yaml"
 
 /* A load that jumps at 0.5 s: there steps end, whoever walks across. joint: of a rod at the tip. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
@@ -15,7 +15,7 @@ static void same_linked(const char *name, int scheme, double tolerance, int part
     cell_result *const in[] = {&one, &more};
     for (int i = 0; i < 2; i++)
         scenes_solve(
-            SWUNG, "collocation", 1, in[i],
+            RESUME_SWUNG, "collocation", 1, in[i],
             "load=kick;read=balance;integrator=%s;step=%.17g;tolerance=%g;second=%s;parts=%d",
             scenes_integrator[scheme], 1 / 64.0, tolerance, joint ? "turns_and_slides" : "none",
             i == 0 ? 1 : parts);

@@ -9,7 +9,7 @@
 
 #include "harness/formulations/formulation.h"
 
-enum { MOST = 80 };
+enum { MASSLESS_MOST = 80 };
 
 /* An I free in space; omit: physics that is left out. */
 static void warps(unsigned omit, int heavy)
@@ -24,7 +24,7 @@ static void warps(unsigned omit, int heavy)
     model *m = NULL;
     carried_masses masses;
     fault f = {""};
-    double force[MOST], motion[MOST], given[MOST], a[MOST];
+    double force[MASSLESS_MOST], motion[MASSLESS_MOST], given[MASSLESS_MOST], a[MASSLESS_MOST];
     const double end = 1;
     int massless = 0, seen = 0;
     spec.density = 7800;

@@ -14,7 +14,7 @@
 #include "harness/time/increment.h"
 #include "harness/time/test/flight.h"
 
-enum { STEPS = 30, STAGES = 4, ITERATIONS = 40 };
+enum { STEPS = 30, SPIN_STAGES = 4, ITERATIONS = 40 };
 
 static const double rate = 3, stretch = 0.02, first[3] = {0.5, 0.2, 0.1}, along[3] = {1, 0, 0};
 
@@ -105,7 +105,7 @@ static void turn_rates(const flight *f)
 }
 
 /* The state in balance with the inertia of that turn; the largest last correction. */
-static double settle(flight *f)
+static double settle_flight(flight *f)
 {
     model *m = f->m;
     const sparse *pattern;
@@ -192,10 +192,11 @@ static void check(const char *name, const double axis[3], double turn)
     }
     mesh_triad *before = model_element(f.m, model_elements(f.m) - 1)->triad;
     pull(&f);
-    for (int part_of = 1; part_of <= STAGES; part_of++) {
-        const double part = (double)part_of / STAGES, vector[3] = {twist * part, 0, bend * part};
+    for (int part_of = 1; part_of <= SPIN_STAGES; part_of++) {
+        const double part = (double)part_of / SPIN_STAGES,
+                     vector[3] = {twist * part, 0, bend * part};
         turned_end(f.m, vector, own, before);
-        correction = settle(&f);
+        correction = settle_flight(&f);
     }
     double *begin = malloc(sizeof *begin * (size_t)(model_elements(f.m) * model_strains(f.m)));
     memcpy(begin, f.now.state->e,

@@ -8,7 +8,7 @@
 
 extern const element_type element_geometrically_exact;
 
-#define RODS "harness/time/test/rods.yaml"
+#define START_RODS "harness/time/test/rods.yaml"
 
 static const double omega = 3, end = 0.5;
 
@@ -28,7 +28,7 @@ static void keep_turning(scene_scheme scheme, double step, double tolerance, dou
                                                                               "inside_My"};
     char steady[SCENE_NAME];
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 4, &a, "of=on_hub;integrator=%s;step=%g",
+    scenes_ask(START_RODS, &element_geometrically_exact, 4, &a, "of=on_hub;integrator=%s;step=%g",
                scenes_integrator[scheme], step);
     for (int i = 0; i < 3; i++) {
         snprintf(steady, sizeof steady, "steady_%s", place[i]);
@@ -49,7 +49,8 @@ static void keep_turning(scene_scheme scheme, double step, double tolerance, dou
 static void refuse_otherwise(void)
 {
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 2, &a, "of=on_hub;integrator=alpha;rate=2.9");
+    scenes_ask(START_RODS, &element_geometrically_exact, 2, &a,
+               "of=on_hub;integrator=alpha;rate=2.9");
     gsl_test(a.status != STATUS_REFUSED || strstr(a.reason, "turn") == NULL,
              "a drive beside the axes is refused (%s)", a.reason);
 }
@@ -58,7 +59,7 @@ static void refuse_otherwise(void)
 static void release(const char *then, int rings)
 {
     answer a;
-    scenes_ask(RODS, &element_geometrically_exact, 4, &a, "of=bent;end=1;stays=%s", then);
+    scenes_ask(START_RODS, &element_geometrically_exact, 4, &a, "of=bent;end=1;stays=%s", then);
     const double strain = moving_largest(&a, "strain"), kinetic = moving_largest(&a, "kinetic");
     gsl_test(!(rings ? kinetic > 0.5 * strain : kinetic < 1e-15 * strain),
              "force %s: kinetic energy %g, strain %g J (%s)", then, kinetic, strain, a.reason);

@@ -6,7 +6,7 @@
 
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define STATIONS_SWUNG "harness/time/test/swung.yaml"
 
 /* Stations that are asked for, by the parameter. */
 enum { ODD, ENDS, BOTH, ASKED_KINDS };
@@ -17,7 +17,7 @@ enum { KINEMATIC = 5, STRAIN = 6, READINGS };
 
 static void solve(int scheme, double step, int asked, cell_result *out)
 {
-    scenes_solve(SWUNG, "collocation", 1, out, "integrator=%s;step=%g;stations=%s",
+    scenes_solve(STATIONS_SWUNG, "collocation", 1, out, "integrator=%s;step=%g;stations=%s",
                  scenes_integrator[scheme], step, asked_for[asked]);
 }
 

@@ -22,7 +22,7 @@ static void throw_rod(scene *s, scene_scheme by, const scene_alpha *alpha)
     s->analysis[motion].of.motion.start = (scene_start){.spin = {0.3, 1, 2}};
 }
 
-static void begin(const scene *s, flying *f)
+static void steps_begin(const scene *s, flying *f)
 {
     const status outcome = flying_begin(s, &element_geometrically_exact, 3, f);
     gsl_test(outcome != STATUS_OK, "begins: %s", f->why.text);
@@ -36,7 +36,7 @@ static void reverse(void)
     flying f;
     double largest = 0;
     throw_rod(&s, SCENE_ALPHA, &trapezoidal);
-    begin(&s, &f);
+    steps_begin(&s, &f);
     double *first = flying_all(&f);
     for (int i = 0; i < 2 * STEPS; i++)
         gsl_test(flying_step(&f, i < STEPS ? 0.02 : -0.02) != STATUS_OK, "step %d: %s", i,

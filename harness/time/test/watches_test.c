@@ -8,7 +8,7 @@
 #include "elements/math/pi.h"
 #include "harness/tools/kit/scenes.h"
 
-#define SWUNG "harness/time/test/swung.yaml"
+#define WATCHES_SWUNG "harness/time/test/swung.yaml"
 
 /* Of the base, 0.3 sin 5 t until 3 s. */
 static const struct {
@@ -35,7 +35,7 @@ enum { KNOWN = sizeof known / sizeof known[0] };
 static void exactly(int scheme, double step)
 {
     cell_result r;
-    scenes_solve(SWUNG, "collocation", 1, &r,
+    scenes_solve(WATCHES_SWUNG, "collocation", 1, &r,
                  "base=shaken;thrown=0;read=known;end=3;integrator=%s;step=%g",
                  scenes_integrator[scheme], step);
     for (int i = 0; i < KNOWN; i++) {
@@ -56,7 +56,7 @@ static void exactly(int scheme, double step)
 
 static void fly(int scheme, double step, int watched, cell_result *out)
 {
-    scenes_solve(SWUNG, "collocation", 1, out, "end=2;read=%s;integrator=%s;step=%g",
+    scenes_solve(WATCHES_SWUNG, "collocation", 1, out, "end=2;read=%s;integrator=%s;step=%g",
                  watched ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 

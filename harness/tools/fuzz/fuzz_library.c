@@ -56,12 +56,12 @@ static bw_scene *own_scene(void)
 }
 
 /* Solved with any formulation and options: it is small and linear. */
-static void try_solve(const char *formulation, const char *options)
+static void try_solve(const char *formulation_name, const char *options)
 {
     char *why = NULL, *json = NULL;
     bw_scene *s = own_scene();
     bw_result *r = NULL;
-    const bw_status got = bw_solve(s, formulation, 1, options, &r, &why);
+    const bw_status got = bw_solve(s, formulation_name, 1, options, &r, &why);
     must_tell(got, r, why);
     if (r != NULL)
         fuzz_must(bw_result_json(r, &json, NULL) == BW_OK, "a result has a document");
