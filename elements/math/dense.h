@@ -1,5 +1,5 @@
 /* Small dense algebra: vectors of 3, matrices of known small size, row-major.
- * Nothing here allocates.  Sizes that grow with a mesh belong to harness/numerics/sparse.h. */
+ * Nothing here allocates.  Sizes that grow with a mesh belong to harness/numerics/numerics.h. */
 #ifndef BEAMWORK_DENSE_H
 #define BEAMWORK_DENSE_H
 

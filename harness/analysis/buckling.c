@@ -15,7 +15,7 @@
 #include "harness/newton/linear_system.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/quadratic_forms.h"
-#include "harness/numerics/eigen.h"
+#include "harness/numerics/numerics.h"
 
 /* What grows with the factor, and what stays. */
 typedef struct prestresses {

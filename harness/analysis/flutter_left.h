@@ -8,7 +8,7 @@
 
 #include <complex.h>
 
-#include "harness/numerics/sparse.h"
+#include "harness/numerics/numerics.h"
 
 enum { LEFT_NEAREST = 6 };
 

@@ -8,7 +8,7 @@
 #include "harness/newton/context.h"
 #include "harness/newton/linear_system.h"
 #include "harness/newton/singular.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 /* With what linear_analysis frees. */
 static status displace(analysis_context *c, linear_system *s, analysis_outcome *o, fault *f)

@@ -25,7 +25,7 @@
 #include "harness/newton/newton.h"
 #include "harness/newton/rotating_frame.h"
 #include "harness/newton/singular.h"
-#include "harness/numerics/eigen.h"
+#include "harness/numerics/numerics.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */

@@ -17,7 +17,7 @@
 #include "harness/newton/quadratic_forms.h"
 #include "harness/newton/rotating_frame.h"
 #include "harness/newton/singular.h"
-#include "harness/numerics/eigen.h"
+#include "harness/numerics/numerics.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {

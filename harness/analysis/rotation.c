@@ -21,8 +21,7 @@
 #include "harness/newton/singular.h"
 #include "harness/newton/stiffness_parts.h"
 #include "harness/newton/tangent.h"
-#include "harness/numerics/clock.h"
-#include "harness/numerics/gyroscopic.h"
+#include "harness/numerics/numerics.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 

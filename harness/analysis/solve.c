@@ -21,7 +21,7 @@
 #include "harness/newton/linear_system.h"
 #include "harness/newton/newton.h"
 #include "harness/newton/singular.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/time/motion.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);

@@ -6,7 +6,7 @@
 #ifndef BEAMWORK_UNSYMMETRIC_H
 #define BEAMWORK_UNSYMMETRIC_H
 
-#include "harness/numerics/sparse.h"
+#include "harness/numerics/numerics.h"
 
 typedef struct unsymmetric_problem {
     const sparse *K, *M, *C; /* same pattern; C NULL: nothing is damped */

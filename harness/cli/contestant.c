@@ -10,7 +10,7 @@
 #include "harness/cli/command.h"
 #include "harness/experiments/timing.h"
 #include "harness/model/missing.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/reach.h"
 #include "harness/terminal/paragraph.h"
 

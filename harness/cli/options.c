@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "harness/experiments/meshes.h"
-#include "harness/numerics/team.h"
+#include "harness/numerics/numerics.h"
 
 /* Letters of version 0.1, which are read until the next one and told with their names. */
 static const struct {

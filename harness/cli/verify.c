@@ -10,7 +10,7 @@
 #include "harness/experiments/regressions.h"
 #include "harness/experiments/verification.h"
 #include "harness/experiments/verification_files.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/records/output.h"
 #include "harness/study/plan.h"
 #include "harness/study/sentence.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 enum { LEAST_PAIRS = 51, MOST_PAIRS = 1001, WARM_UP = 3 };
 static const double tail = 0.0005, least_difference = 0.02;

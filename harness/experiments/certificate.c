@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/child.h"
 
 enum { MOST_CHILDREN = 64, LOOK = 100 /* [ms] between looks at the clocks */ };

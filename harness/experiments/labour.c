@@ -5,7 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 /* Of this process and those that it has waited for. */
 static double processor_seconds(void)

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/records/comparison.h"
 #include "harness/records/store.h"
 

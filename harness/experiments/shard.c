@@ -14,7 +14,7 @@
 #include "harness/experiments/deal.h"
 #include "harness/experiments/labour.h"
 #include "harness/experiments/stock.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/child.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/progress.h"

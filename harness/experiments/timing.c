@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/progress.h"
 
 void rounds_run(const cell_request *request, double floor, rounds_reading *out)

@@ -5,7 +5,7 @@
 
 #include "harness/experiments/certificate.h"
 #include "harness/formulations/formulations.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/families.h"
 #include "harness/study/run.h"
 

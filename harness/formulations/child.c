@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 enum { TO_READ, TO_WRITE };
 

@@ -7,7 +7,7 @@
 #include "harness/library/call.h"
 #include "harness/library/options.h"
 #include "harness/library/result_handle.h"
-#include "harness/numerics/team.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/scene_truths.h"
 
 enum { STEPS_MOST = 1000000 };

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/model/model_impl.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 
 /* Tangents of dead moments about fixed axes, be they loads or reactions, and of loads that follow
  * are stored whole: whether they are symmetric is a matter of the state. */

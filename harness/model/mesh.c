@@ -14,7 +14,7 @@
 #include "harness/model/model_impl.h"
 #include "harness/model/profile.h"
 #include "harness/model/release.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 
 /* Of a sequence's next angle; any length. */
 static void add_axis(const double axis[3], mesh_vertex *v)

@@ -16,7 +16,7 @@
 #include "harness/model/profile.h"
 #include "harness/model/spring.h"
 #include "harness/model/turns.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 
 /* In scenes with a motion, loads along members do their work on the field that its mass has. */
 static int takes_loads(const model *m)

@@ -18,7 +18,7 @@
 
 #include "cases/scene/scene.h"
 #include "elements/element.h"
-#include "harness/numerics/sparse.h"
+#include "harness/numerics/numerics.h"
 
 typedef struct model model;
 

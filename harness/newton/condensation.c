@@ -17,7 +17,7 @@
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/link.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 
 /* Has what acts on the model no stiffness but at the ends of its members, and are the nodes between
  * them free? */

@@ -7,7 +7,7 @@
 #define BEAMWORK_CONDENSATION_H
 
 #include "harness/newton/run_state.h"
-#include "harness/numerics/sparse.h"
+#include "harness/numerics/numerics.h"
 
 typedef struct condensation condensation;
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f)

@@ -11,7 +11,7 @@
 #include "harness/newton/linear.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/refinement.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 static status allocate(const analysis_context *c, linear_system *out, fault *f)
 {

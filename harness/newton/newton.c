@@ -18,8 +18,7 @@
 #include "harness/newton/loads.h"
 #include "harness/newton/singular.h"
 #include "harness/newton/uncondensed.h"
-#include "harness/numerics/clock.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 
 enum { MAX_ITERATIONS = 30 };
 

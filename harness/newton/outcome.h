@@ -3,7 +3,7 @@
 #define BEAMWORK_SOLVER_OUTCOME_H
 
 #include "harness/newton/modes.h"
-#include "harness/numerics/eigen.h"
+#include "harness/numerics/numerics.h"
 
 /* Critical loads of one sign, ascending in size, or frequencies [rad/s], ascending; with their
  * modes. */

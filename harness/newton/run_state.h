@@ -4,8 +4,7 @@
 #define BEAMWORK_RUN_STATE_H
 
 #include "harness/model/assemble.h"
-#include "harness/numerics/phases.h"
-#include "harness/numerics/team.h"
+#include "harness/numerics/numerics.h"
 
 /* Work done so far. */
 typedef struct counters {

@@ -5,7 +5,7 @@
 #define BEAMWORK_SYSTEM_MATRICES_H
 
 #include "harness/newton/rows.h"
-#include "harness/numerics/triplets.h"
+#include "harness/numerics/numerics.h"
 
 typedef struct state_matrices {
     int analysis; /* of the scene; SCENE_NONE: the undeformed structure at rest */

@@ -17,7 +17,7 @@
 #include "harness/newton/loads.h"
 #include "harness/newton/singular.h"
 #include "harness/newton/stiffness_parts.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 /* Solutions are refined where round-off would leave less than eight digits. */
 static const double harmless_condition = 1e8;

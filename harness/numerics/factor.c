@@ -4,12 +4,12 @@
  * and rounding A changes it by about eps times the root of the sum of their squares: when that is
  * as large as x_k itself, A is singular to working precision. (A free beam of n elements has a last
  * pivot of eps n^2 times its diagonal entry and not of eps times it.) */
+#include "harness/numerics/numerics_impl.h"
+
 #include <float.h>
+#include <klu.h>
 #include <math.h>
 #include <stdlib.h>
-
-#include "harness/numerics/factor_symmetric.h"
-#include "harness/numerics/factor_unsymmetric.h"
 
 struct matrix_factor {
     int n;
@@ -206,4 +206,243 @@ int factor_is_symmetric(const matrix_factor *fa)
 const sparse *factor_upper(const matrix_factor *fa)
 {
     return fa->whole != NULL && fa->upper ? by_numbers_upper(fa->whole) : NULL;
+}
+
+/* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984),
+ * from solutions alone.
+ *
+ * Translations, rotations and warping have different units, and a number that depends on them says
+ * nothing: rows and columns are scaled by the root of the diagonal first, which for a positive
+ * definite matrix is within a factor n of the best (A. van der Sluis, Numer. Math. 14, 1969). */
+
+enum { MOST_STEPS = 5 };
+
+typedef struct condition {
+    matrix_factor *fa;
+    int n;
+    const double *scale; /* [n] S: the matrix is S A S */
+} condition;
+
+/* x := (S A S)^-1 x, or its transpose. */
+static void solve_scaled(const condition *c, int transposed, double x[])
+{
+    for (int i = 0; i < c->n; i++)
+        x[i] /= c->scale[i];
+    if (transposed)
+        factor_solve_transposed(c->fa, x);
+    else
+        factor_solve(c->fa, x);
+    for (int i = 0; i < c->n; i++)
+        x[i] /= c->scale[i];
+}
+
+/* |(S A S)^-1|_1: the largest column sum is sought by steps along the subgradient. x, z: work space
+ * [n]. */
+static double inverse_norm(const condition *c, double x[], double z[])
+{
+    const int n = c->n;
+    double norm = 0;
+    for (int i = 0; i < n; i++)
+        x[i] = 1.0 / n;
+    for (int step = 0; step < MOST_STEPS; step++) {
+        double sum = 0, along = 0;
+        int largest = 0;
+        for (int i = 0; i < n; i++)
+            z[i] = x[i];
+        solve_scaled(c, 0, z);
+        for (int i = 0; i < n; i++)
+            sum += fabs(z[i]);
+        if (!(sum > norm) && step > 0)
+            break;
+        norm = sum;
+        for (int i = 0; i < n; i++)
+            z[i] = z[i] >= 0 ? 1 : -1;
+        solve_scaled(c, 1, z);
+        for (int i = 0; i < n; i++) {
+            along += z[i] * x[i];
+            if (fabs(z[i]) > fabs(z[largest]))
+                largest = i;
+        }
+        if (fabs(z[largest]) <= along)
+            break;
+        for (int i = 0; i < n; i++)
+            x[i] = i == largest;
+    }
+    return norm;
+}
+
+/* Scale of every unknown and the norm of S A S; sum: work space [n]. */
+static double scaled_norm(const sparse *a, double scale[], double sum[])
+{
+    double norm = 0;
+    for (int j = 0; j < a->n; j++) {
+        scale[j] = 1;
+        sum[j] = 0;
+        for (int k = a->column[j]; k < a->column[j + 1]; k++)
+            if (a->row[k] == j && a->value[k] != 0)
+                scale[j] = 1 / sqrt(fabs(a->value[k]));
+    }
+    for (int j = 0; j < a->n; j++)
+        for (int k = a->column[j]; k < a->column[j + 1]; k++) {
+            const int i = a->row[k];
+            const double size = fabs(a->value[k]) * scale[i] * scale[j];
+            sum[j] += size;
+            if (a->symmetric && i != j)
+                sum[i] += size;
+        }
+    for (int j = 0; j < a->n; j++)
+        norm = fmax(norm, sum[j]);
+    return norm;
+}
+
+double factor_condition(matrix_factor *fa, const sparse *a)
+{
+    const size_t n = (size_t)a->n;
+    double *work = malloc((3 * n + 1) * sizeof *work), estimate = NAN;
+    if (work == NULL)
+        return estimate;
+    const double norm = scaled_norm(a, work, work + n);
+    const condition c = {fa, a->n, work};
+    estimate = n == 0 ? 1 : norm * inverse_norm(&c, work + n, work + 2 * n);
+    free(work);
+    return estimate;
+}
+
+/* KLU scales every row by its largest entry and orders by AMD on A + A^T; diagonal pivots are
+ * preferred. */
+
+struct factor_unsymmetric {
+    int n;
+    klu_common common;
+    klu_symbolic *symbolic;
+    klu_numeric *numeric;
+    double *largest; /* [n] entry of every column of the scaled matrix */
+};
+
+/* Old pivots are kept while the entries of U stay below this many times those of the matrix. */
+static const double tolerable_growth = 1e4;
+
+status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric **out,
+                                factor_counts *counts, fault *f)
+{
+    factor_unsymmetric *fu = *out = calloc(1, sizeof *fu);
+    if (fu == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for factors");
+    fu->n = pattern->n;
+    counts->negative_pivots = -1;
+    klu_defaults(&fu->common);
+    fu->largest = malloc((size_t)fu->n * sizeof *fu->largest);
+    fu->symbolic = klu_analyze(fu->n, pattern->column, pattern->row, &fu->common);
+    if (fu->largest != NULL && fu->symbolic != NULL)
+        return STATUS_OK;
+    if (fu->common.status == KLU_SINGULAR)
+        return fault_set(f, STATUS_SINGULAR,
+                         "the matrix is singular whatever its numbers: something is not held");
+    return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
+}
+
+void factor_unsymmetric_free(factor_unsymmetric *fu)
+{
+    if (fu == NULL)
+        return;
+    klu_free_numeric(&fu->numeric, &fu->common);
+    klu_free_symbolic(&fu->symbolic, &fu->common);
+    free(fu->largest);
+    free(fu);
+}
+
+/* 1: the numeric factors belong to a, with the pivots of an earlier matrix. */
+static int refactor(factor_unsymmetric *fu, const sparse *a)
+{
+    return fu->numeric != NULL &&
+           klu_refactor(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
+           fu->common.status == KLU_OK &&
+           klu_rgrowth(a->column, a->row, a->value, fu->symbolic, fu->numeric, &fu->common) &&
+           fu->common.rgrowth * tolerable_growth > 1;
+}
+
+static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts *counts)
+{
+    klu_free_numeric(&fu->numeric, &fu->common);
+    fu->numeric = klu_factor(a->column, a->row, a->value, fu->symbolic, &fu->common);
+    if (fu->numeric == NULL)
+        return fu->common.status == KLU_SINGULAR ? STATUS_SINGULAR : STATUS_FAULT;
+    klu_flops(fu->symbolic, fu->numeric, &fu->common);
+    counts->entries =
+        (long)fu->numeric->lnz + fu->numeric->unz - fu->n; /* both count the diagonal */
+    counts->flops = fu->common.flops;
+    return STATUS_OK;
+}
+
+/* Sign of a permutation: every member of a cycle but the first is one exchange. `done` is work
+ * space. */
+static int sign_of(int n, const int permutation[], double done[])
+{
+    int sign = 1;
+    for (int i = 0; i < n; i++)
+        done[i] = 0;
+    for (int i = 0; i < n; i++)
+        for (int k = i, length = 0; done[k] == 0; k = permutation[k], length++) {
+            done[k] = 1;
+            sign = length == 0 ? sign : -sign;
+        }
+    return sign;
+}
+
+/* P R^-1 A Q is block triangular with the pivots on its diagonal. */
+static int determinant_of(factor_unsymmetric *fu)
+{
+    int sign = sign_of(fu->n, fu->numeric->Pnum, fu->largest) *
+               sign_of(fu->n, fu->symbolic->Q, fu->largest);
+    for (int k = 0; k < fu->n; k++)
+        sign = ((const double *)fu->numeric->Udiag)[k] < 0 ? -sign : sign;
+    return sign;
+}
+
+static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row,
+                           int *column, double *ratio)
+{
+    const klu_numeric *u = fu->numeric;
+    const double *pivot = u->Udiag;
+    double largest = 0, smallest = INFINITY;
+    for (int j = 0; j < fu->n; j++) {
+        fu->largest[j] = 0;
+        for (int k = a->column[j]; k < a->column[j + 1]; k++)
+            fu->largest[j] = fmax(fu->largest[j], fabs(a->value[k]) / u->Rs[u->Pinv[a->row[k]]]);
+    }
+    *ratio = INFINITY;
+    for (int k = 0; k < fu->n; k++) {
+        const double d = fabs(pivot[k]), part = d / fu->largest[fu->symbolic->Q[k]];
+        if (!isfinite(d) || d == 0)
+            return STATUS_SINGULAR;
+        if (part < *ratio) {
+            *ratio = part;
+            *row = u->Pnum[k];
+            *column = fu->symbolic->Q[k];
+        }
+        largest = fmax(largest, d);
+        smallest = fmin(smallest, d);
+    }
+    counts->condition = largest / smallest;
+    return STATUS_OK;
+}
+
+status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a, factor_counts *counts,
+                                  int *row, int *column, double *ratio)
+{
+    if (!refactor(fu, a)) {
+        TRY(factor_anew(fu, a, counts));
+    }
+    counts->determinant = determinant_of(fu);
+    return judge_pivots(fu, a, counts, row, column, ratio);
+}
+
+void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[])
+{
+    klu_solve(fu->symbolic, fu->numeric, stride, columns, x, &fu->common);
+}
+
+void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[])
+{
+    klu_tsolve(fu->symbolic, fu->numeric, fu->n, 1, x, &fu->common);
 }

@@ -1,7 +1,7 @@
 /* The columns of L and the pivots are those of C = P A P^T with P from AMD. A pivot is d_k = a_kk -
  * sum_j l_kj^2 d_j: when it is a rounding error of these terms, or when they dwarf the whole column
  * of A, the digits of A are gone. */
-#include "harness/numerics/factor_symmetric.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include <amd.h>
 #include <float.h>
@@ -12,8 +12,6 @@
 #include <string.h>
 
 #include "elements/math/real.h"
-#include "harness/numerics/triangular_groups.h"
-#include "harness/numerics/triangular_solve.h"
 
 struct factor_symmetric {
     int n;

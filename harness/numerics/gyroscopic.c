@@ -1,4 +1,4 @@
-#include "harness/numerics/gyroscopic.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -6,10 +6,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/numerics/estimate.h"
-#include "harness/numerics/gyroscopic_count.h"
-#include "harness/numerics/gyroscopic_index.h"
-#include "harness/numerics/ritz.h"
 
 enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 

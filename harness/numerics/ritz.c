@@ -1,4 +1,4 @@
-#include "harness/numerics/ritz.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
 #include <lapacke.h>

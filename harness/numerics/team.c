@@ -1,6 +1,6 @@
 /* The others spin for a moment before they sleep: the loops of one iteration follow each other
  * within microseconds. */
-#include "harness/numerics/team.h"
+#include "harness/numerics/numerics.h"
 
 #include <pthread.h>
 #include <sched.h>

@@ -1,4 +1,4 @@
-#include "harness/numerics/triangular_groups.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/numerics/triangular_rows.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include <math.h>
 

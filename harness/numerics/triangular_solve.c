@@ -1,4 +1,4 @@
-#include "harness/numerics/triangular_solve.h"
+#include "harness/numerics/numerics_impl.h"
 
 #include "elements/math/real.h"
 

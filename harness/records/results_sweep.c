@@ -7,7 +7,7 @@
 
 #include "harness/formulations/assignment.h"
 #include "harness/formulations/select.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/records/kept.h"
 #include "harness/records/table_reader.h"
 #include "harness/study/handles.h"

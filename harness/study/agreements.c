@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/truth.h"
 
 /* relative, of a value against its own stored discrete value */

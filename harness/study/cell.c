@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/newton/quantity.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 static status copy_left_out(const model *m, cell_result *out, fault *f)
 {

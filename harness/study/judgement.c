@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/model/features.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/agreements.h"
 #include "harness/study/coverage.h"
 #include "harness/study/missed.h"

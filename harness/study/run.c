@@ -3,7 +3,7 @@
 #include <errno.h>
 #include <poll.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/child.h"
 #include "harness/study/interrupt.h"
 #include "harness/study/progress.h"

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/study/child.h"
 #include "harness/study/serialise.h"
 

@@ -10,7 +10,7 @@
 #include "harness/newton/history.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/time/account.h"
 #include "harness/time/balance.h"
 #include "harness/time/checks.h"

@@ -6,7 +6,7 @@
 #include "harness/model/mesh.h"
 #include "harness/model/state.h"
 #include "harness/model/turns.h"
-#include "harness/numerics/memory.h"
+#include "harness/numerics/numerics.h"
 #include "harness/time/damping.h"
 
 static int is_followed(const scene *s, int analysis)

@@ -10,7 +10,7 @@
 
 #include "harness/experiments/merge.h"
 #include "harness/experiments/shard.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 #include "harness/records/test/folder.h"
 
 enum { NUMBERS_BATCHES = 40 };

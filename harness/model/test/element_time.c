@@ -5,7 +5,7 @@
 
 #include "elements/test/chain.h"
 #include "harness/formulations/registry.h"
-#include "harness/numerics/clock.h"
+#include "harness/numerics/numerics.h"
 
 enum { REPEATS = 40, CALLS = 300, TIMED = 4 };
 

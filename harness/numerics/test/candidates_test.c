@@ -4,9 +4,7 @@
 #include <stdlib.h>
 
 #include "elements/math/pi.h"
-#include "harness/numerics/candidates.h"
-#include "harness/numerics/candidates_count.h"
-#include "harness/numerics/lanczos.h"
+#include "harness/numerics/numerics_impl.h"
 #include "harness/numerics/test/eigen_problems.h"
 
 /* What happens when the iteration has found one copy of a repeated eigenvalue: the inertia says so,

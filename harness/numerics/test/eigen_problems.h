@@ -3,7 +3,7 @@
 #define BEAMWORK_TEST_EIGEN_PROBLEMS_H
 
 #include "elements/math/pi.h"
-#include "harness/numerics/eigen.h"
+#include "harness/numerics/numerics.h"
 #include "harness/numerics/test/matrices.h"
 
 /* Several strings side by side that do not touch: unit masses on springs of stiffness

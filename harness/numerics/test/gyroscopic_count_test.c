@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/numerics/gyroscopic_count.h"
+#include "harness/numerics/numerics_impl.h"
 #include "harness/numerics/test/gyroscopic_problem.h"
 
 /* The number of frequencies below one, beside LAPACK's: between all neighbours, below the first and

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/numerics/gyroscopic.h"
+#include "harness/numerics/numerics.h"
 #include "harness/numerics/test/matrices.h"
 
 enum { WANTED = 8 };

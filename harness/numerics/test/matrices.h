@@ -9,7 +9,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"
 #include "elements/test/random.h"
-#include "harness/numerics/sparse.h"
+#include "harness/numerics/numerics.h"
 
 /* Sparse form of A[n x n]: nonzero entries, and the diagonal in any case. */
 static inline sparse matrices_from_dense(int n, int symmetric, const double A[])

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "harness/numerics/team.h"
+#include "harness/numerics/numerics.h"
 
 enum { TEST_TEAM_MOST = 1000 };
 

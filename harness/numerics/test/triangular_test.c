@@ -7,8 +7,7 @@
 
 #include "elements/math/real.h"
 #include "elements/test/random.h"
-#include "harness/numerics/triangular_groups.h"
-#include "harness/numerics/triangular_solve.h"
+#include "harness/numerics/numerics_impl.h"
 
 enum {
     TRIANGULAR_MOST = 90,
