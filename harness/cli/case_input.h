@@ -4,7 +4,7 @@
 
 #include "cases/format/scene_file.h"
 #include "harness/cli/options.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/truths.h"
 
 typedef struct truths_options {

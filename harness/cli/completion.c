@@ -8,10 +8,7 @@
 #include "cases/format/scene_file.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/case_input.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 #include "harness/study/glossary.h"
 #include "harness/study/truths.h"
 

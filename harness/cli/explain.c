@@ -9,7 +9,7 @@
 #include "cases/scene/inputs.h"
 #include "elements/shared/choice.h"
 #include "harness/cli/cli.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/cell.h"
 #include "harness/study/glossary.h"
 #include "harness/terminal/paragraph.h"

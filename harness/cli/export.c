@@ -5,7 +5,7 @@
 
 #include "harness/cli/cli.h"
 #include "harness/exchange/deck.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/output.h"
 #include "harness/study/cell.h"
 

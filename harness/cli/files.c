@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "harness/formulations/words.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/kept.h"
 #include "harness/records/output.h"
 #include "harness/records/output_folder.h"

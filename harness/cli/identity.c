@@ -9,8 +9,7 @@
 
 #include "harness/cli/case_input.h"
 #include "harness/cli/files.h"
-#include "harness/formulations/environment.h"
-#include "harness/formulations/words.h"
+#include "harness/formulations/formulations.h"
 
 static void name_build(char *out, size_t size)
 {

@@ -12,7 +12,6 @@
 #include "harness/experiments/list_subject.h"
 #include "harness/experiments/runs_on.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 #include "harness/records/schema.h"
 #include "harness/study/cell.h"
 #include "harness/terminal/paragraph.h"

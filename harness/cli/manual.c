@@ -7,7 +7,7 @@
 #include <time.h>
 
 #include "cases/format/key_list.h"
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 
 enum { WIDTH = 78 };
 

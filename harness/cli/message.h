@@ -3,7 +3,7 @@
 #define BEAMWORK_MESSAGE_H
 
 #include "elements/shared/status.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 /* At the end of the program: the exit code, or EXIT_FAULT when standard output could not be
  * written. */

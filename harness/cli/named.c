@@ -4,10 +4,7 @@
 
 #include "harness/cli/message.h"
 #include "harness/experiments/solution.h"
-#include "harness/formulations/formulation_list.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/plugin.h"
-#include "harness/formulations/process.h"
 #include "harness/study/data_place.h"
 
 static status add(chosen_formulations *o, const char *text, fault *f)

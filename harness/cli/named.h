@@ -5,7 +5,7 @@
 
 #include "harness/cli/case_input.h"
 #include "harness/experiments/solution.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };
 

@@ -9,7 +9,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/files.h"
 #include "harness/cli/message.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/warping_ends.h"
 #include "harness/study/cell.h"
 #include "harness/study/scene_truths.h"

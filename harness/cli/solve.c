@@ -8,7 +8,7 @@
 #include "harness/cli/message.h"
 #include "harness/cli/named.h"
 #include "harness/experiments/restart.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/csv.h"
 #include "harness/records/follow_record.h"
 #include "harness/records/json.h"

@@ -7,7 +7,7 @@
 #include "harness/cli/command.h"
 #include "harness/experiments/merge.h"
 #include "harness/experiments/shard.h"
-#include "harness/formulations/words.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/output.h"
 
 static void begin(void *group, command_line *l)

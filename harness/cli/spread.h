@@ -4,7 +4,7 @@
 
 #include "harness/cli/options.h"
 #include "harness/experiments/work.h"
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/sweep.h"
 
 /* How it ended. */

@@ -5,7 +5,7 @@
 
 #include "elements/shared/choice.h"
 #include "harness/cli/manual.h"
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/terminal/paragraph.h"
 
 static const verb look = {.name = "look"};

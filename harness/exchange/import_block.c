@@ -8,7 +8,7 @@
 #include "elements/shared/choice.h"
 #include "harness/exchange/conversion.h"
 #include "harness/exchange/import_cells.h"
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 
 static const scene *scene_of(const import_block *b)

@@ -10,8 +10,7 @@
 #include "harness/analysis/solve.h"
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
-#include "harness/formulations/chart.h"
-#include "harness/formulations/stencil.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 
 enum { SIX = 6, END = 1 };

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/shared/number.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 
 enum { TEXT = 128 };
 

@@ -5,7 +5,7 @@
 
 #include "cases/scene/scene.h"
 #include "harness/experiments/measures.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
 

@@ -1,7 +1,6 @@
 #include "harness/experiments/bench.h"
 
 #include "harness/experiments/timing.h"
-#include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
 #include "harness/records/csv.h"
 #include "harness/study/plan.h"

@@ -1,7 +1,7 @@
 #include "harness/experiments/certificate_record.h"
 
 #include "harness/experiments/certificate_text.h"
-#include "harness/formulations/adapters.h"
+#include "harness/formulations/formulations.h"
 
 /* Records are part of a certificate; the index counts its parts. */
 static const certificate *certificate_of(const subject *s)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/adapters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/terminal/paragraph.h"
 
 enum { NAME = 14, INDENT = 18, MEASURE = 36, COLUMN = 8 };

@@ -5,8 +5,7 @@
 
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
-#include "harness/formulations/chart.h"
-#include "harness/formulations/stencil.h"
+#include "harness/formulations/formulations.h"
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 

@@ -6,7 +6,7 @@
 
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
-#include "harness/formulations/stencil.h"
+#include "harness/formulations/formulations.h"
 
 enum { ENERGY_M = SPECIMEN_STRAINS };
 

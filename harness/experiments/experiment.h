@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/gather.h"
 
 typedef struct experiment_cells {

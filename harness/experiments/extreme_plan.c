@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 

@@ -5,8 +5,7 @@
 
 #include "harness/experiments/checks.h"
 #include "harness/experiments/effects.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 

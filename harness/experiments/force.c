@@ -6,8 +6,7 @@
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
 #include "harness/formulations/adapted.h"
-#include "harness/formulations/chart.h"
-#include "harness/formulations/stencil.h"
+#include "harness/formulations/formulations.h"
 
 enum { N = SPECIMEN_COORDINATES };
 

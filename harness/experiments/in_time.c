@@ -9,8 +9,7 @@
 #include "elements/math/rotation.h"
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
-#include "harness/formulations/chart.h"
-#include "harness/formulations/stencil.h"
+#include "harness/formulations/formulations.h"
 
 enum { N = SPECIMEN_COORDINATES };
 

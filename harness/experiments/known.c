@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/format/write.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/features.h"
 #include "harness/study/derive.h"
 #include "harness/study/scene_truths.h"

@@ -8,8 +8,6 @@
 #include "elements/shared/choice.h"
 #include "harness/experiments/runs_on.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
 #include "harness/records/json.h"
 #include "harness/records/json_record.h"
 #include "harness/study/cell.h"

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/rules.h"
 
 /* Of all cases, and of all formulations with the physics that they can offer: 1: wanted. */

@@ -5,7 +5,6 @@
 
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 
 /* All names that may be asked about, one after the other. */
 static const char *name_at(const void *context, int i)

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_LIST_SUBJECT_H
 #define BEAMWORK_LIST_SUBJECT_H
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 typedef struct list_subject {
     int cases, formulations; /* 1: all of them */

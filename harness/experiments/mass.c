@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
-#include "harness/formulations/chart.h"
+#include "harness/formulations/formulations.h"
 
 enum { MASS_N = SPECIMEN_COORDINATES };
 

@@ -4,7 +4,7 @@
 
 #include "harness/experiments/claims.h"
 #include "harness/experiments/measures.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 typedef void measured_run(const formulation *chosen, claims *, measures *out);
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 
 /* A function without arguments that returns a text, of a library that may be another one. */
 static const char *answer_of(const char *name)

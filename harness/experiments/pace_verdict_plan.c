@@ -4,7 +4,7 @@
 #include "elements/shared/number.h"
 #include "harness/experiments/pace_plan.h"
 #include "harness/experiments/pace_verdict.h"
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 
 static const char head[] =
     "judged,case,parameters,formulation,elements,integrator,steps,expected,why";

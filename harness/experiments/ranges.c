@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/experiments/survey.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 
 static const double batch_cost = 0.5; /* [s] */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };

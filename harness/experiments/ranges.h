@@ -7,7 +7,7 @@
 #include "cases/scene/omission.h"
 #include "harness/experiments/design.h"
 #include "harness/experiments/rows.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/sweep.h"
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/formulations/assignment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 
 void ranges_csv_head(FILE *to, const parameter_ranges *r)

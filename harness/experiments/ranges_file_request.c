@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "harness/experiments/ranges_file_impl.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/kept.h"
 #include "harness/records/store.h"
 #include "harness/study/price.h"

@@ -1,6 +1,6 @@
 #include "harness/experiments/ranges_identity.h"
 
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 
 static void add_count(digest *plan, long count)
 {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/formulations/assignment.h"
+#include "harness/formulations/formulations.h"
 
 void ranges_points_values(const parameter_ranges *r, const double at[],
                           double value[CASE_MAX_PARAMETERS])

@@ -7,8 +7,6 @@
 
 #include "harness/experiments/ranges_table_impl.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/words.h"
 #include "harness/model/missing.h"
 #include "harness/terminal/paragraph.h"
 

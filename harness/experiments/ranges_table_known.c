@@ -3,7 +3,7 @@
 
 #include "harness/experiments/ranges_points.h"
 #include "harness/experiments/ranges_table_impl.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/cell.h"
 #include "harness/terminal/paragraph.h"
 

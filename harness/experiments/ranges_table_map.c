@@ -1,5 +1,5 @@
 #include "harness/experiments/ranges_table_impl.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/terminal/paragraph.h"
 
 /* Errors against truths beside such against limits: only the first show what a theory leaves out.

@@ -7,8 +7,7 @@
 #include "elements/math/dense.h"
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
-#include "harness/formulations/chart.h"
-#include "harness/formulations/stencil.h"
+#include "harness/formulations/formulations.h"
 
 enum { N = SPECIMEN_COORDINATES };
 

@@ -1,7 +1,6 @@
 #include "harness/experiments/runs_on.h"
 
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 #include "harness/study/cell.h"
 #include "harness/study/omission.h"

@@ -8,8 +8,7 @@
 #include "elements/math/arc.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/chart.h"
+#include "harness/formulations/formulations.h"
 
 enum { SETTLING = 30 };
 

@@ -4,7 +4,7 @@
 #define BEAMWORK_SPECIMEN_H
 
 #include "harness/experiments/profiles.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 enum {
     SPECIMEN_STRAINS = ELEMENT_MAX_STRAINS,

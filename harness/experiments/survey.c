@@ -8,7 +8,6 @@
 #include "elements/shared/choice.h"
 #include "harness/experiments/ranges_points.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/parameters.h"
 #include "harness/records/assumptions.h"
 #include "harness/study/expense.h"
 #include "harness/study/plan.h"

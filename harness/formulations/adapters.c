@@ -1,9 +1,8 @@
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/adapted.h"
+#include "harness/formulations/formulations_impl.h"
 
 #include <string.h>
 
-#include "harness/formulations/places.h"
+#include "harness/formulations/adapted.h"
 
 static size_t data_size(const element_request *request)
 {

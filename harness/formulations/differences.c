@@ -1,10 +1,187 @@
-/* Derivatives of strains by central differences of sixth order in the rotation chart. */
+#include "harness/formulations/formulations_impl.h"
+
+#include <stdlib.h>
 #include <string.h>
 
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
-#include "harness/formulations/chart.h"
-#include "harness/formulations/gather.h"
-#include "harness/formulations/stencil.h"
+
+/* out += weight (f at the place). */
+static int add(stencil_function *f, const void *context, int count, int i, double si, int j,
+               double sj, double weight, double out[])
+{
+    double values[STENCIL_MOST];
+    const int outcome = f(context, i, si, j, sj, values);
+    for (int k = 0; k < count && outcome == 0; k++)
+        out[k] += weight * values[k];
+    return outcome;
+}
+
+int stencil_first(stencil_function *f, const void *context, int count, int i, double out[])
+{
+    static const double weight[] = {45. / 60, -9. / 60, 1. / 60};
+    int outcome = 0;
+    memset(out, 0, (size_t)count * sizeof *out);
+    for (int k = 0; k < 3 && outcome == 0; k++) {
+        const double h = (k + 1) * stencil_first_step, w = weight[k] / stencil_first_step;
+        outcome = add(f, context, count, i, h, i, 0, w, out);
+        if (outcome == 0)
+            outcome = add(f, context, count, i, -h, i, 0, -w, out);
+    }
+    return outcome;
+}
+
+int stencil_second(stencil_function *f, const void *context, int count, int i, int j, double out[])
+{
+    /* of differences with steps h, 2 h and 3 h, whose errors go with even powers of h */
+    static const double weight[] = {3. / 2, -3. / 5, 1. / 10};
+    int outcome = 0;
+    memset(out, 0, (size_t)count * sizeof *out);
+    for (int k = 0; k < 3; k++)
+        for (int sign = 0; sign < 4 && outcome == 0; sign++) {
+            const double h = (k + 1) * stencil_second_step / (i == j ? 2 : 1);
+            const double si = sign & 1 ? -h : h, sj = sign & 2 ? -h : h;
+            const double w = weight[k] / (4 * h * h) * (si * sj > 0 ? 1 : -1);
+            outcome = add(f, context, count, i, si, j, sj, w, out);
+        }
+    return outcome;
+}
+
+void chart_move(const node_state x[], int nodes, const double step[], node_state out[])
+{
+    memcpy(out, x, (size_t)nodes * sizeof *x);
+    for (int k = 0; k < nodes; k++, step += NODE_COORDINATES) {
+        for (int i = 0; i < 3; i++) {
+            out[k].r[i] += step[i];
+            out[k].u[i] += step[i];
+        }
+        if (step[3] != 0 || step[4] != 0 || step[5] != 0) {
+            double q[4], turn[9];
+            rotation_exp(step + 3, q);
+            rotation_matrix(q, turn);
+            mat3_mul(turn, x[k].R, out[k].R);
+        }
+        out[k].a += step[6];
+    }
+}
+
+double chart_unit(int c, double length)
+{
+    c %= NODE_COORDINATES;
+    if (c < 3)
+        return length;
+    return c < 6 ? 1 : 1 / length;
+}
+
+/* 1 + a psi~ + b psi~^2. */
+static void quadratic(const double psi[3], double a, double b, double T[9])
+{
+    const double p[9] = {0, -psi[2], psi[1], psi[2], 0, -psi[0], -psi[1], psi[0], 0};
+    double square[9];
+    mat3_mul(p, p, square);
+    for (int i = 0; i < 9; i++)
+        T[i] = (i % 4 == 0) + a * p[i] + b * square[i];
+}
+
+void chart_dexp(const double psi[3], double T[9])
+{
+    const double t = vec3_norm(psi), half = sin(t / 2);
+    if (t < 1e-2) /* the next terms are below 1e-16 */
+        quadratic(psi, 1. / 2 - t * t / 24 + t * t * t * t / 720,
+                  1. / 6 - t * t / 120 + t * t * t * t / 5040, T);
+    else
+        quadratic(psi, 2 * half * half / (t * t), (t - sin(t)) / (t * t * t), T);
+}
+
+void chart_dexp_inverse(const double psi[3], double T[9])
+{
+    const double t = vec3_norm(psi);
+    if (t < 1e-1) /* the next term is below 1e-16 */
+        quadratic(psi, -1. / 2,
+                  1. / 12 + t * t / 720 + t * t * t * t / 30240 + t * t * t * t * t * t / 1209600,
+                  T);
+    else
+        quadratic(psi, -1. / 2, (1 - t / 2 / tan(t / 2)) / (t * t), T);
+}
+
+enum { ENOUGH = 1 << 24 }; /* bytes of answers, from which on no further element is added */
+
+static int make_room(gather *g)
+{
+    const int room = g->room > 0 ? 2 * g->room : 256;
+    const size_t count = (size_t)room, nodes = (size_t)g->nodes;
+    const element_data **data = realloc(g->data, count * sizeof(void *));
+    if (data == NULL)
+        return 0;
+    g->data = data;
+    node_state *x = realloc(g->x, count * nodes * sizeof *x);
+    if (x == NULL)
+        return 0;
+    g->x = x;
+    double *answer = realloc(g->answer, count * g->size * sizeof *answer);
+    if (answer == NULL)
+        return 0;
+    g->answer = answer;
+    g->room = room;
+    return 1;
+}
+
+const double *gather_next(gather *g, const element_data *own, const node_state x[])
+{
+    if (g->answered)
+        return g->answer + (size_t)g->next++ * g->size;
+    if (g->failed || (g->count == g->room && !make_room(g))) {
+        g->failed = 1;
+        return NULL;
+    }
+    g->data[g->count] = own;
+    memcpy(g->x + (size_t)g->count * (size_t)g->nodes, x, (size_t)g->nodes * sizeof *x);
+    g->count++;
+    return NULL;
+}
+
+static int is_full(const gather *g)
+{
+    return g->failed || (size_t)g->count * g->size * sizeof *g->answer > ENOUGH;
+}
+
+/* start[i]: the first state of element i; one that fails does not take all of its own. */
+static void hand_out(gather *g, const int start[], int first, int end, gather_element *element,
+                     gather_evaluate *evaluate, void *context)
+{
+    for (int k = 0; k < g->count && !g->failed; k += GATHER_TOGETHER)
+        evaluate(context, g, k, g->count - k < GATHER_TOGETHER ? g->count - k : GATHER_TOGETHER);
+    g->answered = 1;
+    for (int i = first; i < end; i++) {
+        g->next = start[i];
+        element(context, g->failed ? NULL : g, i);
+    }
+    g->answered = g->count = g->failed = 0;
+}
+
+void gather_run(int count, int nodes, size_t size, gather_element *element,
+                gather_evaluate *evaluate, void *context)
+{
+    gather g = {.nodes = nodes, .size = size};
+    int first = 0, *start = malloc((size_t)count * sizeof *start);
+    for (int i = 0; i < count && start == NULL; i++)
+        element(context, NULL, i);
+    for (int i = 0; i < count && start != NULL; i++) {
+        start[i] = g.count;
+        element(context, &g, i);
+        if (i + 1 < count && !is_full(&g))
+            continue;
+        hand_out(&g, start, first, i + 1, element, evaluate, context);
+        first = i + 1;
+    }
+    free(start);
+    free(g.data);
+    free(g.x);
+    free(g.answer);
+}
+
+/* Derivatives of strains by central differences of sixth order in the rotation chart. */
 
 /* Where differences are taken. */
 typedef struct difference_place {

@@ -1,4 +1,4 @@
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 
 #include <gsl/gsl_version.h>
 #include <hdf5.h>

@@ -1,13 +1,12 @@
 /* Stresses of an element that is known by its force, or by its energy: the derivative of the energy
- * by the places of its nodes (places.h), at the element whose first node rests. */
+ * by the places of its nodes (formulations_impl.h), at the element whose first node rests. */
+#include "harness/formulations/formulations_impl.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "harness/formulations/adapted.h"
-#include "harness/formulations/forces.h"
-#include "harness/formulations/places.h"
-#include "harness/formulations/stencil.h"
 
 /* Where differences of energies and forces are taken. */
 typedef struct relative_place {

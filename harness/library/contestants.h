@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_CONTESTANTS_H
 #define BEAMWORK_CONTESTANTS_H
 
-#include "harness/formulations/formulation_list.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/sweep.h"
 
 enum { CONTESTANTS_MOST = 64 };

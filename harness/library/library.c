@@ -2,9 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/environment.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/plugin.h"
 #include "harness/library/call.h"
 #include "harness/library/known.h"
 

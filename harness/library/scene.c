@@ -3,8 +3,7 @@
 
 #include "cases/format/write.h"
 #include "harness/experiments/list_json.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/library/call.h"
 #include "harness/library/source.h"
 #include "harness/library/text.h"

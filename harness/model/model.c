@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "cases/scene/names.h"
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/process.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/discrete.h"
 #include "harness/model/features.h"
 #include "harness/model/kinematics.h"

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_RESULT_H
 #define BEAMWORK_RESULT_H
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/newton/outcome.h"
 #include "harness/newton/run_state.h"
 #include "harness/newton/shapes.h"

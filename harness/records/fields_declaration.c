@@ -3,10 +3,7 @@
 #include <string.h>
 
 #include "elements/feature.h"
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/formulation.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/process.h"
 #include "harness/records/fields_keys.h"
 
 static const element_type *type_of(const subject *s)

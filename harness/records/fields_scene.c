@@ -6,7 +6,7 @@
 
 #include "cases/format/meaning.h"
 #include "cases/scene/names.h"
-#include "harness/formulations/assignment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/assumptions.h"
 #include "harness/records/fields_keys.h"
 

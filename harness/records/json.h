@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/judgement.h"
 
 /* Writes and frees root; FAULT when it is NULL (out of memory) or cannot be written. */

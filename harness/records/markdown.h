@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/overview.h"
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,

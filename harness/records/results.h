@@ -71,7 +71,7 @@ typedef struct result_series {
 
 /* What a run says it was asked for: what lies outside was left out, not lost. NULL: all. */
 typedef struct results_part {
-    char *select;               /* expression of harness/formulations/select.h */
+    char *select;               /* expression of harness/formulations/formulations.h */
     char *cases, *formulations; /* a line each */
     char *fresh;                /* formulations that do not gate yet, a line each; NULL: none */
 } results_part;

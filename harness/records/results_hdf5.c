@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/select.h"
+#include "harness/formulations/formulations.h"
 
 #include "harness/records/kept.h"
 #include "harness/records/results_case.h"

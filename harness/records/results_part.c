@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/select.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/results.h"
 
 enum { NAME = 2048 };

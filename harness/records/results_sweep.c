@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/assignment.h"
-#include "harness/formulations/select.h"
+#include "harness/formulations/formulations.h"
 #include "harness/numerics/numerics.h"
 #include "harness/records/kept.h"
 #include "harness/records/table_reader.h"

@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_STORE_H
 #define BEAMWORK_STORE_H
 
-#include "harness/formulations/environment.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/record.h"
 #include "harness/study/judgement.h"
 

@@ -5,7 +5,7 @@
 #include "cases/case.h"
 #include "cases/scene/edit.h"
 #include "harness/analysis/solve.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 typedef struct cell_request {
     const scene *scene; /* valid, and shared by all cells of a point; NULL: to be built from ... */

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_IMPORTED_H
 #define BEAMWORK_IMPORTED_H
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 

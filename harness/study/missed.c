@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 #include "harness/study/truth.h"
 
 static int is_run(const sweep *s, const case_type *type, const element_type *element)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "elements/shared/choice.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 
 /* Which are kept: of the point's quantities and of the series. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/formulations/adapters.h"
+#include "harness/formulations/formulations.h"
 
 /* the larger of two differences, twice: the standard deviation or more, nineteen times of twenty */
 static const double cover = 2;

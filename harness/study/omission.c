@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 #include "harness/study/cell.h"

@@ -8,7 +8,6 @@
 #include "cases/format/line.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 #include "harness/study/own_names.h"
 #include "harness/study/own_table.h"
 #include "harness/study/proposal.h"

@@ -5,7 +5,6 @@
 #include "cases/format/mistakes.h"
 #include "elements/shared/choice.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 
 static int is_among(const case_type *const list[], const case_type *type)
 {

@@ -7,7 +7,7 @@
 
 #include "cases/format/line.h"
 #include "elements/shared/choice.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/own_names.h"
 #include "harness/study/own_table.h"
 #include "harness/study/truth_index.h"

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/process.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/price.h"
 
 const double reach_level[REACH_LEVELS] = {0.1, 0.01, 0.001, 0.0001};

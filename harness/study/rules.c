@@ -8,8 +8,7 @@
 
 #include "elements/feature.h"
 #include "elements/shared/choice.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/study/columns.h"
 

@@ -5,8 +5,7 @@
 
 #include <stdio.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/select.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/cell.h"
 #include "harness/study/imported.h"
 #include "harness/study/omission.h"

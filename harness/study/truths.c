@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/accepted.h"
 #include "harness/study/columns.h"
 #include "harness/study/truth_index.h"

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "cases/case.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/rules.h"
 
 enum { TRUTHS_VERSION = 3 };

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cases/scene/omission.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/division_words.h"
 #include "harness/model/features.h"
 #include "harness/records/assumptions.h"

@@ -7,7 +7,6 @@
 
 #include "cases/format/scene_file.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/words.h"
 #include "harness/study/rounding.h"
 #include "harness/study/sentence.h"
 #include "harness/terminal/paragraph.h"

@@ -16,7 +16,7 @@ done
 mkdir -p "$(dirname "$out")"
 {
     echo '/* Generated from the files in elements/ and cases/. */'
-    echo '#include "harness/formulations/registry.h"'
+    echo '#include "harness/formulations/formulations.h"'
     echo '#include <stddef.h>'
     for n in $formulations; do echo "extern const element_type element_$n;"; done
     for n in $cases; do echo "extern const case_type case_$n;"; done

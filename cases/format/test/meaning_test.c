@@ -8,7 +8,7 @@
 #include "cases/format/meaning.h"
 #include "cases/format/scene_file.h"
 #include "cases/format/write.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };

@@ -7,7 +7,7 @@
 #include "cases/format/scene_file.h"
 #include "cases/format/test/same_scene.h"
 #include "cases/scene/names.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

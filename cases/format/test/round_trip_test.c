@@ -8,7 +8,7 @@
 #include "cases/format/test/same_scene.h"
 #include "cases/format/write.h"
 #include "cases/scene/unit.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 
 static char *written(const scene *s, const case_type *type, size_t *size)

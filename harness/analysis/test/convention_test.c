@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/rotation.h"
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 /* Last station's matrices of a sheet case with collocation elements. */

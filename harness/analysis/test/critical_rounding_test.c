@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "harness/analysis/test/bar.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 /* States in which one element, or none, can buckle: whatever there is of a load must not be
  * rounding. */

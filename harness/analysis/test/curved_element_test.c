@@ -14,8 +14,7 @@
 #include "elements/test/random.h"
 #include "elements/test/sections.h"
 #include "elements/test/worst.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 enum { STRAINS = ELEMENT_MAX_STRAINS, INNER = 64, MEMORY = 4096, ARCS = 60, ELEMENT_POINTS = 32 };
 

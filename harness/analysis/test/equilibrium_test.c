@@ -7,8 +7,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 #include "harness/tools/kit/scenes.h"
 

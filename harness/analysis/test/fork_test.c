@@ -7,7 +7,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 
 enum {

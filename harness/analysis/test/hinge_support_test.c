@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/scenes.h"
 
 #define SPRINGS "harness/analysis/test/springs.yaml"

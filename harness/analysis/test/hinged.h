@@ -6,7 +6,7 @@
 #include <gsl/gsl_test.h>
 
 #include "elements/test/sections.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/cell.h"
 #include "harness/tools/kit/cells.h"
 

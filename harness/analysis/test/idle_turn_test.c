@@ -8,7 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 
 enum { PLANE = 1, BALL = 2 };

@@ -11,7 +11,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/analysis/test/posed.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 static double apart(const answer *a, const answer *b)
 {

@@ -9,9 +9,7 @@
 #include <string.h>
 
 #include "elements/test/worst.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/analysis/solve.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 #include "harness/tools/kit/accepted.h"
 

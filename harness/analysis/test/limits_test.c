@@ -3,10 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 
 /* Asks a case on a mesh; 1: answered. */

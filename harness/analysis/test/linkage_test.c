@@ -10,7 +10,7 @@
 #include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 #include "harness/analysis/test/hinged.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 enum { STATIONS = 5, BARS = 3 };
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

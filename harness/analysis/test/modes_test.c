@@ -7,7 +7,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/math/rotation.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/mesh.h"
 #include "harness/model/state.h"
 #include "harness/newton/modes.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 static void prediction_solve(const char *const assignment[], cell_result *out)

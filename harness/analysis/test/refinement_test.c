@@ -6,9 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/newton/refinement.h"
 #include "harness/tools/kit/accepted.h"
 #include "harness/tools/kit/ask.h"

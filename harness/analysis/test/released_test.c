@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 
 static const double young = 2e11, side = 0.02, length = 1;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "harness/analysis/test/moves.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"

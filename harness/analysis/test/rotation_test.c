@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "cases/case.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 static status run(const case_type *type, const char *chosen, int n, const char *const assignment[],

@@ -7,10 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/test/sections.h"
 #include "harness/analysis/test/moves.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/supports.h"
 #include "harness/tools/kit/cells.h"
 

@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 static double solve_value_of(const char *case_name, const char *formulation_text, int n,

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/test/sections.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/scenes.h"
 

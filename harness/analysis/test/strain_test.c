@@ -8,7 +8,7 @@
 
 #include "elements/math/pi.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 #include "harness/tools/kit/scenes.h"
 

@@ -6,9 +6,7 @@
 
 #include "cases/scene/scene.h"
 #include "harness/analysis/solve.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 
 enum { THREADS = 2, ROUNDS = 3 };

@@ -3,7 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 enum { STATIONS = 15 };

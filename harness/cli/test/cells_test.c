@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/cli/cells.h"
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 #include "harness/study/rounds.h"
 #include "harness/study/run.h"

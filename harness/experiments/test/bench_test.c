@@ -7,8 +7,7 @@
 
 #include "harness/experiments/against.h"
 #include "harness/experiments/timing.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/reach.h"
 #include "harness/study/rounds.h"
 #include "harness/tools/kit/cells.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/experiments/checks.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 static void tell(const char *key, const checks_family *family, const claims *c)
 {

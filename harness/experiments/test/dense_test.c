@@ -4,8 +4,7 @@
 #include <math.h>
 
 #include "harness/experiments/timing.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/newton/uncondensed.h"
 #include "harness/tools/kit/cells.h"
 

@@ -6,7 +6,7 @@
 
 #include "harness/experiments/extreme_judge.h"
 #include "harness/experiments/extreme_sweep.h"
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;

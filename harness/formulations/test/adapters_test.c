@@ -9,9 +9,7 @@
 #include "elements/test/nodes.h"
 #include "elements/test/random.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 enum { M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };
 

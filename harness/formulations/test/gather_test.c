@@ -8,9 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/test/nodes.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/adapters.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 

@@ -7,11 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/formulations/case_find.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/plugin.h"
-#include "harness/formulations/process.h"
-#include "harness/formulations/registry.h"
 #include "harness/tools/kit/cells.h"
 
 enum { KINDS = 65536, M = ELEMENT_MAX_STRAINS, N = ELEMENT_MAX_COORDINATES };

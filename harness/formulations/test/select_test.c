@@ -1,6 +1,6 @@
 /* Selections: random expressions against their own value, with and without brackets that change
  * nothing; words that name nothing. */
-#include "harness/formulations/select.h"
+#include "harness/formulations/formulations.h"
 
 #include <gsl/gsl_test.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/tools/kit/scenes.h"
 

@@ -4,7 +4,7 @@
 
 #include <gsl/gsl_test.h>
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 
 /* attached: 1: a node on a rigid arm at the tip; 0: the test has failed. */

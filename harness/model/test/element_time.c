@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "elements/test/chain.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/numerics/numerics.h"
 
 enum { REPEATS = 40, CALLS = 300, TIMED = 4 };

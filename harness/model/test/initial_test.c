@@ -7,7 +7,7 @@
 
 #include "elements/test/sections.h"
 #include "harness/analysis/solve.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 
 static const char *const names[] = {

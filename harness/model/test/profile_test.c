@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/section/taper.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/model_impl.h"
 
 enum { PROFILE_ELEMENTS = 5 };

@@ -6,9 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/cell.h"
 #include "harness/tools/kit/ask.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/model.h"
 #include "harness/model/supports.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/analysis/solve.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/linearise.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",

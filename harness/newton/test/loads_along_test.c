@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/rotating_frame.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/test/sections.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"

@@ -4,7 +4,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/analysis/solve.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 /* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the
  * body. */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/advance.h"

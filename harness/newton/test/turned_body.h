@@ -10,7 +10,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 
 enum { LINE = 512 };
 

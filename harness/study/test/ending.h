@@ -5,8 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 
 enum { KILLED, ENDED, HANGING, STOPPED };

@@ -10,8 +10,7 @@
 #include <unistd.h>
 
 #include "cases/format/scene_file.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/store.h"
 #include "harness/study/plan.h"
 #include "harness/study/scene_truths.h"

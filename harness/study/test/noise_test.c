@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/noise.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"

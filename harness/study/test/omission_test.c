@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/features.h"
 #include "harness/study/cell.h"
 #include "harness/study/expense.h"

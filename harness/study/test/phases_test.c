@@ -3,7 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <time.h>
 
-#include "harness/formulations/case_find.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
 static const element_type *sleepy_type;

@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 
 enum { ROWS = 4, OWN_MESH = 37 };

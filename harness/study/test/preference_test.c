@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 #include "harness/model/features.h"
 #include "harness/model/missing.h"
 

@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/price.h"
 
 static const price_row rows[] = {

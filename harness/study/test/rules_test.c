@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/test/truths_file.h"
 #include "harness/study/truths.h"
 

@@ -7,8 +7,7 @@
 #include <unistd.h>
 
 #include "elements/test/random.h"
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"
 #include "harness/study/truth.h"

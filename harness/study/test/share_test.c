@@ -3,8 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/plan.h"
 #include "harness/study/run.h"
 #include "harness/study/test/same_cell.h"

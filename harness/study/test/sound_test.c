@@ -6,9 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "harness/formulations/case_find.h"
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/sound.h"
 
 enum { STEPS = 3, ELEMENTS = 5 };

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "elements/test/random.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/truth_index.h"
 
 enum { ROWS = 500, CASES = 3, NAMES = 4 };

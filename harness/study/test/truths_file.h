@@ -10,8 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/study/checksum.h"
 #include "harness/study/truths.h"
 

@@ -9,7 +9,6 @@
 
 #include "elements/test/random.h"
 #include "harness/formulations/formulations.h"
-#include "harness/formulations/registry.h"
 #include "harness/study/test/truths_file.h"
 #include "harness/study/truth.h"
 #include "harness/study/truths.h"

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/time/account.h"
 #include "harness/tools/kit/scenes.h"
 

@@ -4,7 +4,7 @@
  * does not go with it is refused by name. */
 #include <math.h>
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"
 

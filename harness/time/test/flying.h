@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/mesh.h"
 #include "harness/model/state.h"
 #include "harness/newton/history.h"

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "elements/test/sections.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"
 #include "harness/time/test/flight.h"

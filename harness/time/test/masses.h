@@ -11,7 +11,7 @@
 
 #include "elements/math/vec3.h"
 #include "elements/test/random.h"
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"
 #include "harness/model/state.h"

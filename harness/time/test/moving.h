@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/kit/ask.h"
 
 enum { MOVING_STATIONS = 20 };

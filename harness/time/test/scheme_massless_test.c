@@ -7,7 +7,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 
 enum { MASSLESS_MOST = 80 };
 

@@ -3,7 +3,7 @@
  * for every formulation, about any axis, up to 3 rad a step. */
 #include <stdio.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/assemble.h"
 #include "harness/model/kinematics.h"
 #include "harness/model/mesh.h"

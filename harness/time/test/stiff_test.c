@@ -3,8 +3,7 @@
 #include "harness/analysis/solve.h"
 #include <math.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/state.h"
 #include "harness/time/test/moving.h"
 

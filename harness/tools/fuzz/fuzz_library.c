@@ -3,7 +3,7 @@
  * that is JSON; what is made is JSON, or a scene that reads back; both are UTF-8. */
 #include <jansson.h>
 
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/library/beamwork.h"
 #include "harness/tools/fuzz/fuzz.h"
 

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/formulations/parameters.h"
-#include "harness/formulations/registry.h"
+#include "harness/formulations/formulations.h"
 #include "harness/tools/fuzz/fuzz.h"
 
 static void build(const case_type *type, const double value[])

@@ -1,6 +1,6 @@
 /* Any bytes as the words of the command line that have a grammar: formulation with options,
  * selection, thresholds. */
-#include "harness/formulations/formulation.h"
+#include "harness/formulations/formulations.h"
 #include "harness/records/comparison.h"
 #include "harness/study/sweep.h"
 #include "harness/tools/fuzz/fuzz.h"

@@ -6,8 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/formulations/formulation.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 #include "harness/model/missing.h"
 #include "harness/study/cell.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 
 cell_request cells_of(const case_type *type, const char *formulation_text, int elements)
 {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cases/format/scene_file.h"
-#include "harness/formulations/parameters.h"
+#include "harness/formulations/formulations.h"
 
 const char *const scenes_integrator[] = {"alpha", "conserving", "radau", "explicit"};
 
