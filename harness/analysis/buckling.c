@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "cases/scene/along_path.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/linear.h"
 #include "harness/newton/linear_system.h"

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/model/centreline.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/linear.h"
 

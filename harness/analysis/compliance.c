@@ -7,9 +7,7 @@
 #include <string.h>
 
 #include "harness/analysis/extract_path.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/convention.h"
 #include "harness/newton/linear.h"

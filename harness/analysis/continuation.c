@@ -8,8 +8,7 @@
 
 #include "harness/analysis/continuation_impl.h"
 #include "harness/analysis/extract_path.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"
 #include "harness/newton/newton.h"

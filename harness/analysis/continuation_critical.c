@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "harness/analysis/continuation_impl.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/history.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };

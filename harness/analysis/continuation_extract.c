@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/quantity.h"
 

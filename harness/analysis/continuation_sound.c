@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "harness/analysis/continuation_impl.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/history.h"
 
 /* Between a tangent and the secant, in the metric [rad]: what the tangent misses of a step, as part

@@ -10,7 +10,7 @@
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/extract_section.h"
 #include "harness/analysis/extract_spectrum.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/quantity.h"
 
 static const char *const no_frequency = "the mesh has no mode of this kind that is distinguishable "

@@ -4,8 +4,7 @@
 #include <stdio.h>
 
 #include "elements/math/pi.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/turns.h"
+#include "harness/model/model.h"
 #include "harness/newton/modes.h"
 #include "harness/newton/quantity.h"
 #include "harness/time/reading.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/linear.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"

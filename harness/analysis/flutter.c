@@ -4,8 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/rotating_frame.h"
 #include "harness/time/damping.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "harness/analysis/flutter_left.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 
 enum { MOTIONS = 8 };                  /* least ones that are looked at */

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/analysis/flutter.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/history.h"
 
 enum { PARTS = 6 };

@@ -10,8 +10,7 @@
 
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/static.h"
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"
 #include "harness/newton/linearise.h"

@@ -10,7 +10,7 @@
 #include "harness/analysis/compliance_walk.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/flutter_within.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"
 #include "harness/newton/newton.h"

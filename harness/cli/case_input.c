@@ -9,7 +9,7 @@
 #include "harness/cli/command.h"
 #include "harness/cli/message.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/study/cell.h"
 #include "harness/study/data_place.h"
 #include "harness/study/own_findings.h"

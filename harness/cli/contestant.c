@@ -9,7 +9,7 @@
 
 #include "harness/cli/command.h"
 #include "harness/experiments/timing.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
 #include "harness/study/reach.h"
 #include "harness/terminal/paragraph.h"

@@ -10,7 +10,7 @@
 #include "harness/cli/files.h"
 #include "harness/cli/message.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/warping_ends.h"
+#include "harness/model/model.h"
 #include "harness/study/cell.h"
 #include "harness/study/scene_truths.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/cell.h"
 
 /* An I of depth 0.1 m and flanges of 0.06 m. */

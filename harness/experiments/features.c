@@ -6,8 +6,7 @@
 #include "harness/experiments/checks.h"
 #include "harness/experiments/effects.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 

@@ -6,7 +6,7 @@
 
 #include "cases/format/write.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/study/derive.h"
 #include "harness/study/scene_truths.h"
 #include "harness/study/truth.h"

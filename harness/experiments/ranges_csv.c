@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 
 void ranges_csv_head(FILE *to, const parameter_ranges *r)
 {

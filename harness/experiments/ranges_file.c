@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/experiments/ranges_file_impl.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/records/kept.h"
 
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };

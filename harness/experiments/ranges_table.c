@@ -7,7 +7,7 @@
 
 #include "harness/experiments/ranges_table_impl.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/terminal/paragraph.h"
 
 enum { SHOWN_MESHES = 7 };

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/study/verdict.h"
 
 enum { MOST = 64 };

@@ -40,7 +40,7 @@ typedef struct rows {
     double *reference, *doubt; /* [points, quantities] value and relative uncertainty; NAN */
     double *value, *error;     /* [points, formulations, meshes, quantities]; error relative; NAN */
     double *cost, *seconds;    /* [points, formulations, meshes] s: counted work, measured */
-    int32_t *lacks;  /* [points, formulations] bits of missing.h: of another model, which counts
+    int32_t *lacks;  /* [points, formulations] bits of model.h: of another model, which counts
                         nowhere; 0: of the scene's own */
     int32_t *least;  /* [points, formulations, quantities] elements from which on every mesh is
                         within  the tolerance; 0: none */

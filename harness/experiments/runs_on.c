@@ -1,7 +1,7 @@
 #include "harness/experiments/runs_on.h"
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/cell.h"
 #include "harness/study/omission.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/study/narrow.h"
 #include "harness/study/plan.h"
 #include "harness/study/preference.h"

@@ -1,5 +1,5 @@
 #include "harness/experiments/survey.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -46,7 +46,7 @@ typedef struct tally {
     double *cost, *seconds;           /* [formulations x meshes] s: of all cells that ran */
     long *ran;                        /* [formulations x meshes] */
     long others[RANGES_FORMULATIONS]; /* points where it solves another model: they count nowhere */
-    unsigned lacks[RANGES_FORMULATIONS]; /* what it leaves out there: bits of missing.h */
+    unsigned lacks[RANGES_FORMULATIONS]; /* what it leaves out there: bits of model.h */
     int worsts[RANGES_FORMULATIONS];
     tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST]; /* the worst first */
 } tally;

@@ -1,4 +1,6 @@
 /* Which scalars are unknown, which are prescribed, and what was left out. */
+#include "harness/model/model_impl.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -6,8 +8,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/model_impl.h"
-#include "harness/model/release.h"
 
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
 {

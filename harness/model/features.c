@@ -1,5 +1,5 @@
 /* What a scene needs, in features of formulations. */
-#include "harness/model/features.h"
+#include "harness/model/model_impl.h"
 
 #include <math.h>
 
@@ -7,7 +7,6 @@
 #include "elements/math/dense.h"
 #include "elements/section/matrices.h"
 #include "elements/section/walls.h"
-#include "harness/model/model_impl.h"
 
 int features_eccentric(const section *c)
 {

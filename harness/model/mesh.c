@@ -1,4 +1,6 @@
 /* Vertices, elements and the data that identical elements share. */
+#include "harness/model/model_impl.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,11 +12,6 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/shared/lumped.h"
-#include "harness/model/member_arc.h"
-#include "harness/model/model_impl.h"
-#include "harness/model/profile.h"
-#include "harness/model/release.h"
-#include "harness/numerics/numerics.h"
 
 /* Of a sequence's next angle; any length. */
 static void add_axis(const double axis[3], mesh_vertex *v)
@@ -228,7 +225,7 @@ static void add_warps(model *m, int *named)
     const int last = m->mesh.nodes - 1;
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
-        const int profile = profile_at(m, member, 0); /* warps as the other elements: profile.c */
+        const int profile = profile_at(m, member, 0); /* warps as the other elements: division.c */
         unsigned features;
         features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,

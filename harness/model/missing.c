@@ -1,14 +1,15 @@
 /* What a scene needs and a formulation does not offer, in words. */
-#include "harness/model/missing.h"
+#include "harness/model/model_impl.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/analysis.h"
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
-#include "harness/model/features.h"
-#include "harness/model/model_impl.h"
 
 /* What bends over a length l with ends that do not turn gives way by F l^3/(12 EI) and slides by F
  * l/(kGA): Phi = 12 EI/(kGA l^2) of its deflection is shear (a cantilever: a quarter of that;
@@ -237,4 +238,231 @@ void missing_omit(section *c, unsigned omits)
             c->D[i] = c->F[i] > 0 ? 1 / c->F[i] : 0;
     if (omits & FEATURE_ECCENTRIC)
         c->ys = c->zs = 0;
+}
+
+enum { MOST_NAMES = 6 };
+
+typedef struct nodes_words {
+    char *text;
+    size_t room, used;
+} nodes_words;
+
+__attribute__((format(printf, 2, 3))) static void put(nodes_words *w, const char *format, ...)
+{
+    va_list arguments;
+    if (w->used >= w->room)
+        return;
+    va_start(arguments, format);
+    w->used += (size_t)vsnprintf(w->text + w->used, w->room - w->used, format, arguments);
+    va_end(arguments);
+}
+
+static void put_loads(nodes_words *w, const scene *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->loads; i++)
+        if (s->load[i].lumped && ++count <= MOST_NAMES)
+            put(w, "%s%s", count > 1 ? ", " : "", scene_called(s, SCENE_LOADS, i).text);
+    if (count > MOST_NAMES)
+        put(w, " and %d more", count - MOST_NAMES);
+}
+
+static int is_heavy(const scene *s)
+{
+    section c;
+    int heavy = 0;
+    for (int i = 0; i < s->sections && !heavy; i++)
+        heavy = scene_constants(s, i, &c, NULL) == STATUS_OK && (c.density > 0 || c.matrices);
+    return heavy;
+}
+
+/* What of the loads along members goes to the nodes with the mass of a motion (newton/loads.c).
+ */
+static const char *goes_with(const scene *s, const scene_motion *how)
+{
+    int weight = 0, other = 0;
+    for (int i = 0; i < s->loads; i++) {
+        const int along = scene_load_along(&s->load[i]) && !s->load[i].lumped;
+        weight |= along && s->load[i].kind == SCENE_GRAVITY;
+        other |= along && s->load[i].kind != SCENE_GRAVITY;
+    }
+    if (how->scheme == SCENE_CONSERVING && (weight || other))
+        return " and loads along members";
+    return weight ? " and weight" : "";
+}
+
+/* Analyses but motions that have a mass. */
+static int is_lumped(const scene *s, const scene_analysis *a)
+{
+    return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_ROTATION || scene_rotates(a));
+}
+
+static int put_masses(nodes_words *w, const scene *s, const element_type *type,
+                      const double options[])
+{
+    int count = 0;
+    for (int i = 0; i < s->analyses; i++) {
+        const scene_analysis *a = &s->analysis[i];
+        const int motion = a->kind == SCENE_MOTION && !features_spreads(s, i, type, options);
+        if (!motion && !is_lumped(s, a))
+            continue;
+        put(w, "%smass%s of %s",
+            count++ > 0   ? ", "
+            : w->used > 0 ? "; "
+                          : "",
+            motion ? goes_with(s, scene_motion_of(a)) : "",
+            scene_called(s, SCENE_ANALYSES, i).text);
+    }
+    return count;
+}
+
+void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
+              size_t room)
+{
+    nodes_words w = {text, room, 0};
+    text[0] = '\0';
+    put_loads(&w, s);
+    if (w.used > 0)
+        put(&w, ": half of an element's at both its nodes, of order 2 in its length (at three "
+                "nodes 1/6, 4/6, 1/6, of order 4)");
+    if (is_heavy(s) && put_masses(&w, s, type, options) > 0)
+        put(&w, ": at nodes, weighted along each member, of order 4 in slender bending from 6 "
+                "elements on, of 2 with shear, stretch and twist (at three nodes 1/6, 4/6, 1/6, "
+                "of order 4)");
+}
+
+enum { HELD, SHARED, FREE, STATES };
+enum { ENDS_MOST_NAMES = 8 };
+
+typedef struct ends_tally {
+    int of[STATES], all; /* ends of members that warp */
+} ends_tally;
+
+typedef struct held_ends {
+    const scene *scene;
+    const scene *other; /* NULL: all; else those that this one leaves free and the scene does not */
+    ends_tally *node;
+} held_ends;
+
+static int warp_of(const scene *s, int member, int end)
+{
+    return end == 0 ? s->member[member].warp_p : s->member[member].warp_q;
+}
+
+/* Does the section at this end warp? */
+static int warps(const scene *s, int member, int end)
+{
+    const scene_member *m = &s->member[member];
+    section c;
+    return scene_constants(s, end == 0 ? m->section : m->section_q, &c, NULL) == STATUS_OK &&
+           c.Iw > 0;
+}
+
+/* HELD, SHARED or FREE; STATES: not asked for. */
+static int state_of(const held_ends *e, int member, int end)
+{
+    const int warp = warp_of(e->scene, member, end);
+    if (!warps(e->scene, member, end) ||
+        (e->other != NULL &&
+         (warp == SCENE_WARP_FREE || warp_of(e->other, member, end) != SCENE_WARP_FREE)))
+        return STATES;
+    return warp == SCENE_WARP_FIXED ? HELD : warp >= 0 ? SHARED : FREE;
+}
+
+/* The names of one state after the other. */
+typedef struct ends_words {
+    char *text;
+    size_t room, used;
+    int names; /* of the state */
+} ends_words;
+
+static void ends_put(ends_words *w, const char *before, const char *text)
+{
+    if (w->used < w->room)
+        w->used += (size_t)snprintf(w->text + w->used, w->room - w->used, "%s%s", before, text);
+}
+
+static void add(ends_words *w, const char *text)
+{
+    if (w->names > 0 && w->names < ENDS_MOST_NAMES)
+        ends_put(w, ", ", text);
+    else if (w->names == 0)
+        ends_put(w, "", text);
+    w->names++;
+}
+
+/* The node where all of its ends are in this state, else each of them. */
+static void add_node(const held_ends *e, int node, int state, ends_words *out)
+{
+    const scene *s = e->scene;
+    const scene_words where = scene_name(s, SCENE_NODES, node);
+    if (e->node[node].of[state] == e->node[node].all) {
+        add(out, where.text);
+        return;
+    }
+    for (int i = 0; i < 2 * s->members; i++) {
+        char text[2 * sizeof where.text + 8];
+        const scene_member *m = &s->member[i / 2];
+        if ((i % 2 == 0 ? m->p : m->q) != node || state_of(e, i / 2, i % 2) != state)
+            continue;
+        snprintf(text, sizeof text, "%s at %s", scene_name(s, SCENE_MEMBERS, i / 2).text,
+                 where.text);
+        add(out, text);
+    }
+}
+
+static void write_ends(const held_ends *e, ends_words *out)
+{
+    static const char *const word[STATES] = {"held at ", "shared at ", "free at "};
+    for (int state = 0; state < STATES; state++) {
+        char more[40];
+        int any = 0;
+        for (int i = 0; i < e->scene->nodes; i++)
+            any |= e->node[i].of[state] > 0;
+        if (!any)
+            continue;
+        ends_put(out, out->used > 0 ? "; " : "", word[state]);
+        out->names = 0;
+        for (int i = 0; i < e->scene->nodes; i++)
+            if (e->node[i].of[state] > 0)
+                add_node(e, i, state, out);
+        snprintf(more, sizeof more, " and %d more", out->names - ENDS_MOST_NAMES);
+        if (out->names > ENDS_MOST_NAMES)
+            ends_put(out, "", more);
+    }
+}
+
+static void tell(const scene *s, const scene *other, char *text, size_t room)
+{
+    held_ends e = {s, other, NULL};
+    ends_words out = {text, room, 0, 0};
+    text[0] = '\0';
+    if (!(features_needed(s) & FEATURE_WARPING))
+        return;
+    e.node = calloc((size_t)s->nodes + 1, sizeof *e.node);
+    if (e.node == NULL)
+        return;
+    for (int i = 0; i < 2 * s->members; i++) {
+        const scene_member *m = &s->member[i / 2];
+        const int node = i % 2 == 0 ? m->p : m->q, state = state_of(&e, i / 2, i % 2);
+        if (node < 0 || node >= s->nodes)
+            continue; /* scene_validate tells it */
+        e.node[node].all += warps(s, i / 2, i % 2);
+        if (state < STATES)
+            e.node[node].of[state]++;
+    }
+    write_ends(&e, &out);
+    free(e.node);
+}
+
+void warping_ends(const scene *s, char *text, size_t room)
+{
+    tell(s, NULL, text, room);
+}
+
+void warping_ends_freed(const scene *s, const scene *other, char *text, size_t room)
+{
+    text[0] = '\0';
+    if (s->members == other->members)
+        tell(s, other, text, room);
 }

@@ -1,4 +1,4 @@
-#include "harness/model/model.h"
+#include "harness/model/model_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,15 +7,6 @@
 
 #include "cases/scene/names.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/discrete.h"
-#include "harness/model/features.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/missing.h"
-#include "harness/model/model_impl.h"
-#include "harness/model/profile.h"
-#include "harness/model/spring.h"
-#include "harness/model/turns.h"
-#include "harness/numerics/numerics.h"
 
 /* In scenes with a motion, loads along members do their work on the field that its mass has. */
 static int takes_loads(const model *m)

@@ -1,3 +1,15 @@
+/* model/: a scene meshed with one formulation. */
+#ifndef BEAMWORK_MODEL_H
+#define BEAMWORK_MODEL_H
+
+#include <stddef.h>
+
+#include "cases/scene/scene.h"
+#include "elements/element.h"
+#include "elements/field/field.h"
+#include "elements/shared/status.h"
+#include "harness/numerics/numerics.h"
+
 /* A scene meshed with one formulation.
  *
  * Coordinates.  Every vertex of the mesh has a frame (position r, orientation q)
@@ -13,12 +25,6 @@
  * Increments of coordinates are additive for translations, warping and angles,
  * and spatial rotation increments (exponential chart) for free rotations.
  * All second derivatives (offsets, sequences) are included in the tangent. */
-#ifndef BEAMWORK_MODEL_H
-#define BEAMWORK_MODEL_H
-
-#include "cases/scene/scene.h"
-#include "elements/element.h"
-#include "harness/numerics/numerics.h"
 
 typedef struct model model;
 
@@ -32,7 +38,7 @@ typedef struct model_request {
 } model_request;
 
 /* What the formulation does not offer of the scene's physics is left out, and model_left_out says
- * so; REFUSED (with the reason) where that leaves nothing to solve: see harness/model/missing.h. */
+ * so; REFUSED (with the reason) where that leaves nothing to solve: see harness/model/model.h. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
@@ -57,7 +63,7 @@ int model_is_released(const model *, int vertex);
 /* Longest member [m]: displacements are small or large beside it. */
 double model_length(const model *);
 
-/* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits (missing.h). */
+/* Physics of the scene that it does not have: FEATURE_* and OMIT_* bits (model.h). */
 unsigned model_omits(const model *);
 /* What it has of that: FEATURE_* bits. */
 unsigned model_features(const model *);
@@ -87,5 +93,734 @@ int model_member_vertices(const model *, int member,
 int model_stresses(const model *);
 /* Section constants the model uses for a section of the scene. */
 const section *model_section(const model *, int index);
+
+/* Patterns of the matrices of a model. */
+
+/* Those of one model that have been asked for. */
+typedef struct assemble_patterns assemble_patterns;
+status assemble_patterns_alloc(assemble_patterns **, fault *);
+void assemble_patterns_free(assemble_patterns *);
+
+/* Patterns. `with_driven` 0: free x free; 1: all coordinates. Made at the first call and kept
+ * there; matrices on it come from sparse_alloc_like. Symmetric: of the undeformed state. */
+status assemble_pattern(const model *, assemble_patterns *, int with_driven, const sparse **out,
+                        fault *f);
+/* Of any state: stored whole where a load may make tangents unsymmetric, and then symmetric by its
+ * numbers. */
+status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
+                                  const sparse **out, fault *f);
+/* 0: a load or a support may make tangents unsymmetric. */
+int assemble_symmetric(const model *);
+/* Free x free and never symmetric: of motions, whose turning masses are not. */
+status assemble_pattern_in_time(const model *, assemble_patterns *, const sparse **out, fault *f);
+
+/* Centre lines of all members in a state, for pictures and other programs.
+ * Between two vertices of the mesh runs a cubic whose tangents are the vertices' x axes, whatever
+ * field the formulation has inside: what is drawn is the same for all. Resultants are in
+ * equilibrium with the element's nodal forces J^T sigma. */
+
+typedef struct centreline_point {
+    double r[3];      /* position [m] */
+    double q[4];      /* of the section's triad: x along the line, y and z principal */
+    double force[3];  /* N, Qy, Qz: of the part beyond on the part before, in that triad [N] */
+    double moment[3]; /* Mx, My, Mz about the point [N m] */
+    double bimoment;  /* linear between an element's ends [N m^2] */
+} centreline_point;
+
+/* Points of all members; first[members + 1]: where each begins; NULL: count only. */
+int centreline_points(const model *m, int first[]);
+/* out[points] in the order of the members, each from p to q. */
+void centreline_fill(const model *m, const model_state *s, centreline_point out[]);
+/* Positions of the scene's nodes: out[nodes x 3] [m]. */
+void centreline_nodes(const model *m, const model_state *s, double out[]);
+/* New state: `from` moved by scale x the increments x[free + driven]; sigma[elements x strains] its
+ * stresses, NULL: those of `from`. scale 0: what makes it visible: a tenth of the scene's size or
+ * half a radian. *scale returns what was used. */
+status centreline_displaced(const model *m, const model_state *from, const double x[],
+                            const double sigma[], double *scale, model_state **out, fault *f);
+
+/* How the members of a scene are divided into elements.
+ *
+ * Where a load along a member begins, ends or acts between its ends there is a node of the mesh, as
+ * if the member were cut there: resultants have a kink or a jump at that place, which no element
+ * can have inside.  Each of these pieces has as many elements, all of one length, as a whole member
+ * has: a mesh of twice as many has all nodes of the one before. */
+
+typedef struct division {
+    int *first;    /* [members + 1] pieces before those of a member */
+    double *place; /* of a member from place[first[member] + member] on, pieces + 1: where they
+                      begin and end, 0 .. 1 of its initial length */
+    int *each;     /* [members] elements of a piece */
+} division;
+
+/* No pieces are shorter than this part of their member: what they would be for lies inside an
+ * element. */
+#define DIVISION_LEAST 1e-3
+
+/* elements: of a piece, where the member does not say so. */
+status division_make(const scene *, int elements, division *, fault *);
+void division_free(division *);
+
+int division_pieces(const division *, int member);
+int division_elements(const division *, int member);
+/* Begin and end of the piece of an element, counted along its member, and the element's number in
+ * the piece. */
+int division_piece(const division *, int member, int number, double ends[2]);
+/* Of a point x in [0, 1] of an element, and the other way round. */
+double division_place(const division *, int member, int number, double x);
+double division_inside(const division *, int member, int number, double place);
+/* The element at a place, with the point in it; between two of them that towards the end, or
+ * (before) towards the begin. */
+int division_at(const division *, int member, double place, int before, double *x);
+
+/* The mesh of a model, to read: elements, vertices, and what joins them. It stays once model_alloc
+ * has returned. */
+
+/* An element depends on the coordinates of its nodes and on those of released ends. */
+enum {
+    NONE = -1,
+    VERTEX_COORDINATES = 6,
+    MODEL_MAX_COORDINATES = ELEMENT_MAX_COORDINATES + 2 * SCENE_RELEASED
+};
+
+/* Where a frame is and what moves it. The first vertices are the scene's nodes, in order. */
+typedef struct mesh_vertex {
+    double position[3]; /* undeformed [m] */
+    int body; /* vertex that moves this one rigidly; itself: it has coordinates of its own */
+    double offset[3];  /* from the body, undeformed [m] */
+    int coordinate[6]; /* of a body: global coordinate or NONE where held */
+    int angles;        /* > 0: rotation is a sequence of so many angles about the axes */
+    double axis[3][3];
+    int idle;             /* bits of angles that are held: nothing depends on them */
+    int vector_driver[3]; /* prescribed rotation vector: its drivers; NONE: not prescribed so */
+} mesh_vertex;
+
+/* What an end of a member keeps to itself: see model.h. */
+typedef struct mesh_release {
+    int node; /* of the scene, from which it is released */
+    int turns, slides;
+    double turn[3][3], slide[3][3]; /* undeformed axes, unit vectors */
+} mesh_release;
+
+/* A warping amplitude, shared by the element ends that meet there. */
+typedef struct mesh_warp {
+    int coordinate; /* global */
+} mesh_warp;
+
+typedef double mesh_triad[9]; /* columns nX nY nZ */
+
+typedef struct mesh_element {
+    int kind, member;
+    int nodes;
+    int vertex[ELEMENT_MAX_NODES];
+    int warp[ELEMENT_MAX_NODES];     /* index, or NONE: held at zero or absent */
+    double share[ELEMENT_MAX_NODES]; /* of its mass where that is at nodes: mesh.c */
+    double couple[2];  /* of two nodes: what resultants at an end have beside: time/shares.c */
+    mesh_triad *triad; /* [nodes] initial; not its own: equal ones share them */
+    int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
+    int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */
+    int plain; /* 1: no offset, sequence or released end: elimination is selection */
+} mesh_element;
+
+/* A rigid body's mass at a vertex, or a spring between vertices: an element beside those of the
+ * members. */
+typedef struct mesh_discrete {
+    mesh_element el; /* no kind, no member, no warping */
+    const scene_body *body;
+    const scene_spring *spring; /* of both one, the other NULL */
+    mesh_triad triad[ELEMENT_MAX_NODES];
+} mesh_discrete;
+
+/* What identical elements share. */
+typedef struct mesh_kind {
+    int section;
+    double length, curvature[3], strain[3];
+    int next; /* kind of the same section, or NONE */
+    element_data *data;
+    size_t data_size;         /* [bytes] */
+    displacement_field field; /* displacements between the nodes, for loads */
+    double *inner; /* field_inner where frequencies are asked for, or NULL: the type has another
+                      mass */
+} mesh_kind;
+
+/* What the questions below read without a call: the first member of every model, which
+ * harness/model alone fills. */
+typedef struct model_mesh {
+    const element_type *type;                       /* with what its file leaves out */
+    int nodes, coordinates, strains, inner, memory; /* per element: nodes, 7 nodes, ... */
+    int vertices, elements, kinds, warps;
+    int first_release, releases; /* vertices of released ends are the last */
+    mesh_release *release;
+    mesh_vertex *vertex;
+    mesh_element *element;
+    mesh_kind *kind;
+    mesh_warp *warp;
+    int discretes, springs; /* springs: the last of them */
+    mesh_discrete *discrete;
+    int turns;              /* that are followed: model.h */
+    int *first_element;     /* [members + 1] */
+    int *driver_coordinate; /* [drivers] or NONE */
+    int free, driven;
+    int takes;     /* elements take loads along them (element_type.along) */
+    int work_size; /* of an element in a linear_memory: harness/newton/run_state.h */
+} model_mesh;
+static inline const model_mesh *model_mesh_of(const model *m)
+{
+    return (const model_mesh *)m;
+}
+
+/* Of an element: its type, nodes, their coordinates (7 each), strains, inner unknowns, and doubles
+ * that its type remembers of a linearisation. */
+static inline const element_type *model_type(const model *m)
+{
+    return model_mesh_of(m)->type;
+}
+static inline int model_nodes(const model *m)
+{
+    return model_mesh_of(m)->nodes;
+}
+static inline int model_own_coordinates(const model *m)
+{
+    return model_mesh_of(m)->coordinates;
+}
+static inline int model_strains(const model *m)
+{
+    return model_mesh_of(m)->strains;
+}
+static inline int model_inner(const model *m)
+{
+    return model_mesh_of(m)->inner;
+}
+static inline int model_memory(const model *m)
+{
+    return model_mesh_of(m)->memory;
+}
+/* 1: elements take loads along them (element_type.along). */
+static inline int model_takes_loads(const model *m)
+{
+    return model_mesh_of(m)->takes;
+}
+/* Doubles of an element in a linear_memory (harness/newton/run_state.h). */
+static inline int model_work_size(const model *m)
+{
+    return model_mesh_of(m)->work_size;
+}
+
+/* Coordinates: [0, unknowns) and, behind them, those that drivers prescribe. */
+static inline int model_unknowns(const model *m)
+{
+    return model_mesh_of(m)->free;
+}
+static inline int model_driven(const model *m)
+{
+    return model_mesh_of(m)->driven;
+}
+static inline int model_all_coordinates(const model *m)
+{
+    return model_mesh_of(m)->free + model_mesh_of(m)->driven;
+}
+/* Of a driver, or NONE. */
+static inline int model_driver_coordinate(const model *m, int driver)
+{
+    return model_mesh_of(m)->driver_coordinate[driver];
+}
+
+static inline int model_elements(const model *m)
+{
+    return model_mesh_of(m)->elements;
+}
+static inline const mesh_element *model_element(const model *m, int element)
+{
+    return &model_mesh_of(m)->element[element];
+}
+/* The first of a member; of the number of members: behind the last. */
+static inline int model_first_element(const model *m, int member)
+{
+    return model_mesh_of(m)->first_element[member];
+}
+/* Of members into elements. */
+const division *model_division(const model *);
+static inline int model_kinds(const model *m)
+{
+    return model_mesh_of(m)->kinds;
+}
+static inline const mesh_kind *model_kind(const model *m, int kind)
+{
+    return &model_mesh_of(m)->kind[kind];
+}
+/* What an element is prepared as. */
+static inline const mesh_kind *model_kind_of(const model *m, int element)
+{
+    return &model_mesh_of(m)->kind[model_mesh_of(m)->element[element].kind];
+}
+/* Rigid bodies, behind them the springs. */
+static inline int model_discretes(const model *m)
+{
+    return model_mesh_of(m)->discretes;
+}
+static inline int model_springs(const model *m)
+{
+    return model_mesh_of(m)->springs;
+}
+static inline const mesh_discrete *model_discrete(const model *m, int discrete)
+{
+    return &model_mesh_of(m)->discrete[discrete];
+}
+
+/* The first ones are those of the nodes, the last ones those of released ends. */
+static inline int model_vertices(const model *m)
+{
+    return model_mesh_of(m)->vertices;
+}
+static inline const mesh_vertex *model_vertex(const model *m, int vertex)
+{
+    return &model_mesh_of(m)->vertex[vertex];
+}
+static inline int model_releases(const model *m)
+{
+    return model_mesh_of(m)->releases;
+}
+static inline int model_first_release(const model *m)
+{
+    return model_mesh_of(m)->first_release;
+}
+/* The axis about which alone a node is held, or driven, so that it takes a moment about it in
+ * whatever way the node turns about the two others; NONE: of no or of several axes. */
+int coordinates_held_turn(const model *, int node);
+/* Warping amplitudes, and the coordinate of one. */
+static inline int model_warps(const model *m)
+{
+    return model_mesh_of(m)->warps;
+}
+static inline int model_warp(const model *m, int warp)
+{
+    return model_mesh_of(m)->warp[warp].coordinate;
+}
+/* Rotation vectors that are followed (model.h). */
+static inline int model_turns(const model *m)
+{
+    return model_mesh_of(m)->turns;
+}
+
+/* What a slot of a linear_memory has at its end where elements take loads along them: does this
+ * one, how its frame turns [3 x 14], and what stresses [strains x 3] and inner unknowns [inner x 3]
+ * do then. */
+enum { SLOT_TAKES, SLOT_TURN, SLOT_MIXED = SLOT_TURN + 3 * ELEMENT_ALONG_COORDINATES };
+static inline int slot_followed(const model *m)
+{
+    return SLOT_MIXED + 3 * model_strains(m);
+}
+static inline int slot_along(const model *m)
+{
+    return slot_followed(m) + 3 * model_inner(m);
+}
+
+/* Discrete elements, beside those of the members: rigid bodies at nodes, and springs.  None: no
+ * work. */
+
+status discrete_build(model *, fault *);
+/* Internal less centrifugal force (of the frame in that state) [7 nodes] and its tangent [7 nodes x
+ * 7 nodes] in a state, in model coordinates. */
+void discrete_equations(const model *, const model_state *, const mesh_discrete *,
+                        const element_rotating_frame *, double force[], double K[]);
+/* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
+void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
+                      sparse *G);
+/* The tangent in two parts, as in stiffness_parts.h: y += its product with x[free + driven], out +=
+ * the other. */
+void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
+void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,
+                        sparse *out);
+/* What rounding may change in x^T of the first. */
+double discrete_material_rounding(const model *, const model_state *, const double x[]);
+/* Energy of all springs [J]. */
+double discrete_stored(const model *, const model_state *);
+/* F += what the structure needs on a node's frame to hold them in the state [6: N, N m]. */
+void discrete_node_force(const model *, const model_state *, const element_rotating_frame *,
+                         int node, double F[6]);
+
+/* Members that have more elements than was asked for, in words. */
+
+/* "beam has 6 elements, 2 in each of 3 pieces: its loads begin, end or act at 0.3, 0.5 of its
+ * length"; of many the first ones are named.  elements 0: of any number n.  "" where each has as
+ * many as was asked for. */
+void division_words(const scene *, int elements, char *text, size_t room);
+
+/* Element coordinates -> coordinates of the model, in place; K[columns x columns]. force: internal,
+ * for the second derivatives; NULL entries are skipped. */
+
+void eliminate_forces(const model *m, const model_state *s, const mesh_element *el,
+                      double force[]); /* [columns] */
+void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
+                      const double force[], double K[]);
+
+/* Where the entries of elements go in the matrices and vectors of a model. */
+
+/* An entry of an element's matrix that a pattern stores. */
+typedef struct mesh_entry {
+    short local;  /* row * columns + column of the element's matrix */
+    short column; /* of the element's matrix */
+    int offset;   /* in the pattern: from the begin of its column */
+} mesh_entry;
+
+/* What elements share whose entries stand alike in the columns of a pattern. */
+typedef struct mesh_layout {
+    int entries;
+    mesh_entry *entry; /* [entries] */
+} mesh_layout;
+
+/* Pattern with the places of every element's entries in it. */
+typedef struct mesh_pattern {
+    int made;
+    sparse matrix;
+    int layouts;
+    mesh_layout *layout;
+    int *layout_of;              /* [elements] */
+    const mesh_element *element; /* of the model */
+} mesh_pattern;
+
+/* That on which a matrix was made. */
+const mesh_pattern *assemble_of(const assemble_patterns *, const sparse *a);
+void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
+/* The same of a discrete element, whose places are looked for. */
+void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
+void assemble_vector(const mesh_element *el, const double local[], double out[]);
+/* Nothing where it is not stored. */
+void assemble_subtract(sparse *a, int row, int column, double value);
+
+/* What a scene needs, in features of formulations (FEATURE_* bits). */
+
+/* Feature bits the scene needs and those of them the type does not offer, or a limit it hits, in
+ * words; 0: it can run. */
+/* 1: in this motion elements of the type spread their mass along themselves. */
+int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
+
+unsigned features_needed(const scene *);
+/* Those without which an asked quantity means nothing. */
+unsigned features_of_quantities(const scene *);
+/* Of the physics that it would call for, what the scene leaves out. */
+unsigned features_omitted(const scene *);
+/* Of the physics that it does not leave out, what a section that is given by its numbers has
+ * nothing of, and what counts where there are the analyses of the scene: zero, as far as the
+ * numbers say. */
+unsigned features_not_given(const scene *, int section);
+/* Of walls: does its bimoment turn it on, which no formulation has, where the analyses have
+ * stresses and neither warping nor the Wagner torque is left out? */
+int features_one_sided(const scene *, int section);
+/* The same with the theory of shear in stability that the type has instead of the one the scene
+ * asks for: FEATURE_* bits. */
+unsigned features_needed_of(const scene *, const element_type *);
+/* The theory of shear in stability that values of the type on this scene follow: a bit of
+ * shear_theory; 0: nothing is flexible in shear, or nothing is stressed. */
+unsigned features_theory(const scene *, const element_type *);
+/* Is there shear, and stability that its theory matters to? */
+int features_sheared(const scene *);
+/* Its name: "Haringx"; of SHEAR_OWN what the type says of it; "" of 0. */
+const char *features_theory_words(const element_type *, unsigned theory);
+/* Those of them that one quantity depends on: inertia only where it is a frequency or of a rotating
+ * structure. */
+unsigned features_needed_by_quantity(const scene *, int quantity);
+
+int features_eccentric(const section *c); /* its shear centre is not its centroid */
+status features_of_section(const model *m, int section, unsigned *features, fault *f);
+
+/* States of a model and the motion of its nodes in them. */
+
+status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
+/* What kinematics_component and kinematics_driver_value read of a state, and its path: nothing else
+ * may be asked of it. */
+status kinematics_nodes_alloc(const model *, const model_state *from, model_state **, fault *);
+void kinematics_state_free(model_state *);
+const model_state *kinematics_rest(const model *); /* undeformed */
+void kinematics_state_copy(const model *, const model_state *from, model_state *to);
+double kinematics_state_path(const model_state *);
+const double *kinematics_strains(const model_state *); /* [elements x strains] */
+
+/* Frame of a scene node in a state: position [m] and unit quaternion. For tests of other rooms,
+ * which need not know what a state keeps (model.h). */
+void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
+/* Displacement [m] or rotation-vector component [rad] of a scene node since the undeformed state,
+ * of as many turns as the path has made; not a number: the vector has lost its direction on a full
+ * turn (model.h). */
+double kinematics_component(const model *, const model_state *, int node, int component);
+/* The same of a node in the axes of another, `from`: how its place has moved there [m], or the
+ * rotation vector of its turn against that [rad]. */
+double kinematics_relative(const model *, const model_state *, int from, int node, int component);
+double kinematics_driver_value(const model *, const model_state *, int driver);
+/* Largest angle [rad] that an element's nodes have turned against each other, chords: or against
+ * its chord, and that element. Less than two turns are told apart. */
+double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
+/* Likewise, about the element's axis. */
+double kinematics_largest_twist(const model *, const model_state *, int *element_index);
+/* Rise of the arc of an element at rest, by its curvature about z, in radii of gyration. */
+double kinematics_largest_rise(const model *, int *element_index);
+
+/* Coordinate index of a component of a node, or -1 where it is held, or dependent. */
+int kinematics_coordinate(const model *, int node, int component);
+/* Most coordinates that a vertex depends on: those of a body, and those of a released end. */
+enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
+/* Jacobian of the six spatial increments of a vertex with respect to the coordinates it depends on:
+ * returns the count m <= size (6 of a node), fills index[m] and T[6 x m] (row-major, leading
+ * dimension m). */
+int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
+                             double T[]);
+/* Current offset of a vertex from its body [m]. */
+void kinematics_offset(const model *, const model_state *, int vertex, double rho[3]);
+
+/* Of an element in a state, as its type takes it: x[nodes]. */
+void kinematics_gather(const model *m, const model_state *s, const mesh_element *el,
+                       node_state x[]);
+void kinematics_position(const model *m, const model_state *s, int vertex, double r[3]);
+/* Spatial axes of a sequence's angles in the present state: b[angles][3]. */
+void kinematics_axes(const model *m, const model_state *s, int vertex, double b[3][3]);
+/* Recomputes what depends on bodies' coordinates. */
+void kinematics_follow(const model *m, model_state *s);
+/* Increments of an element's own coordinates from those of the model: local[7 nodes]. */
+void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
+                      const double dx[], double local[]);
+
+/* How far apart two states are. */
+
+/* Weights [free + driven] of the square of an increment, (displacement/size)^2 + rotation^2 in the
+ * mean over the bodies. */
+void metric_of(const model *, double weight[]);
+/* What the displacements of the nodes have of an increment [free + driven], measured so. */
+double metric_shift_part(const model *, const double dx[]);
+/* The same distance between two states; light[9 x (2 i + block)], row-major: projections of what
+ * vertex i moved (block 0) and turned in its own axes (block 1) that do not count; NULL: all does.
+ */
+double metric_distance(const model *, const model_state *, const model_state *,
+                       const double light[]);
+/* The largest angle [rad] between the orientations of a node in two states. */
+double metric_turn_between(const model *, const model_state *, const model_state *);
+
+/* What a scene needs and a formulation does not offer: what it can run without, as another model,
+ * and what it cannot. */
+
+/* Physics that can be left out and are no feature of their own. */
+enum {
+    OMIT_SHEAR_Y = FEATURE_END,            /* shear flexibility along y */
+    OMIT_SHEAR_COUPLING = FEATURE_END << 1 /* between its directions, and with warping */
+};
+enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their words; how many there are */
+
+/* The needs that the type does not offer, or a limit it hits, in words, which are empty if and only
+ * if there are none; 0: it has all that the scene needs. */
+int missing_words(const scene *, const element_type *, char *words, int size);
+/* Those of them without which nothing of the scene can be solved; 0: it can run. */
+int missing_refused(const scene *, const element_type *, char *words, int size);
+/* Those that it runs without: bits of FEATURE_* and OMIT_*. */
+unsigned missing_omits(const scene *, const element_type *);
+/* Such bits in words. */
+void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
+/* Takes out of a section what is left out and no element is asked for by a feature. */
+void missing_omit(section *, unsigned omits);
+/* The limit of the type that a section of so many closed cells hits, in words; NULL: none. */
+const char *missing_in_section(const element_type *, const section *, int cells, int warps);
+
+/* What the type offers in one direction only (element_lack) where the scene needs it, in words: 0:
+ * nothing, 1: so little of it that it is shown and not refused, 2: missing_words says so too. */
+int lacks_of(const scene *, const element_type *, char *words, int size);
+
+/* What a state of a model consists of, for those who advance one. */
+
+struct model_state {
+    double path;
+    size_t size; /* doubles in block */
+    double *block;
+    double *u;      /* [vertices x 3] displacement */
+    double *q;      /* [vertices x 4] orientation */
+    double *angle;  /* [vertices x 3] of sequences; accumulated spatial increments otherwise */
+    double *shift;  /* [releases x 3] along slides */
+    double *warp;   /* [warps] */
+    double *driver; /* [drivers] present value */
+    double *e, *sigma, *inner; /* [elements x strains], [.. inner] */
+    double *turn;              /* [turns x 3] rotation vectors that have been followed: model.h */
+};
+
+/* The motions [6: displacement, turn] that a node can make: the span of the columns of its
+ * Jacobian.  Axes that are computed are known to round-off only, so that dimensions are decided
+ * beside the size of the columns and never by comparison with zero. */
+
+typedef struct movable {
+    int count;           /* dimension */
+    unsigned components; /* bit i: some motion has component i */
+    int whole;           /* 1: the motions are those of components, one by one ... */
+    int component[6];    /* ... [count] */
+    double span[36]; /* [6 x count] a basis: unit vectors where these span it, else orthonormal with
+                        lengths in units of `length` */
+    double dual[36]; /* [count x 6] dual span = 1: the least combination of components that gives a
+                        basis vector's share */
+} movable;
+
+/* T[6 x columns]: columns of motions, of order 1 in displacements per displacement or turns per
+ * angle.  length [m] > 0: of the structure. */
+void movable_of(int columns, const double *T, double length, movable *out);
+/* out[3] = m without its part along the turns among the columns of T: along these nothing is
+ * prescribed, and a moment there is what Newton's method left over. */
+void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
+
+/* What of loads and mass along members is put on nodes by convention, in words. */
+
+/* Of loads that ask for it, of masses that a motion or the scene lumps or a formulation has there,
+ * and of what goes to the nodes with them: with the order in space that this has.  Of many the
+ * first ones are named.  "" where nothing is.
+ */
+void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
+              size_t room);
+
+/* Sections of the elements: those of the scene and, behind them, of members whose section changes
+ * along them one for each element, at its middle.  Members that change between the same two and
+ * have as many elements, all of one length, share theirs.
+ *
+ * The pieces are prismatic: what they come to has an error of second order in their length,
+ * whatever the formulation. */
+
+/* Those of the scene. */
+status profile_scene(model *m, fault *f);
+/* Of all elements of the divided members.  All that m->section has is then there to stay;
+ * *sections: how many that are. */
+status profile_members(model *m, int *sections, fault *f);
+/* Index in m->section of an element of a member, counted along it. */
+int profile_at(const model *m, int member, int number);
+
+/* Ends of members that keep turns and shifts to themselves (scene_release).
+ *
+ * Such an end has a vertex of its own behind all others, in the list `release`.  With the frame r,
+ * R of its node's body, the node at the offset rho from it, and the member's undeformed axes a, d
+ * at the end, R_end = R exp(a_1 t_1) exp(a_2 t_2),  r_end = r + R rho + R_end (sum d_i s_i). Three
+ * turns have no order: R_end is free, its increments are spatial ones.  The end's coordinates t, s
+ * stand behind those of the element's nodes; forces and matrices of the element are taken to all of
+ * them by the chain rule with the second derivatives of the frame (turns: 1/2 b_i x b_j for i
+ * before j, those of the body before all; shifts: turns of the end before them). */
+
+/* Ends of all members that keep something. */
+int release_count(const scene *);
+/* Their vertices, when the elements are made. */
+status release_build(model *, fault *);
+
+/* The end at this vertex; NULL: it is none. */
+static inline const mesh_release *release_of(const model *m, int vertex)
+{
+    const int first = model_first_release(m);
+    return vertex < first ? NULL : &model_mesh_of(m)->release[vertex - first];
+}
+
+/* The end's motion d[6] += what its own coordinates, by dx, add to that of its node. */
+void release_add_local(const model *, const model_state *, int vertex, const double dx[],
+                       double d[6]);
+/* T[6 x count] of its node's place and turn becomes that of the end, with its own columns from
+ * `own` on. */
+void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
+                      double T[]);
+/* Own coordinates move by dx; returns the largest change [1, rad]. */
+double release_advance(const model *, model_state *, int vertex, const double dx[]);
+/* Place and orientation behind those of all nodes. */
+void release_follow(const model *, model_state *);
+
+/* Spatial axes of the turns [turns x 3]; of three: the fixed ones. */
+void release_turn_axes(const model *, const model_state *, int vertex, double b[3][3]);
+/* Spatial directions of the shifts [slides x 3], and how far the end is from its node [m]. */
+void release_slide_axes(const model *, const model_state *, int vertex, double along[3][3],
+                        double apart[3]);
+
+/* force[7 at, its six]: of the end's frame becomes that of its node's place; own[]: of its
+ * coordinates. */
+void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
+/* Room for the columns of ends behind those of the nodes: K[7 nodes x 7 nodes] -> K[columns x
+ * columns]. */
+void release_widen(const mesh_element *, double K[]);
+/* The same of K, whose six coordinates of the end begin at `at`, its own ones at `own`. force[6] as
+ * in release_force, which it follows; NULL: no second derivatives. */
+void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
+                    double force[6], double K[]);
+
+/* A spring between two frames, or between a frame and the ground. */
+
+enum { SPRING_STRAINS = 6 };
+
+/* Deformation d = (R_p^T (r_q - r_p) less its initial value [m], rotation vector of R_p^T R_q
+ * [rad]) in the axes of p; with one node q, p is the ground.  x[nodes]: R is the turn since the
+ * undeformed state.  out->e[6], out->J[6 x 7 nodes] and out->H[7 nodes x 7 nodes] of out->s[6], in
+ * the exponential chart, as strains of elements are.  near: the vector that the turn has come to,
+ * by which that of several turns is known; NULL: less than half a turn.
+ *
+ * On a full turn the vector's derivatives across it have no bounds; within 1e-3 rad of it they stay
+ * what they are there. The moment stays exact while it is along the turn (model.h). */
+void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
+
+/* Whether the supports hold all parts of a structure. Rigid motions of a part are six numbers:
+ * displacement of an origin, turn times the size of the model; what prevents them squares, of
+ * lengths. */
+
+/* 1: the supports leave a part of the undeformed structure loose: a node of it, and a rigid motion
+ * (displacement of that node [m], turn [rad], of any size) that they allow. Coordinates that are
+ * driven are held. */
+int supports_loose_part(const model *, int *node, double motion[6]);
+
+/* Least eigenvalue of the supports' squares beside the largest: held points closer to each other
+ * than its root times the length count as one. */
+extern const double supports_loose;
+
+/* part[vertices]: a vertex that stands for all that elements, springs and bodies join, by
+ * supports_root; apart: released ends are not joined to their nodes. */
+void supports_join(const model *, int apart, int part[]);
+int supports_root(const int part[], int vertex);
+/* What moves a vertex. */
+int supports_mover(const model *, int vertex, int apart);
+/* G[6 x 6]: motion (m, rad) at a position from the origin. */
+void supports_rigid(const double position[3], double length, double G[36]);
+/* What the supports of a node prevent of the motions about the origin: out[6 x 6]. */
+void supports_prevented(const model *, int node, const double origin[3], double out[36]);
+/* sum[6 x 6] += squares of what springs between the part and the ground prevent, whatever their
+ * stiffness. */
+void supports_add_springs(const model *, const int part[], int root, const double origin[3],
+                          double sum[36]);
+
+/* Turns beyond half a circle: an orientation repeats itself, what has turned so does not. */
+
+/* What is followed, in this order: the turns of the scene's nodes, of its springs (their ends
+ * against each other), and of what quantities read of a node against another. */
+status turns_build(model *, fault *);
+
+/* The rotation vector [rad] of q that continues `before`: of all vectors of q, and of all
+ * quaternions of its sign, the next one. On a full turn, where they have no direction of their own,
+ * it keeps that of `before`. */
+void turns_continue(const double q[4], const double before[3], double out[3]);
+
+/* Why there is no number of a turn. */
+extern const char turns_lost[];
+
+/* Of a state whose orientations have changed; state.turn holds where they come from. */
+void turns_follow(const model *, model_state *);
+/* [3] in a state, not a number where it has lost its direction. */
+const double *turns_of_node(const model_state *, int node);
+const double *turns_of_spring(const model *, const model_state *, int spring);
+/* NULL: no quantity reads it. */
+const double *turns_between(const model *, const model_state *, int from, int node);
+
+/* Of those between nodes, which quantities of one run read and not of another: how many, and each
+ * as its nodes and its vector [5]. What is not among those that are taken has made less than half a
+ * turn more than its nodes differ by. */
+int turns_between_count(const model *);
+void turns_put_between(const model *, const model_state *, double out[]);
+void turns_take_between(const model *, int count, const double in[], model_state *);
+
+/* Has a vector of more than half a turn swung aside? Beside a full turn it does in no time, and on
+ * it what it has become is round-off. */
+int turns_swung(const double from[3], const double to[3]);
+/* Is it within `near` [rad] of one or more full turns? */
+int turns_full(double size, double near);
+/* Those that have lost their direction since `from` are no numbers from here on. */
+void turns_lose(const model *, const model_state *from, model_state *);
+
+/* Which ends of members hold their warping, in words. */
+
+/* Of members whose section warps: "held at base_a, base_b; shared at fold; free at tip", by nodes,
+ * or "leaf at base" where ends at one node differ.  Of many the first ones are named.  "" where
+ * nothing warps. */
+void warping_ends(const scene *s, char *text, size_t room);
+/* The same of those that the other scene, of the same members, leaves free. */
+void warping_ends_freed(const scene *s, const scene *other, char *text, size_t room);
 
 #endif

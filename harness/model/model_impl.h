@@ -1,14 +1,33 @@
-/* Inside of a model, for harness/model alone. */
+/* The inside of model/. */
 #ifndef BEAMWORK_MODEL_IMPL_H
 #define BEAMWORK_MODEL_IMPL_H
 
-#include "harness/model/division.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/features.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "cases/scene/scene.h"
+#include "elements/element.h"
+#include "harness/model/model.h"
+
+/* Inertia of a rigid body that moves with a node. */
+
+/* Of the node's coordinates [7: translation, spatial turn, warping (not moved)], its frame at x:
+ * position, and turn since the undeformed state in R.  frame NULL: the frame is at rest. */
+void body_inertia(const scene_body *, const node_state *x, const element_rotating_frame *frame,
+                  inertia_output *);
+
+/* The undeformed axis of a member. */
+
+/* An arc of constant torsion and curvature between two points (straight when these are zero). */
+typedef struct member_arc {
+    double length;         /* along the arc [m] */
+    double start[3], R[9]; /* position and triad at p */
+    double k[3];           /* [1/m] */
+} member_arc;
+
+/* axes_angle [rad]: of its section. REFUSED: no arc of its curvature joins its ends. */
+status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
+/* Position and triad at the abscissa s [m]. */
+void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
+
+/* Inside of a model, for harness/model alone. */
 
 /* What has a rotation vector that is followed: a node's frame against another's, NONE: against the
  * fixed one. */
@@ -24,12 +43,12 @@ struct model {
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
     unsigned features, omits; /* what it has, and what it has not of what the scene has */
-    section *section;  /* of the scene; behind them of members whose section changes: profile.h */
+    section *section;  /* of the scene; behind them of members whose section changes: model.h */
     int *profile;      /* [members] section of the first element */
     mesh_triad *triad; /* [triads], room for those of all nodes of all elements */
     int triads;
     int *kind_of_section; /* [sections] the first, or NONE */
-    mesh_turn *turn;      /* [turns] in the order of turns.h */
+    mesh_turn *turn;      /* [turns] in the order of model.h */
     double size;          /* length of the longest member [m] */
     int asked;            /* elements of a piece of a member */
     division division;    /* of the members into elements */
@@ -47,6 +66,6 @@ status coordinates_number(model *m, fault *f);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* assemble.c */
+/* matrix_pattern.c */
 
 #endif

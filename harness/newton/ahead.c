@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 
 /* Bytes of an array, so that the next one is aligned. */
 static size_t bytes(size_t count, size_t size)

@@ -5,8 +5,7 @@
 #ifndef BEAMWORK_MODEL_AHEAD_H
 #define BEAMWORK_MODEL_AHEAD_H
 
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/run_state.h"
 
 /* Strains and stresses evaluated for all elements at once. */

@@ -9,10 +9,7 @@
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
 #include "elements/shared/lumped.h"
-#include "harness/model/division.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/newton/equations_impl.h"
 
 double applied_factor(const equations *eq, const scene_load *load, double path)

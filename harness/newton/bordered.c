@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/border.h"
 #include "harness/newton/refinement.h"
 #include "harness/newton/stiffness_parts.h"

@@ -4,8 +4,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/ahead.h"
 
 /* Fewer elements than these cost less one by one; without AVX2 any number does: there four lanes

@@ -4,13 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/assemble.h"
-#include "harness/model/discrete.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/newton/ahead.h"
 #include "harness/newton/condensation_impl.h"
 #include "harness/newton/distributed.h"

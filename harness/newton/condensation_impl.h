@@ -2,8 +2,7 @@
 #ifndef BEAMWORK_CONDENSATION_IMPL_H
 #define BEAMWORK_CONDENSATION_IMPL_H
 
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/chain.h"
 #include "harness/newton/condensation.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/condensation_impl.h"
 
 static void note(const mesh_element *el, int number[])

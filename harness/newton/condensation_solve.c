@@ -1,10 +1,7 @@
 /* Solutions on all coordinates by way of the ends. */
 #include <string.h>
 
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/condensation_impl.h"
 
 /* Loads between the ends of a member, in the order of its links. */

@@ -1,6 +1,6 @@
 #include "harness/newton/context.h"
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/rotating_frame.h"
 

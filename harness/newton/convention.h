@@ -13,7 +13,7 @@
 #define BEAMWORK_CONVENTION_H
 
 #include "cases/scene/scene.h"
-#include "harness/model/movable.h"
+#include "harness/model/model.h"
 
 /* Does the convention change the stiffness of the tangent's?  Then one column of the compliance
  * depends on all the others. */

@@ -7,8 +7,7 @@
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"
 

@@ -2,8 +2,7 @@
 #ifndef BEAMWORK_EQUATIONS_IMPL_H
 #define BEAMWORK_EQUATIONS_IMPL_H
 
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/applied.h"
 #include "harness/newton/run_state.h"
 
@@ -27,7 +26,7 @@ void loads_add_at_vertices(const equations *eq, const model_state *s, double pat
 void loads_stiffness_at_vertices(const equations *eq, const model_state *s, double path,
                                  loads_entry, void *context);
 void loads_subtract_at_vertices(const equations *eq, const model_state *s, double path, sparse *K);
-/* And all of them, on a pattern of assemble.h. */
+/* And all of them, on a pattern of model.h. */
 void loads_subtract_stiffness(const equations *eq, const model_state *s, double path, sparse *K);
 /* REFUSED: a moment whose stiffness is not symmetric, which a symmetric matrix cannot hold. */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);

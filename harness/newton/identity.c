@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 
 identity identity_begin(void)
 {

@@ -6,10 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/section/taper.h"
-#include "harness/model/division.h"
-#include "harness/model/features.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/distributed.h"
 #include "harness/newton/equations_impl.h"
 #include "harness/newton/loads.h"

@@ -4,10 +4,7 @@
 #include <string.h>
 
 #include "elements/section/taper.h"
-#include "harness/model/division.h"
-#include "harness/model/features.h"
-#include "harness/model/mesh.h"
-#include "harness/model/profile.h"
+#include "harness/model/model.h"
 #include "harness/newton/equations_impl.h"
 
 /* The points of one member; those of a place of it where its section changes. */

@@ -5,11 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/spring.h"
+#include "harness/model/model.h"
 #include "harness/newton/equations_impl.h"
 
 enum { X = ELEMENT_MAX_COORDINATES, SIX = SPRING_STRAINS };

@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/linear.h"
 #include "harness/newton/loads.h"

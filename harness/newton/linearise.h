@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MODEL_LINEARISE_H
 #define BEAMWORK_MODEL_LINEARISE_H
 
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/loads.h"
 #include "harness/newton/run_state.h"
 

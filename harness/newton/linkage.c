@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
-#include "harness/model/supports.h"
+#include "harness/model/model.h"
 
 enum { N = 6 };
 

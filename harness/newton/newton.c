@@ -8,9 +8,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/context.h"
 #include "harness/newton/history.h"

@@ -6,11 +6,7 @@
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "elements/math/pi.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
-#include "harness/model/state.h"
-#include "harness/model/turns.h"
+#include "harness/model/model.h"
 #include "harness/newton/history.h"
 #include "harness/newton/newton.h"
 

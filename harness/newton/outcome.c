@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 
 void outcome_modes_free(rotation_modes *m)
 {

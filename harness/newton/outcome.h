@@ -71,7 +71,7 @@ typedef struct outcome_instant {
 } outcome_instant;
 
 /* What a motion passed through, wherever its stations lie, of one quantity. */
-enum { PASSING_LOST = 2 }; /* a turn has lost its direction (harness/model/turns.h) */
+enum { PASSING_LOST = 2 }; /* a turn has lost its direction (harness/model/model.h) */
 typedef struct outcome_passing {
     int known;    /* 1, 0: not, or PASSING_LOST */
     double value; /* as extracted, or a time [s], or how often in a second */
@@ -82,7 +82,7 @@ typedef struct outcome_passing {
 /* Of a motion where a step ended that was accepted; the first one: of the begin. */
 typedef struct outcome_step {
     double time, step;        /* [s] its end and length; of the begin 0 */
-    double error;             /* estimate of what it adds to positions, in the measure of metric.h;
+    double error;             /* estimate of what it adds to positions, in the measure of model.h;
                                  0: it was not asked for */
     int iterations, rejected; /* rejected: longer ones that were tried before it */
     double balance[SCENE_BALANCES];
@@ -103,7 +103,7 @@ typedef struct outcome_end {
     double *value; /* [2 states + 3 coordinates + 2 strains + released + 5 between]; NULL: none. The
                       state; that of the begin; rates, their derivatives, and what generalized-alpha
                       has of these; rates of damped strains and their derivatives; rates of released
-                      ends as conserving steps have them; turns of nodes against others (turns.h) */
+                      ends as conserving steps have them; turns of nodes against others (model.h) */
 } outcome_end;
 /* How many numbers `value` has. */
 size_t outcome_end_values(const outcome_end *);

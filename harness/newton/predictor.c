@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/extrapolate.h"
 
 /* Of many elements fewer states are kept, which are as good: iterations of sheet_cantilever,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/linear.h"
 #include "harness/newton/rotating_frame.h"
 

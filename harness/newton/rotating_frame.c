@@ -7,11 +7,7 @@
 
 #include "elements/field/field_mass.h"
 #include "elements/math/dense.h"
-#include "harness/model/discrete.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/equations_impl.h"
 
 int rotating_frame_lumps(const equations *eq)

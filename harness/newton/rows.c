@@ -3,9 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/model/division.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/newton/equations_impl.h"
 
 static void put(const model *m, int row, const row_label *label, row_label out[])

@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 
 /* Fewer elements than this are done before another thread is awake (measured on the joint and the
  * hexapod). */

@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_RUN_STATE_H
 #define BEAMWORK_RUN_STATE_H
 
-#include "harness/model/assemble.h"
+#include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
 
 /* Work done so far. */

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SHAPES_H
 #define BEAMWORK_SHAPES_H
 
-#include "harness/model/centreline.h"
+#include "harness/model/model.h"
 
 typedef enum shape_kind {
     SHAPE_UNDEFORMED,

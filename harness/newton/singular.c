@@ -5,8 +5,7 @@
 #include <stdlib.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/metric.h"
-#include "harness/model/supports.h"
+#include "harness/model/model.h"
 #include "harness/newton/context.h"
 #include "harness/newton/linear_system.h"
 #include "harness/newton/linkage.h"

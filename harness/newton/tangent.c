@@ -8,8 +8,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/border.h"
 #include "harness/newton/bordered.h"
 #include "harness/newton/context.h"

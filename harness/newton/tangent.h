@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_TANGENT_H
 #define BEAMWORK_TANGENT_H
 
-#include "harness/model/movable.h"
+#include "harness/model/model.h"
 #include "harness/newton/border.h"
 
 typedef struct node_tangent {

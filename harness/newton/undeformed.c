@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/ahead.h"
 #include "harness/newton/equations_impl.h"
 

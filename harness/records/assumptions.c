@@ -5,7 +5,7 @@
 
 #include "cases/scene/names.h"
 #include "cases/scene/omission.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 
 const char *assumptions_kind(int kind)
 {

@@ -4,10 +4,7 @@
 
 #include "cases/scene/omission.h"
 #include "elements/feature.h"
-#include "harness/model/division_words.h"
-#include "harness/model/features.h"
-#include "harness/model/on_nodes.h"
-#include "harness/model/warping_ends.h"
+#include "harness/model/model.h"
 #include "harness/records/fields_keys.h"
 #include "harness/study/price.h"
 

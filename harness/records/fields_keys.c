@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "cases/scene/omission.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/records/assumptions.h"
 
 static void get_elements(const subject *s, field_value *out)

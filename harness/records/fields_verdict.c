@@ -1,7 +1,7 @@
 /* Records of the judge: verdicts and agreements with stored discrete values. */
 #include <math.h>
 
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/records/fields_keys.h"
 #include "harness/study/reach.h"
 #include "harness/study/sentence.h"

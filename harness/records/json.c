@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cases/scene/omission.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/records/gather.h"
 #include "harness/records/json_record.h"
 #include "harness/study/noise.h"

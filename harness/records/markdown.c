@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cases/scene/omission.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/records/assumptions.h"
 #include "harness/study/sentence.h"
 

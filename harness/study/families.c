@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/study/truth.h"
 
 enum { MOST_SERIES = 64 };

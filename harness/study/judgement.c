@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
 #include "harness/study/agreements.h"
 #include "harness/study/coverage.h"

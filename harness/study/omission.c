@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/cell.h"
 #include "harness/study/expense.h"
 

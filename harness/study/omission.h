@@ -3,10 +3,10 @@
 #ifndef BEAMWORK_OMISSION_H
 #define BEAMWORK_OMISSION_H
 
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 
 typedef struct omission {
-    unsigned what;          /* FEATURE_* and OMIT_* bits (missing.h); 0: nothing */
+    unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
     char words[OMIT_WORDS]; /* the same, as results have it */
     int other;              /* 1: another model */
     int exact;              /* 1: there is none of it in the sections, or the analyses see none */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/truth.h"
 
 static status add_point(sweep *s, const case_type *type, const double value[],

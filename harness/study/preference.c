@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/change.h"
 #include "harness/study/price.h"
 

@@ -1,7 +1,7 @@
 #include "harness/study/sweep.h"
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/study/truth.h"
 #include "harness/study/truth_index.h"
 

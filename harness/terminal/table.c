@@ -5,8 +5,7 @@
 
 #include "cases/scene/omission.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/division_words.h"
-#include "harness/model/features.h"
+#include "harness/model/model.h"
 #include "harness/records/assumptions.h"
 #include "harness/study/cell.h"
 #include "harness/study/rounding.h"

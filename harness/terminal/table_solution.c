@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/model/on_nodes.h"
-#include "harness/model/warping_ends.h"
+#include "harness/model/model.h"
 #include "harness/study/change.h"
 #include "harness/study/truth.h"
 #include "harness/terminal/paragraph.h"

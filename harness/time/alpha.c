@@ -4,10 +4,7 @@
 #include <stdlib.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/metric.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/damping.h"
 #include "harness/time/drive.h"
 #include "harness/time/massive.h"

@@ -3,10 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "harness/model/discrete.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/inertia.h"
 
 static status stored(const model *m, const model_state *s, double *out, fault *f)

@@ -5,9 +5,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/drive.h"
 #include "harness/time/forms.h"
 #include "harness/time/increment.h"

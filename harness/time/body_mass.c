@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/inertia.h"
 #include "harness/time/released.h"
 #include "harness/time/spread.h"

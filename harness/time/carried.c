@@ -5,8 +5,7 @@
 
 #include "elements/math/vec3.h"
 #include "elements/shared/lumped.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 
 /* Tensor of a mass at r: mass (r.r 1 - r r^T). */
 static void add_point(double mass, const double r[3], double tensor[9])

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/chunk.h"
 
 enum { MOST = ELEMENT_MAX_STRAINS };

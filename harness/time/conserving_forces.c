@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/entries.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/time/deformable.h"
 #include "harness/time/place.h"
 

@@ -2,8 +2,7 @@
 #ifndef BEAMWORK_CONSERVING_IMPL_H
 #define BEAMWORK_CONSERVING_IMPL_H
 
-#include "harness/model/spring.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/arrival.h"
 #include "harness/time/cayley.h"
 #include "harness/time/complement.h"

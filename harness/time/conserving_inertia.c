@@ -5,8 +5,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/entries.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/carried_step.h"
 #include "harness/time/place.h"
 #include "harness/time/vertex_rates.h"

@@ -3,9 +3,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/time/carried_step.h"
 
 enum { BALL = 3 };

@@ -4,10 +4,7 @@
 
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
-#include "harness/model/discrete.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/turns.h"
+#include "harness/model/model.h"
 #include "harness/newton/chunk.h"
 #include "harness/time/deformable.h"
 

@@ -3,8 +3,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/larger.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/time/deformable.h"
 #include "harness/time/place.h"
 

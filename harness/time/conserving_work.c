@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/time/deformable.h"
 
 /* dr and c of the coordinates; of angles 2 tan(d angle/2). */

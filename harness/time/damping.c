@@ -6,10 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/forms.h"
 
 int damping_acts(const scene *s)

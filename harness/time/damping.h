@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_DAMPING_H
 #define BEAMWORK_DAMPING_H
 
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/run_state.h"
 #include "harness/time/instant.h"
 
@@ -14,7 +14,7 @@ int damping_acts(const scene *);
 status damping_begin(const equations *, run_damping *, fault *);
 void damping_end(const equations *, run_damping *);
 
-/* C of small motions about a state, on a pattern of assemble.h. */
+/* C of small motions about a state, on a pattern of model.h. */
 status damping_matrix(const equations *, const model_state *, sparse *C, fault *);
 
 /* Rates of the strains now: known + g (e - from); all [elements x strains]. */

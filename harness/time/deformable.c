@@ -3,9 +3,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/turns.h"
+#include "harness/model/model.h"
 #include "harness/newton/chunk.h"
 #include "harness/time/place.h"
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_DEFORMABLE_H
 #define BEAMWORK_DEFORMABLE_H
 
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/cayley_slopes.h"
 #include "harness/time/conserving_impl.h"
 

@@ -5,8 +5,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/loads.h"
 #include "harness/time/turning.h"
 

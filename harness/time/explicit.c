@@ -5,10 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/metric.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/explicit_impl.h"
 #include "harness/time/kinks.h"
 

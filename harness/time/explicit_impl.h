@@ -15,7 +15,7 @@ typedef struct explicit_scheme {
                                */
     double *inc, *residual;   /* [free + driven] */
     double *memory, *still;   /* of one element: as its type has it; no increment of strains */
-    double *weight;           /* [free + driven] metric.h */
+    double *weight;           /* [free + driven] model.h */
     const instant *from;      /* of the present step */
     double end;               /* [s] where its last loads are read */
     instant *at;              /* the last evaluation */

@@ -5,9 +5,7 @@
 
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/explicit_impl.h"
 #include "harness/time/inertia.h"
 

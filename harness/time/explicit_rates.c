@@ -3,9 +3,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/linearise.h"
 #include "harness/time/drive.h"
 #include "harness/time/explicit_impl.h"

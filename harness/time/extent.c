@@ -3,8 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 
 const double extent_guess = 0.02;
 

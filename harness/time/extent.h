@@ -9,7 +9,7 @@
 typedef struct extent {
     model_state *begin; /* where the motion began */
     double bent;        /* its distance from the undeformed state: what that is known to is noise */
-    double scale;       /* the guess, in the measure of metric.h: 1 is the size of the structure */
+    double scale;       /* the guess, in the measure of model.h: 1 is the size of the structure */
     double largest;     /* distance from the begin so far, of what has inertia */
     double rate;        /* [1/s] largest mean one of a step, likewise */
     double density;     /* error of a step by its size to the order of the scheme: extent_error */

@@ -5,9 +5,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 
 /* Components of a rotation about fixed axes that move. */
 static int turns_of(const model *m, int vertex)

@@ -4,10 +4,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/turning.h"
 
 static void three(const mesh_vertex *v, const double of[], double out[3])

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/damping.h"
 
 static size_t strains_of(const model *m)

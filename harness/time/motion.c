@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "elements/math/larger.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/history.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"

@@ -5,9 +5,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 
 enum { FIRST_TURN = 6, BALL = 3 };
 

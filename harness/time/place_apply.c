@@ -1,8 +1,6 @@
 #include <string.h>
 
-#include "harness/model/entries.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
+#include "harness/model/model.h"
 #include "harness/time/place.h"
 
 enum { SIX = 6 };

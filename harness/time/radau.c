@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "elements/math/larger.h"
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/metric.h"
+#include "harness/model/model.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/newton.h"
 #include "harness/time/damping.h"

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/linearise.h"
 #include "harness/time/damping.h"
 #include "harness/time/radau_impl.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_RADAU_IMPL_H
 #define BEAMWORK_RADAU_IMPL_H
 
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/arrival.h"
 #include "harness/time/complement.h"
 #include "harness/time/scheme.h"
@@ -66,7 +66,7 @@ void radau_damp_error(const radau *, const instant *from, double h, const double
                       double g, double room[]);
 
 /* radau_error.c: what a step that was solved adds to the error of positions, in the measure of
- * metric.h. [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with
+ * model.h. [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)), with
  * g = 1/(l h), l the real eigenvalue of A, about the instant before. room: work space. */
 status radau_error(radau *, const instant *from, double h, instant *room, double *error, fault *);
 

@@ -8,7 +8,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/charts.h"
 #include "harness/time/forms.h"
 #include "harness/time/radau_impl.h"

@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/entries.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/radau_impl.h"
 #include "harness/time/spread.h"
 

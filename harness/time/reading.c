@@ -3,7 +3,7 @@
 #include "cases/scene/quantity_type.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/time/forms.h"
 
 /* A state as kinds of quantities read it; rate NULL: not of a motion. */

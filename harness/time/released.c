@@ -10,10 +10,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/release.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 
 enum { BALL = 3 };
 

@@ -1,9 +1,9 @@
 /* Masses of ends of members that are released from their nodes: they move with the coordinates of
- * the node's body and with turns and shifts of their own (harness/model/release.h). */
+ * the node's body and with turns and shifts of their own (harness/model/model.h). */
 #ifndef BEAMWORK_RELEASED_H
 #define BEAMWORK_RELEASED_H
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/time/forms.h"
 
 /* What such an end, or any other vertex, depends on. */

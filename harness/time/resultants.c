@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/internal_stress.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"

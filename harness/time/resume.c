@@ -3,9 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
-#include "harness/model/turns.h"
+#include "harness/model/model.h"
 #include "harness/numerics/numerics.h"
 #include "harness/time/damping.h"
 

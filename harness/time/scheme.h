@@ -24,7 +24,7 @@ struct motion_scheme {
                               or not known before the first step */
     between_degree degree; /* inside a step; quintic: accelerations are as exact as rates */
     /* One step of h [s]; *error: estimate of what it adds to positions, in the measure of
-     * metric.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
+     * model.h. NOT_CONVERGED: `to` is of no use, `from` is as it was. */
     status (*step)(motion_scheme *, const instant *from, double h, instant *to, double *error,
                    step_record *, fault *);
     void (*free)(motion_scheme *);

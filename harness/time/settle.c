@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/history.h"
 #include "harness/newton/linearise.h"

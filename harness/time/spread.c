@@ -6,12 +6,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/offset.h"
 #include "elements/math/vec3.h"
-#include "harness/model/assemble.h"
-#include "harness/model/eliminate.h"
-#include "harness/model/entries.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/released.h"
 #include "harness/time/vertex_rates.h"
 

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"

@@ -3,9 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/entries.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 
 /* Free coordinates that the mass of a coordinate couples it with, ascending; how many. */
 static int coupled(const model *m, const int frame_of[], const double warping[], int c, int list[6])

@@ -3,9 +3,7 @@
 #ifndef BEAMWORK_STAGES_H
 #define BEAMWORK_STAGES_H
 
-#include "harness/model/entries.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/run_state.h"
 #include "harness/time/carried.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/time/aside.h"
 #include "harness/time/balance.h"
 

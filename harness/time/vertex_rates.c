@@ -1,7 +1,7 @@
 #include "harness/time/vertex_rates.h"
 
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/time/released.h"
 
 void inertia_rates(const model *m, const model_state *s, int vertex, const double v[],

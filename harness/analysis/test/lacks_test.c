@@ -7,7 +7,7 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/tools/kit/accepted.h"
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;

@@ -8,8 +8,7 @@
 #include "elements/math/pi.h"
 #include "elements/math/rotation.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/modes.h"
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };

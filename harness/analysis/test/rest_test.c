@@ -9,7 +9,7 @@
 
 #include "harness/analysis/test/moves.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/plan.h"
 #include "harness/study/sweep.h"
 

@@ -8,7 +8,7 @@
 #include "elements/test/sections.h"
 #include "harness/analysis/test/moves.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/supports.h"
+#include "harness/model/model.h"
 #include "harness/tools/kit/cells.h"
 
 /* Two beams along x, the second beside the first and held by itself; loads along z. */

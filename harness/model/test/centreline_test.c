@@ -1,5 +1,5 @@
 /* Centre lines for pictures: a shaft that is twisted, a beam that is bent to an arc. */
-#include "harness/model/centreline.h"
+#include "harness/model/model.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -7,7 +7,6 @@
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
 #include "harness/tools/kit/scenes.h"
 
 enum { POINTS = 13, MOST = 60 };

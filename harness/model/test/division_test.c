@@ -3,8 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/model/division.h"
-#include "harness/model/division_words.h"
+#include "harness/model/model.h"
 
 enum { WHOLE, LOADED, OWN };
 

@@ -8,7 +8,7 @@
 #include "elements/test/sections.h"
 #include "harness/analysis/solve.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 
 static const char *const names[] = {
     "sheet_second",        "sheet_second_consistent",     "sheet_third", "sheet_third_printed",

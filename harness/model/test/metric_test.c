@@ -5,8 +5,6 @@
 #include <stdlib.h>
 
 #include "elements/math/rotation.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/metric.h"
 #include "harness/model/model_impl.h"
 #include "harness/model/test/corner.h"
 

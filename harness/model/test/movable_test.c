@@ -7,7 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/test/random.h"
-#include "harness/model/movable.h"
+#include "harness/model/model.h"
 
 /* Columns of T: `shifts` displacements along the axes, then turns about unit axes in a plane (or
  * in space) of random orientation, seen at an offset of about `length`. */

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/model/features.h"
-#include "harness/model/missing.h"
 #include "harness/model/model.h"
 
 static void member(double Fyz, double Fyw, double Fzw, scene *s)

@@ -7,7 +7,7 @@
 #include "elements/test/nodes.h"
 #include "elements/test/random.h"
 #include "elements/test/worst.h"
-#include "harness/model/spring.h"
+#include "harness/model/model.h"
 
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {

@@ -2,7 +2,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/model/supports.h"
+#include "harness/model/model.h"
 
 int main(void)
 {

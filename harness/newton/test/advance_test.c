@@ -8,9 +8,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
 #include "harness/model/model.h"
-#include "harness/model/supports.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"
 

@@ -8,7 +8,7 @@
 #include "elements/test/sections.h"
 #include "harness/analysis/solve.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/loads.h"
 #include "harness/tools/kit/scenes.h"

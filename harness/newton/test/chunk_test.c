@@ -7,7 +7,7 @@
 
 #include "harness/analysis/solve.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/linearise.h"
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };

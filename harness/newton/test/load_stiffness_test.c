@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/model/assemble.h"
+#include "harness/model/model.h"
 #include "harness/newton/rotating_frame.h"
 #include "harness/newton/test/turned_body.h"
 

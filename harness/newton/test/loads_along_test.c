@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/linearise.h"
 #include "harness/newton/rotating_frame.h"
 

@@ -11,7 +11,7 @@
 #include "elements/math/rotation.h"
 #include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
+#include "harness/model/model.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"
 #include "harness/tools/kit/scenes.h"

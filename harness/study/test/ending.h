@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 
 enum { KILLED, ENDED, HANGING, STOPPED };
 

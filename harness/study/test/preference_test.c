@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/features.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 
 typedef struct preference_chosen {
     status outcome;

@@ -1,7 +1,6 @@
 /* What runs between two instants comes to both of them: places, shifts, angles, warping, rates and
  * accelerations, of bodies, sequences of angles and released ends, turned by half a radian. */
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/between.h"
 
 #include "elements/test/worst.h"

@@ -6,9 +6,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/complement.h"
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,

@@ -3,7 +3,7 @@
  * that turns has inertia is refused, as is a node that turns by two free angles. */
 #include <stdio.h>
 
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flight.h"
 #include "harness/tools/kit/scenes.h"
 

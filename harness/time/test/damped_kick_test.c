@@ -3,8 +3,7 @@
 #include <math.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/newton/linearise.h"
 #include "harness/time/inertia.h"
 #include "harness/time/massless.h"

@@ -3,8 +3,7 @@
 #include <gsl/gsl_test.h>
 #include <math.h>
 
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flying.h"
 #include "harness/tools/kit/scenes.h"
 

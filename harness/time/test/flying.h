@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/newton/history.h"
 #include "harness/newton/loads.h"
 #include "harness/time/damping.h"

@@ -5,8 +5,7 @@
 
 #include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flight.h"
 #include "harness/tools/kit/ask.h"
 

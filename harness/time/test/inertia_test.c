@@ -1,8 +1,7 @@
 /* Forces of inertia of everything that carries mass (off-centre bodies, beams beside their nodes,
  * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
  * along a motion; kinetic energy is that of all masses one by one. */
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/inertia.h"
 #include "harness/time/vertex_rates.h"
 

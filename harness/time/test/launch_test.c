@@ -4,8 +4,7 @@
 #include <math.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flying.h"
 #include "harness/tools/kit/scenes.h"
 

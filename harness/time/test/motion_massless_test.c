@@ -5,8 +5,7 @@
 #include <math.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flying.h"
 #include "harness/tools/kit/scenes.h"
 

@@ -1,7 +1,5 @@
 /* What of forces works on what has no inertia: warping amplitudes with and without mass. */
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/massless.h"
 
 #include <gsl/gsl_test.h>

@@ -4,9 +4,7 @@
 #include <stdio.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/model/test/turned_end.h"
 #include "harness/newton/advance.h"
 #include "harness/newton/linearise.h"

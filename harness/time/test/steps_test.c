@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "elements/test/worst.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
 #include "harness/tools/kit/scenes.h"

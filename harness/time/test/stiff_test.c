@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/state.h"
+#include "harness/model/model.h"
 #include "harness/time/test/moving.h"
 
 extern const case_type case_pendulum;

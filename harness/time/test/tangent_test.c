@@ -1,9 +1,7 @@
 /* The tangent of forces of inertia is their derivative, in the exponential chart, with rates that
  * follow the increments of a step of finite turns. */
 #include "elements/test/worst.h"
-#include "harness/model/assemble.h"
-#include "harness/model/kinematics.h"
-#include "harness/model/mesh.h"
+#include "harness/model/model.h"
 #include "harness/time/inertia.h"
 #include "harness/time/test/masses.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/model/missing.h"
+#include "harness/model/model.h"
 #include "harness/study/cell.h"
 
 int ask_offered(const scene *s, const element_type *type)

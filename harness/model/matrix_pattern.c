@@ -1,11 +1,8 @@
 /* Patterns, and where every entry of an element goes in them. */
-#include "harness/model/assemble.h"
+#include "harness/model/model_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "harness/model/model_impl.h"
-#include "harness/numerics/numerics.h"
 
 /* Tangents of dead moments about fixed axes, be they loads or reactions, and of loads that follow
  * are stored whole: whether they are symmetric is a matter of the state. */

@@ -1,0 +1,424 @@
+/* A rigid body in a frame that turns with Omega: with its centre at x from a point of the axis, its
+ * inertia I = R I_0 R^T about that and h = I Omega,
+ *   potential = -1/2 (m |Omega x x|^2 + Omega . h).
+ * About the centre, for translations of it and turns in the exponential chart: centrifugal force
+ * -m Omega x (Omega x x) and moment h x Omega, softening m Omega~^2 and
+ *   Omega~ I Omega~ - sym(h Omega^T) + (h . Omega) 1,
+ * gyroscopic matrix 2 m Omega~ and I Omega~ + Omega~ I - h~ (a body that tumbles in the frame
+ * included).  At the node by the rigid offset. */
+#include "harness/model/model_impl.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/scene/names.h"
+#include "elements/math/dense.h"
+#include "elements/math/offset.h"
+
+enum { N = NODE_COORDINATES };
+
+/* I = R I_0 R^T */
+static void inertia_now(const double given[6], const double R[9], double I[9])
+{
+    const double at_rest[9] = {given[0], given[3], given[5], given[3], given[1],
+                               given[4], given[5], given[4], given[2]};
+    double half[9];
+    mat3_mul(R, at_rest, half);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            I[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
+}
+
+/* A[7 x 7] = translation block, rotation block */
+static void put_blocks(const double translation[9], const double rotation[9], double A[N * N])
+{
+    memset(A, 0, N * N * sizeof *A);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            A[N * i + j] = translation[3 * i + j];
+            A[N * (3 + i) + 3 + j] = rotation[3 * i + j];
+        }
+}
+
+static void mass_matrix(double mass, const double I[9], double M[N * N])
+{
+    const double translation[9] = {mass, 0, 0, 0, mass, 0, 0, 0, mass};
+    put_blocks(translation, I, M);
+}
+
+/* v~ */
+static void cross_matrix(const double v[3], double A[9])
+{
+    const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};
+    memcpy(A, all, sizeof all);
+}
+
+static void gyroscopic_matrix(double mass, const double I[9], const double omega[3],
+                              double G[N * N])
+{
+    double W[9], IW[9], WI[9], h[3], H[9], translation[9], rotation[9];
+    cross_matrix(omega, W);
+    mat3_mul(I, W, IW);
+    mat3_mul(W, I, WI);
+    mat3_mul_vec(I, omega, h);
+    cross_matrix(h, H);
+    for (int i = 0; i < 9; i++) {
+        translation[i] = 2 * mass * W[i];
+        rotation[i] = IW[i] + WI[i] - H[i];
+    }
+    put_blocks(translation, rotation, G);
+}
+
+static void softening_matrix(double mass, const double I[9], const double omega[3], double A[N * N])
+{
+    double W[9], IW[9], h[3], translation[9], rotation[9];
+    cross_matrix(omega, W);
+    mat3_mul(I, W, IW);
+    mat3_mul_vec(I, omega, h);
+    mat3_mul(W, W, translation);
+    mat3_mul(W, IW, rotation);
+    const double twice = vec3_dot(h, omega);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            translation[3 * i + j] *= mass;
+            rotation[3 * i + j] += (i == j ? twice : 0) - (h[i] * omega[j] + omega[i] * h[j]) / 2;
+        }
+    put_blocks(translation, rotation, A);
+}
+
+/* Outward force and moment about the centre, and the potential. */
+static double centrifugal(double mass, const double I[9], const double x[3], const double omega[3],
+                          double force[N])
+{
+    double h[3], speed[3];
+    memset(force, 0, N * sizeof *force);
+    mat3_mul_vec(I, omega, h);
+    vec3_cross(omega, x, speed);
+    vec3_cross(speed, omega, force);
+    for (int i = 0; i < 3; i++)
+        force[i] *= mass;
+    vec3_cross(h, omega, force + 3);
+    return -(mass * vec3_dot(speed, speed) + vec3_dot(omega, h)) / 2;
+}
+
+void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
+                  inertia_output *out)
+{
+    static const element_rotating_frame none = {{0, 0, 0}, {0, 0, 0}};
+    const element_rotating_frame *s = frame != NULL ? frame : &none;
+    double I[9], rho[3], from[3], outward[N], inward[N];
+    inertia_now(b->inertia, x->R, I);
+    mat3_mul_vec(x->R, b->centre, rho);
+    for (int i = 0; i < 3; i++)
+        from[i] = x->r[i] + rho[i] - s->centre[i];
+    const double potential = centrifugal(b->mass, I, from, s->omega, outward);
+    for (int i = 0; i < N; i++)
+        inward[i] = -outward[i];
+    if (out->potential != NULL)
+        *out->potential = potential;
+    if (out->M != NULL) {
+        mass_matrix(b->mass, I, out->M);
+        offset_matrix(N, 0, rho, NULL, out->M);
+    }
+    if (out->G != NULL) {
+        gyroscopic_matrix(b->mass, I, s->omega, out->G);
+        offset_matrix(N, 0, rho, NULL, out->G);
+    }
+    if (out->N != NULL) {
+        softening_matrix(b->mass, I, s->omega, out->N);
+        offset_matrix(N, 0, rho, inward, out->N);
+    }
+    if (out->force != NULL) {
+        offset_force(rho, outward);
+        memcpy(out->force, outward, sizeof outward);
+    }
+}
+
+enum { X = ELEMENT_MAX_COORDINATES };
+
+static void begin(const int nodes, const int vertex[], mesh_discrete *d)
+{
+    memset(d, 0, sizeof *d);
+    d->el.kind = d->el.member = NONE;
+    d->el.nodes = nodes;
+    d->el.triad = d->triad;
+    for (int k = 0; k < nodes; k++) {
+        d->el.vertex[k] = vertex[k];
+        d->el.warp[k] = NONE;
+        for (int i = 0; i < 3; i++)
+            d->triad[k][4 * i] = 1;
+    }
+}
+
+static void add_spring(model *m, const scene_spring *spring)
+{
+    const int both[2] = {spring->p, spring->q}, one = spring->p == SCENE_NONE;
+    mesh_discrete *d = &m->mesh.discrete[m->mesh.discretes++];
+    begin(one ? 1 : 2, one ? &both[1] : both, d);
+    d->spring = spring;
+    m->mesh.springs++;
+}
+
+status discrete_build(model *m, fault *f)
+{
+    int count = m->scene->springs;
+    for (int i = 0; i < m->scene->nodes; i++)
+        count += scene_has_body(&m->scene->node[i]);
+    if (count == 0)
+        return STATUS_OK;
+    m->mesh.discrete = calloc((size_t)count, sizeof *m->mesh.discrete);
+    if (m->mesh.discrete == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for rigid bodies and springs");
+    for (int i = 0; i < m->scene->nodes; i++)
+        if (scene_has_body(&m->scene->node[i])) {
+            begin(1, &i, &m->mesh.discrete[m->mesh.discretes]);
+            m->mesh.discrete[m->mesh.discretes++].body = &m->scene->node[i].body;
+        }
+    for (int i = 0; i < m->scene->springs; i++)
+        add_spring(m, &m->scene->spring[i]);
+    return STATUS_OK;
+}
+
+/* Of a spring in a state. */
+typedef struct spring_state {
+    double e[SPRING_STRAINS], sigma[SPRING_STRAINS], J[SPRING_STRAINS * X], H[X * X];
+} spring_state;
+
+static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
+                      spring_state *out)
+{
+    node_state x[ELEMENT_MAX_NODES];
+    const double *turn = turns_of_spring(m, s, (int)(d->spring - m->scene->spring));
+    kinematics_gather(m, s, &d->el, x);
+    spring_strain(d->el.nodes, x, turn, &(strain_output){.e = out->e, .J = out->J});
+    dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, out->e, out->sigma);
+    spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
+}
+
+/* Force and tangent at the nodes themselves; material: with J^T S J of springs. */
+static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
+                     const element_rotating_frame *frame, int material, double force[], double K[])
+{
+    const int n = NODE_COORDINATES * d->el.nodes;
+    node_state x[ELEMENT_MAX_NODES];
+    if (d->spring != NULL) {
+        spring_state p;
+        double work[SPRING_STRAINS * X];
+        spring_at(m, s, d, &p);
+        memset(force, 0, (size_t)n * sizeof *force);
+        dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, p.sigma, force);
+        memcpy(K, p.H, (size_t)(n * n) * sizeof *K);
+        if (material)
+            dense_add_congruence(SPRING_STRAINS, n, p.J, d->spring->stiffness, K, work);
+        return;
+    }
+    kinematics_gather(m, s, &d->el, x);
+    body_inertia(d->body, x, frame, &(inertia_output){.force = force, .N = K});
+    for (int k = 0; k < n; k++)
+        force[k] = -force[k];
+}
+
+/* Force and tangent in model coordinates. */
+static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
+                       const element_rotating_frame *frame, int material, double force[],
+                       double K[])
+{
+    evaluate(m, s, d, frame, material, force, K);
+    eliminate_matrix(m, s, &d->el, force, K);
+    eliminate_forces(m, s, &d->el, force);
+}
+
+void discrete_equations(const model *m, const model_state *s, const mesh_discrete *d,
+                        const element_rotating_frame *frame, double force[], double K[])
+{
+    eliminated(m, s, d, frame, 1, force, K);
+}
+
+void discrete_inertia(const model *m, const model_state *s, const element_rotating_frame *frame,
+                      sparse *M, sparse *G)
+{
+    for (int i = 0; i < m->mesh.discretes - m->mesh.springs; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
+        node_state x[ELEMENT_MAX_NODES];
+        double mass[X * X], gyroscopic[X * X];
+        kinematics_gather(m, s, &d->el, x);
+        body_inertia(d->body, x, frame, &(inertia_output){.M = mass, .G = gyroscopic});
+        eliminate_matrix(m, s, &d->el, NULL, mass);
+        assemble_discrete(&d->el, mass, M);
+        if (G == NULL)
+            continue;
+        eliminate_matrix(m, s, &d->el, NULL, gyroscopic);
+        assemble_discrete(&d->el, gyroscopic, G);
+    }
+}
+
+void discrete_material_product(const model *m, const model_state *s, const double x[], double y[])
+{
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
+        const int n = NODE_COORDINATES * d->el.nodes;
+        double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS], force[X] = {0};
+        spring_state p;
+        spring_at(m, s, d, &p);
+        kinematics_local(m, s, &d->el, x, local);
+        dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
+        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
+        dense_add_transpose_mul(n, SPRING_STRAINS, 1, p.J, sigma, force);
+        eliminate_forces(m, s, &d->el, force);
+        assemble_vector(&d->el, force, y);
+    }
+}
+
+void discrete_geometric(const model *m, const model_state *s, const element_rotating_frame *frame,
+                        sparse *out)
+{
+    for (int i = 0; i < m->mesh.discretes; i++) {
+        double force[X], K[X * X];
+        eliminated(m, s, &m->mesh.discrete[i], frame, 0, force, K);
+        assemble_discrete(&m->mesh.discrete[i].el, K, out);
+    }
+}
+
+double discrete_material_rounding(const model *m, const model_state *s, const double x[])
+{
+    double sum = 0;
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
+        const int n = NODE_COORDINATES * d->el.nodes;
+        double local[X], e[SPRING_STRAINS], sigma[SPRING_STRAINS];
+        spring_state p;
+        spring_at(m, s, d, &p);
+        kinematics_local(m, s, &d->el, x, local);
+        dense_mul_vec(SPRING_STRAINS, n, p.J, local, e);
+        dense_mul_vec(SPRING_STRAINS, SPRING_STRAINS, d->spring->stiffness, e, sigma);
+        for (int k = 0; k < SPRING_STRAINS; k++)
+            for (int j = 0; j < n; j++)
+                sum += DBL_EPSILON * 2 * fabs(sigma[k] * p.J[k * n + j] * local[j]);
+    }
+    return sum;
+}
+
+double discrete_stored(const model *m, const model_state *s)
+{
+    double sum = 0;
+    for (int i = m->mesh.discretes - m->mesh.springs; i < m->mesh.discretes; i++) {
+        spring_state p;
+        spring_at(m, s, &m->mesh.discrete[i], &p);
+        sum += dense_dot(SPRING_STRAINS, p.e, p.sigma) / 2;
+    }
+    return sum;
+}
+
+void discrete_node_force(const model *m, const model_state *s, const element_rotating_frame *frame,
+                         int node, double F[6])
+{
+    for (int i = 0; i < m->mesh.discretes; i++) {
+        const mesh_discrete *d = &m->mesh.discrete[i];
+        double force[X], K[X * X];
+        evaluate(m, s, d, frame, 1, force, K);
+        for (int k = 0; k < d->el.nodes; k++) {
+            double *at = force + NODE_COORDINATES * k, rho[3];
+            if (m->mesh.vertex[d->el.vertex[k]].body != node)
+                continue;
+            kinematics_offset(m, s, d->el.vertex[k], rho);
+            if (d->el.vertex[k] != node)
+                offset_force(rho, at);
+            for (int c = 0; c < 6; c++)
+                F[c] += at[c];
+        }
+    }
+}
+
+/* Element coordinates (dr, dphi, da per vertex) -> coordinates of the bodies that move them, in
+ * place. Offset: offset.h. Sequence: theta = sum b_i dt_i + 1/2 sum_(i<j) b_i x
+ * b_j dt_i dt_j (Baker-Campbell-Hausdorff). */
+
+static void sequence_force(int angles, double b[3][3], double force[7])
+{
+    double t[3] = {0, 0, 0};
+    for (int k = 0; k < angles; k++)
+        t[k] = vec3_dot(b[k], force + 3);
+    memcpy(force + 3, t, sizeof t);
+}
+
+void eliminate_forces(const model *m, const model_state *s, const mesh_element *el, double force[])
+{
+    if (el->plain)
+        return;
+    for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
+        const int v = el->vertex[k], body = m->mesh.vertex[v].body;
+        double rho[3], b[3][3];
+        if (release_of(m, v) != NULL) {
+            release_force(m, s, v, force + NODE_COORDINATES * k, force + own);
+            own += release_of(m, v)->turns + release_of(m, v)->slides;
+        }
+        if (body != v) {
+            kinematics_offset(m, s, v, rho);
+            offset_force(rho, force + NODE_COORDINATES * k);
+        }
+        if (m->mesh.vertex[body].angles > 0) {
+            kinematics_axes(m, s, body, b);
+            sequence_force(m->mesh.vertex[body].angles, b, force + NODE_COORDINATES * k);
+        }
+    }
+}
+
+static void sequence_matrix(int n, int at, int angles, double b[3][3], const double moment[3],
+                            double K[])
+{
+    for (int i = 0; i < n; i++) {
+        double t[3] = {0, 0, 0};
+        for (int k = 0; k < angles; k++)
+            t[k] = vec3_dot(&K[i * n + at + 3], b[k]);
+        memcpy(&K[i * n + at + 3], t, sizeof t);
+    }
+    for (int j = 0; j < n; j++) {
+        const double column[3] = {K[(at + 3) * n + j], K[(at + 4) * n + j], K[(at + 5) * n + j]};
+        for (int k = 0; k < 3; k++)
+            K[(at + 3 + k) * n + j] = k < angles ? vec3_dot(column, b[k]) : 0;
+    }
+    if (moment == NULL)
+        return;
+    for (int i = 0; i < angles; i++)
+        for (int j = i + 1; j < angles; j++) {
+            double cross[3];
+            vec3_cross(b[i], b[j], cross);
+            const double half = vec3_dot(moment, cross) / 2;
+            K[(at + 3 + i) * n + at + 3 + j] += half;
+            K[(at + 3 + j) * n + at + 3 + i] += half;
+        }
+}
+
+void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
+                      const double force[], double K[])
+{
+    if (el->plain)
+        return;
+    const int n = el->columns;
+    if (n > NODE_COORDINATES * el->nodes)
+        release_widen(el, K);
+    for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
+        const int v = el->vertex[k], body = m->mesh.vertex[v].body;
+        double rho[3], b[3][3], moment[7];
+        if (force != NULL)
+            memcpy(moment, force + NODE_COORDINATES * k, sizeof moment);
+        if (release_of(m, v) != NULL) {
+            release_matrix(m, s, v, n, NODE_COORDINATES * k, own, force != NULL ? moment : NULL, K);
+            own += release_of(m, v)->turns + release_of(m, v)->slides;
+        }
+        if (body != v) {
+            kinematics_offset(m, s, v, rho);
+            offset_matrix(n, NODE_COORDINATES * k, rho,
+                          force != NULL ? force + NODE_COORDINATES * k : NULL, K);
+            if (force != NULL)
+                offset_force(rho, moment);
+        }
+        if (m->mesh.vertex[body].angles > 0) {
+            kinematics_axes(m, s, body, b);
+            sequence_matrix(n, NODE_COORDINATES * k, m->mesh.vertex[body].angles, b,
+                            force != NULL ? moment + 3 : NULL, K);
+        }
+    }
+}
