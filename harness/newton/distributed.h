@@ -5,7 +5,7 @@
 #define BEAMWORK_MODEL_DISTRIBUTED_H
 
 #include "harness/newton/run_state.h"
-#include "harness/section_forces/span.h"
+#include "harness/section_forces/section_forces.h"
 
 /* Of one element, at a path parameter. */
 typedef struct distributed_loads {

@@ -168,7 +168,7 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
         out[c] *= -1;
 }
 
-/* The ends of an element as span.h wants them. */
+/* The ends of an element as section_forces.h wants them. */
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;

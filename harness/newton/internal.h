@@ -2,13 +2,13 @@
  *
  * At the ends of an element they are what its nodal forces J^T sigma leave when the loads along it
  * that its nodes take are taken off: in equilibrium with everything beyond, whatever a formulation
- * assumes inside.  Between them harness/section_forces/span.h carries them on, the same way for all
- * formulations. */
+ * assumes inside.  Between them harness/section_forces/section_forces.h carries them on, the same
+ * way for all formulations. */
 #ifndef BEAMWORK_MODEL_INTERNAL_H
 #define BEAMWORK_MODEL_INTERNAL_H
 
 #include "harness/newton/run_state.h"
-#include "harness/section_forces/span.h"
+#include "harness/section_forces/section_forces.h"
 
 /* Which state. */
 typedef struct internal_state {
@@ -44,11 +44,11 @@ typedef struct internal_place {
     int before;
 } internal_place;
 
-/* The same at a place of a member, and what else span.h has: out[SPAN_VALUES]. NOT_CONVERGED: as
- * span_recover. Of a motion the mass lies evenly along an element again, with accelerations that
- * are interpolated between its nodes: of a linear acceleration the forces are those of what lies
- * beyond, so that values go through from element to element (order 2). Warping inertia acts at
- * nodes. */
+/* The same at a place of a member, and what else section_forces.h has: out[SPAN_VALUES].
+ * NOT_CONVERGED: as span_recover. Of a motion the mass lies evenly along an element again, with
+ * accelerations that are interpolated between its nodes: of a linear acceleration the forces are
+ * those of what lies beyond, so that values go through from element to element (order 2). Warping
+ * inertia acts at nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 

@@ -1,12 +1,13 @@
-#include "harness/section_forces/span.h"
+#include "harness/section_forces/section_forces_impl.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/pi.h"
+#include "elements/math/quadrature.h"
+#include "elements/math/rotation.h"
 #include "elements/shared/beam_coupled.h"
-#include "harness/section_forces/fixed_point.h"
-#include "harness/section_forces/span_twist.h"
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
 static const double span_enough = 1e-12, tolerable = 1e-7; /* of strains times the length */
@@ -221,4 +222,300 @@ void span_at(const span_grid *g, const span_fields *fields, double x, double out
         for (int j = 0; j < N; j++)
             out[i] += share[j] * fields->value[j][i];
     }
+}
+
+enum { CURVE_N = SPAN_GRID_POINTS };
+
+/* The turn over a gap of length h, in the axes at its beginning (Blanes, Casas, Ros, BIT 40, 2000):
+ * R^T' = -kappa~ R^T at three Gauss points. */
+static void turn_of(const span_grid *g, int gap, const double kappa[], double h, double out[3])
+{
+    double at[SPAN_GRID_GAUSS][3] = {{0}}, a[3], b[3], c[3], first[3], second[3], third[3],
+           fourth[3];
+    for (int k = 0; k < SPAN_GRID_GAUSS; k++)
+        for (int j = 0; j < CURVE_N; j++)
+            for (int i = 0; i < 3; i++)
+                at[k][i] -= h * g->gauss[gap][k][j] * kappa[3 * j + i];
+    for (int i = 0; i < 3; i++) {
+        a[i] = at[1][i];
+        b[i] = sqrt(15) / 3 * (at[2][i] - at[0][i]);
+        c[i] = 10.0 / 3 * (at[2][i] - 2 * at[1][i] + at[0][i]);
+    }
+    vec3_cross(a, b, first);
+    for (int i = 0; i < 3; i++) {
+        third[i] = 2 * c[i] + first[i];
+        fourth[i] = -20 * a[i] - c[i] + first[i];
+    }
+    vec3_cross(a, third, second);
+    for (int i = 0; i < 3; i++)
+        third[i] = b[i] - second[i] / 60;
+    vec3_cross(fourth, third, second);
+    for (int i = 0; i < 3; i++)
+        out[i] = -(a[i] + c[i] / 12 + second[i] / 240);
+}
+
+/* Orientations, so that the last is that of q. */
+static void turn(const span_grid *g, const span_frame *p, const span_frame *q, const double kappa[],
+                 span_curve *out)
+{
+    double along[CURVE_N][4], end[4], missing[3];
+    rotation_from_matrix(p->R, along[0]);
+    rotation_from_matrix(q->R, end);
+    for (int i = 0; i + 1 < CURVE_N; i++) {
+        double step[3], by[4];
+        turn_of(g, i, kappa, g->x[i + 1] - g->x[i], step);
+        rotation_exp(step, by);
+        rotation_compose(along[i], by, along[i + 1]);
+    }
+    rotation_between(along[CURVE_N - 1], end, missing);
+    for (int i = 0; i < CURVE_N; i++) {
+        const double part[3] = {g->x[i] * missing[0], g->x[i] * missing[1], g->x[i] * missing[2]};
+        double by[4];
+        rotation_exp(part, by);
+        rotation_compose(by, along[i], along[i]);
+        rotation_matrix(along[i], out->R[i]);
+    }
+    memcpy(out->R[0], p->R, sizeof out->R[0]);
+    memcpy(out->R[CURVE_N - 1], q->R, sizeof out->R[0]);
+}
+
+void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
+                        const double kappa[], const double gamma[], span_curve *out)
+{
+    double slope[CURVE_N][3];
+    turn(g, p, q, kappa, out);
+    for (int i = 0; i < CURVE_N; i++) {
+        const double along[3] = {1 + gamma[3 * i], gamma[3 * i + 1], gamma[3 * i + 2]};
+        mat3_mul_vec(out->R[i], along, slope[i]);
+    }
+    span_grid_integrate(g, 3, slope[0], out->r[0]);
+    double missing[3];
+    for (int k = 0; k < 3; k++)
+        missing[k] = q->r[k] - p->r[k] - out->r[CURVE_N - 1][k];
+    for (int i = 0; i < CURVE_N; i++)
+        for (int k = 0; k < 3; k++)
+            out->r[i][k] += p->r[k] + g->x[i] * missing[k];
+}
+
+enum { TWIST_N = SPAN_GRID_POINTS };
+
+/* Amplitudes [N] of the solution with the bimoment given at one end (0, 1) and the amplitude at the
+ * other. */
+static int amplitudes(const span_grid *g, const span_torsion *t, int end, double a[])
+{
+    double matrix[TWIST_N * TWIST_N];
+    int pivot[TWIST_N];
+    for (int i = 0; i < TWIST_N; i++) {
+        const double soft = 1 + t->stiffness[i] * t->flexibility;
+        for (int j = 0; j < TWIST_N; j++) {
+            double second = 0;
+            for (int k = 0; k < TWIST_N; k++)
+                second += g->derivative[i][k] * g->derivative[k][j];
+            matrix[i * TWIST_N + j] = t->EIw * second - (i == j ? t->stiffness[i] / soft : 0);
+        }
+        a[i] = -(t->torque[i] - t->stiffness[i] * t->shear[i]) / soft;
+    }
+    const int natural = end ? TWIST_N - 1 : 0, essential = TWIST_N - 1 - natural;
+    for (int j = 0; j < TWIST_N; j++) {
+        matrix[natural * TWIST_N + j] = t->EIw * g->derivative[natural][j];
+        matrix[essential * TWIST_N + j] = j == essential ? t->EIw : 0;
+    }
+    a[natural] = t->bimoment[end];
+    a[essential] = t->EIw * t->amplitude[1 - end];
+    if (dense_lu(TWIST_N, matrix, pivot) != 0)
+        return 1;
+    dense_lu_solve(TWIST_N, 1, matrix, pivot, a);
+    return 0;
+}
+
+static void add(const span_grid *g, const span_torsion *t, const double a[], const double share[],
+                span_twist *out)
+{
+    for (int i = 0; i < TWIST_N; i++) {
+        double slope = 0;
+        for (int j = 0; j < TWIST_N; j++)
+            slope += g->derivative[i][j] * a[j];
+        const double warping = (t->torque[i] - t->stiffness[i] * (a[i] + t->shear[i])) /
+                               (1 + t->stiffness[i] * t->flexibility);
+        out->bimoment[i] += share[i] * t->EIw * slope;
+        out->warping[i] += share[i] * warping;
+        out->rate[i] += share[i] * (a[i] + t->flexibility * warping + t->shear[i]);
+    }
+}
+
+int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out)
+{
+    double a[TWIST_N], share[TWIST_N];
+    memset(out, 0, sizeof *out);
+    if (t->EIw == 0) {
+        for (int i = 0; i < TWIST_N; i++)
+            out->rate[i] = t->stiffness[i] != 0 ? t->torque[i] / t->stiffness[i] : 0;
+        return 0;
+    }
+    for (int end = 0; end < 2; end++) {
+        if (amplitudes(g, t, end, a) != 0)
+            return 1;
+        for (int i = 0; i < TWIST_N; i++)
+            share[i] = end ? g->x[i] : 1 - g->x[i];
+        add(g, t, a, share, out);
+    }
+    out->bimoment[0] = t->bimoment[0];
+    out->bimoment[TWIST_N - 1] = t->bimoment[1];
+    return 0;
+}
+
+enum {
+    GRID_N = SPAN_GRID_POINTS,
+    EXACT = GRID_N / 2
+}; /* Gauss points that integrate the polynomials */
+
+void span_grid_at(const span_grid *g, double x, double share[])
+{
+    double sum = 0;
+    for (int i = 0; i < GRID_N; i++)
+        if (x == g->x[i]) {
+            for (int j = 0; j < GRID_N; j++)
+                share[j] = i == j;
+            return;
+        }
+    for (int i = 0; i < GRID_N; i++)
+        sum += share[i] = g->weight[i] / (x - g->x[i]);
+    for (int i = 0; i < GRID_N; i++)
+        share[i] /= sum;
+}
+
+static void make_integral(span_grid *g)
+{
+    double at[EXACT], w[EXACT], share[GRID_N];
+    quadrature_points(EXACT, at, w);
+    for (int j = 0; j < GRID_N; j++)
+        g->integral[0][j] = 0;
+    for (int i = 1; i < GRID_N; i++) {
+        const double gap = g->x[i] - g->x[i - 1];
+        for (int j = 0; j < GRID_N; j++)
+            g->integral[i][j] = g->integral[i - 1][j];
+        for (int k = 0; k < EXACT; k++) {
+            span_grid_at(g, g->x[i - 1] + gap * at[k], share);
+            for (int j = 0; j < GRID_N; j++)
+                g->integral[i][j] += gap * w[k] * share[j];
+        }
+    }
+}
+
+/* The rows' sums are zero: the derivative of a constant. */
+static void make_derivative(span_grid *g)
+{
+    for (int i = 0; i < GRID_N; i++) {
+        g->derivative[i][i] = 0;
+        for (int j = 0; j < GRID_N; j++)
+            if (i != j) {
+                g->derivative[i][j] = g->weight[j] / g->weight[i] / (g->x[i] - g->x[j]);
+                g->derivative[i][i] -= g->derivative[i][j];
+            }
+    }
+}
+
+void span_grid_make(span_grid *g)
+{
+    double at[SPAN_GRID_GAUSS], w[SPAN_GRID_GAUSS];
+    for (int i = 0; i < GRID_N; i++) {
+        const double sine = sin(PI * i / (2 * (GRID_N - 1)));
+        g->x[i] = sine * sine;
+        g->weight[i] = (i % 2 ? -1 : 1) * (i == 0 || i == GRID_N - 1 ? 0.5 : 1);
+    }
+    make_integral(g);
+    make_derivative(g);
+    quadrature_points(SPAN_GRID_GAUSS, at, w);
+    for (int i = 0; i + 1 < GRID_N; i++)
+        for (int k = 0; k < SPAN_GRID_GAUSS; k++)
+            span_grid_at(g, g->x[i] + (g->x[i + 1] - g->x[i]) * at[k], g->gauss[i][k]);
+}
+
+void span_grid_integrate(const span_grid *g, int count, const double values[], double out[])
+{
+    for (int i = 0; i < GRID_N; i++)
+        for (int k = 0; k < count; k++) {
+            double sum = 0;
+            for (int j = 0; j < GRID_N; j++)
+                sum += g->integral[i][j] * values[j * count + k];
+            out[i * count + k] = sum;
+        }
+}
+
+enum { MEMORY = 12, MOST = 100 };
+
+/* Differences of the last moves and of what the map gave, the moves made orthonormal
+ * (Gram-Schmidt). */
+typedef struct history {
+    int count;
+    double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
+} history;
+
+/* Takes up one more pair of differences; the oldest falls out by starting anew. */
+static void remember(history *h, int n, double move[], double given[])
+{
+    if (h->count == MEMORY)
+        h->count = 0;
+    const double size = sqrt(dense_dot(n, move, move));
+    for (int twice = 0; twice < 2; twice++)
+        for (int k = 0; k < h->count; k++) {
+            const double part = dense_dot(n, h->move[k], move);
+            for (int i = 0; i < n; i++) {
+                move[i] -= part * h->move[k][i];
+                given[i] -= part * h->given[k][i];
+            }
+        }
+    const double left = sqrt(dense_dot(n, move, move));
+    if (!(left > 1e-10 * size))
+        return;
+    for (int i = 0; i < n; i++) {
+        h->move[h->count][i] = move[i] / left;
+        h->given[h->count][i] = given[i] / left;
+    }
+    h->count++;
+}
+
+double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[])
+{
+    history h = {.count = 0};
+    double given[FIXED_POINT_MAX], before[FIXED_POINT_MAX], move[FIXED_POINT_MAX],
+        last[FIXED_POINT_MAX], best[FIXED_POINT_MAX], least = INFINITY;
+    for (int round = 0; round < MOST; round++) {
+        double largest = 0;
+        if (map(context, x, given) != 0)
+            return INFINITY;
+        for (int i = 0; i < n; i++) {
+            const double moved = given[i] - x[i];
+            largest = fmax(largest, isfinite(moved) ? fabs(moved) : INFINITY);
+        }
+        if (!isfinite(largest))
+            break;
+        if (largest < least) {
+            least = largest;
+            memcpy(best, given, (size_t)n * sizeof *best);
+        }
+        if (largest <= enough)
+            break;
+        for (int i = 0; i < n; i++)
+            move[i] = given[i] - x[i];
+        if (round > 0) {
+            double dm[FIXED_POINT_MAX], dg[FIXED_POINT_MAX];
+            for (int i = 0; i < n; i++) {
+                dm[i] = move[i] - last[i];
+                dg[i] = given[i] - before[i];
+            }
+            remember(&h, n, dm, dg);
+        }
+        memcpy(before, given, (size_t)n * sizeof *before);
+        memcpy(last, move, (size_t)n * sizeof *last);
+        memcpy(x, given, (size_t)n * sizeof *x);
+        for (int k = 0; k < h.count; k++) {
+            const double part = dense_dot(n, h.move[k], move);
+            for (int i = 0; i < n; i++)
+                x[i] -= part * h.given[k][i];
+        }
+    }
+    if (isfinite(least))
+        memcpy(x, best, (size_t)n * sizeof *x);
+    return least;
 }

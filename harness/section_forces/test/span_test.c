@@ -10,7 +10,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/section_forces/span.h"
+#include "harness/section_forces/section_forces.h"
 
 /* r (3), q (4), force, moment in fixed axes (6), amplitude, bimoment */
 enum { R = 0, Q = 3, FORCE = 7, MOMENT = 10, AMPLITUDE = 13, BIMOMENT = 14, STATE = 15 };
