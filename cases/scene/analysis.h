@@ -21,7 +21,7 @@ typedef enum scene_analysis_kind {
     SCENE_MOTION        /* in time: the path parameter is the time [s] */
 } scene_analysis_kind;
 
-/* What a reaction's moment does while its node turns (harness/newton/convention.h). */
+/* What a reaction's moment does while its node turns (harness/newton/newton.h). */
 typedef enum scene_moments {
     SCENE_MOMENTS_SPATIAL,
     SCENE_MOMENTS_SEMITANGENTIAL,

@@ -10,11 +10,7 @@
 
 #include "cases/scene/along_path.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/linear.h"
-#include "harness/newton/linear_system.h"
-#include "harness/newton/loads.h"
-#include "harness/newton/quadratic_forms.h"
+#include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
 /* What grows with the factor, and what stays. */

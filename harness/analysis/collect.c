@@ -5,8 +5,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/linear.h"
+#include "harness/newton/newton.h"
 
 static int least(int a, int b)
 {

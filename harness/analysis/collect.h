@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_COLLECT_H
 #define BEAMWORK_COLLECT_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 /* Of the undeformed structure, of at most `most` states of every path, of linear solutions and
  * modes. */

@@ -4,10 +4,7 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/linear.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
-#include "harness/newton/rotating_frame.h"
+#include "harness/newton/newton.h"
 
 /* What all states share. */
 typedef struct workspace {

@@ -8,12 +8,7 @@
 
 #include "harness/analysis/extract_path.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/convention.h"
-#include "harness/newton/linear.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
-#include "harness/newton/tangent.h"
+#include "harness/newton/newton.h"
 
 /* Loads whose response some quantity asks for. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)

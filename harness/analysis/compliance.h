@@ -3,7 +3,6 @@
 #define BEAMWORK_COMPLIANCE_H
 
 #include "harness/newton/newton.h"
-#include "harness/newton/tangent.h"
 
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* The analysis at a state that Newton has just reached, from his last tangent where that stands. */

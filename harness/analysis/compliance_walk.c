@@ -4,7 +4,7 @@
 
 #include "harness/analysis/compliance.h"
 #include "harness/analysis/extract_path.h"
-#include "harness/newton/tangent.h"
+#include "harness/newton/newton.h"
 
 typedef struct follower {
     int analysis;

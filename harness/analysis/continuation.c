@@ -9,8 +9,6 @@
 #include "harness/analysis/continuation_impl.h"
 #include "harness/analysis/extract_path.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/history.h"
 #include "harness/newton/newton.h"
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_CONTINUATION_H
 #define BEAMWORK_CONTINUATION_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 status continuation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 

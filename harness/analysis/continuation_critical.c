@@ -10,7 +10,7 @@
 
 #include "harness/analysis/continuation_impl.h"
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */

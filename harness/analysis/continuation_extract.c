@@ -5,8 +5,7 @@
 #include <stdio.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/quantity.h"
+#include "harness/newton/newton.h"
 
 int continuation_extract_keeps_states(const scene *s, int analysis)
 {

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_CONTINUATION_EXTRACT_H
 #define BEAMWORK_CONTINUATION_EXTRACT_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 /* Curves and critical points; 0: the quantity is something else. */
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,

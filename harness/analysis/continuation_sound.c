@@ -4,7 +4,7 @@
 
 #include "harness/analysis/continuation_impl.h"
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 
 /* Between a tangent and the secant, in the metric [rad]: what the tangent misses of a step, as part
  * of it. Steps are chosen by it. */

@@ -8,9 +8,6 @@
 #include "harness/analysis/continuation_extract.h"
 #include "harness/analysis/continuation_impl.h"
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/context.h"
-#include "harness/newton/loads.h"
 #include "harness/newton/newton.h"
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,

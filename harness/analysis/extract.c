@@ -11,7 +11,7 @@
 #include "harness/analysis/extract_section.h"
 #include "harness/analysis/extract_spectrum.h"
 #include "harness/model/model.h"
-#include "harness/newton/quantity.h"
+#include "harness/newton/newton.h"
 
 static const char *const no_frequency = "the mesh has no mode of this kind that is distinguishable "
                                         "from round-off: coordinates without mass, "

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_EXTRACT_H
 #define BEAMWORK_EXTRACT_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
 

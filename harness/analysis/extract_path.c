@@ -5,8 +5,7 @@
 
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
-#include "harness/newton/modes.h"
-#include "harness/newton/quantity.h"
+#include "harness/newton/newton.h"
 #include "harness/time/reading.h"
 #include "harness/time/resultants.h"
 

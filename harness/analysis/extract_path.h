@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_EXTRACT_PATH_H
 #define BEAMWORK_EXTRACT_PATH_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 /* Without a value where the path ends before the stations that the quantity needs. */
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,

@@ -4,10 +4,7 @@
 #include <stdlib.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/linear.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
-#include "harness/newton/quantity.h"
+#include "harness/newton/newton.h"
 #include "harness/time/resultants.h"
 
 /* Under the loads at path 1. */

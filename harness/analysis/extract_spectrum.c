@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "elements/math/pi.h"
-#include "harness/newton/modes.h"
-#include "harness/newton/quantity.h"
+#include "harness/newton/newton.h"
 
 /* Value i of a side, or why it has none. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i, double unit,

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_EXTRACT_SPECTRUM_H
 #define BEAMWORK_EXTRACT_SPECTRUM_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 /* Critical load factor of the wanted sign and order. */
 void extract_spectrum_buckling(const scene_quantity *, const analysis_outcome *, quantity_result *);

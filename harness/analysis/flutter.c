@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/rotating_frame.h"
+#include "harness/newton/newton.h"
 #include "harness/time/damping.h"
 
 status flutter_system_alloc(const newton_run *n, flutter_system *s, fault *f)

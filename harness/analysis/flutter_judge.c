@@ -5,7 +5,7 @@
 
 #include "harness/analysis/flutter_left.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 enum { MOTIONS = 8 };                  /* least ones that are looked at */
 static const double most_error = 1e-2; /* beyond it nothing is known of a motion */

@@ -8,7 +8,7 @@
 
 #include "harness/analysis/flutter.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
 static const double first_step = 1e-3; /* of the path of the state followed */

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 
 enum { PARTS = 6 };
 static const double near_enough = 1e-5; /* correction that ends at a state that is looked at only */

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/newton/context.h"
-#include "harness/newton/linear_system.h"
-#include "harness/newton/singular.h"
+#include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
 /* With what linear_analysis frees. */

@@ -15,12 +15,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/static.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/history.h"
-#include "harness/newton/internal.h"
 #include "harness/newton/newton.h"
-#include "harness/newton/rotating_frame.h"
-#include "harness/newton/singular.h"
 #include "harness/numerics/numerics.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };

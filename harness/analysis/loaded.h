@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_LOADED_H
 #define BEAMWORK_LOADED_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 /* Natural frequencies: M x = (1/omega^2) K x with tangent K and mass M of the deformed state. */
 status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);

@@ -10,13 +10,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/analysis/flutter.h"
-#include "harness/newton/context.h"
-#include "harness/newton/linear.h"
-#include "harness/newton/linear_system.h"
-#include "harness/newton/loads.h"
-#include "harness/newton/quadratic_forms.h"
-#include "harness/newton/rotating_frame.h"
-#include "harness/newton/singular.h"
+#include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
 int modal_wanted(const analysis_context *c, int analysis)

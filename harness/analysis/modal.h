@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MODAL_H
 #define BEAMWORK_MODAL_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* How many modes the quantities of an analysis ask for. */

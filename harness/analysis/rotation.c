@@ -11,15 +11,7 @@
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/static.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/history.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/modes.h"
 #include "harness/newton/newton.h"
-#include "harness/newton/rotating_frame.h"
-#include "harness/newton/singular.h"
-#include "harness/newton/stiffness_parts.h"
-#include "harness/newton/tangent.h"
 #include "harness/numerics/numerics.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
@@ -55,7 +47,7 @@ static double tangent_rounding(void *context, const double mode[])
 
 /* Matrices on the pattern of the free coordinates, for all stations. */
 typedef struct matrices {
-    sparse K, M, G, geometric; /* the soft part of K: stiffness_parts.h */
+    sparse K, M, G, geometric; /* the soft part of K: newton.h */
     matrix_factor *factor;
     double *residual, *x, *y; /* [free + driven] */
 } matrices;

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_ROTATION_H
 #define BEAMWORK_ROTATION_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* What the modes found say of the stability of the stations, when the steps have been judged. */

@@ -16,11 +16,7 @@
 #include "harness/analysis/modal.h"
 #include "harness/analysis/rotation.h"
 #include "harness/analysis/static.h"
-#include "harness/newton/context.h"
-#include "harness/newton/history.h"
-#include "harness/newton/linear_system.h"
 #include "harness/newton/newton.h"
-#include "harness/newton/singular.h"
 #include "harness/numerics/numerics.h"
 #include "harness/time/motion.h"
 

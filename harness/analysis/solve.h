@@ -3,7 +3,7 @@
 #ifndef BEAMWORK_SOLVE_H
 #define BEAMWORK_SOLVE_H
 
-#include "harness/newton/result.h"
+#include "harness/newton/newton.h"
 
 /* Fills result even on failure (quantities that could be found stay); result_free frees it. */
 status solve_scene(const scene *, const model *, const solve_options *, solve_result *, fault *);

@@ -11,10 +11,7 @@
 #include "harness/analysis/extract_path.h"
 #include "harness/analysis/flutter_within.h"
 #include "harness/model/model.h"
-#include "harness/newton/context.h"
-#include "harness/newton/history.h"
 #include "harness/newton/newton.h"
-#include "harness/newton/predictor.h"
 
 enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 

@@ -262,7 +262,7 @@ typedef struct model_mesh {
     int *driver_coordinate; /* [drivers] or NONE */
     int free, driven;
     int takes;     /* elements take loads along them (element_type.along) */
-    int work_size; /* of an element in a linear_memory: harness/newton/run_state.h */
+    int work_size; /* of an element in a linear_memory: harness/newton/newton.h */
 } model_mesh;
 static inline const model_mesh *model_mesh_of(const model *m)
 {
@@ -300,7 +300,7 @@ static inline int model_takes_loads(const model *m)
 {
     return model_mesh_of(m)->takes;
 }
-/* Doubles of an element in a linear_memory (harness/newton/run_state.h). */
+/* Doubles of an element in a linear_memory (harness/newton/newton.h). */
 static inline int model_work_size(const model *m)
 {
     return model_mesh_of(m)->work_size;
@@ -426,7 +426,7 @@ void discrete_equations(const model *, const model_state *, const mesh_discrete 
 /* M, G += theirs (rotating_frame_inertia); G NULL: not wanted. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
-/* The tangent in two parts, as in stiffness_parts.h: y += its product with x[free + driven], out +=
+/* The tangent in two parts, as in newton.h: y += its product with x[free + driven], out +=
  * the other. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,

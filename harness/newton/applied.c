@@ -1,7 +1,6 @@
 /* Loads on vertices: their directions and arms, and what they add to the stiffness. */
-#include "harness/newton/applied.h"
+#include "harness/newton/newton.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "cases/scene/along_path.h"
@@ -9,8 +8,6 @@
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
 #include "elements/shared/lumped.h"
-#include "harness/model/model.h"
-#include "harness/newton/equations_impl.h"
 
 double applied_factor(const equations *eq, const scene_load *load, double path)
 {

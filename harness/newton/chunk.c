@@ -1,11 +1,9 @@
-#include "harness/newton/chunk.h"
+#include "harness/newton/newton_impl.h"
 
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
-#include "harness/model/model.h"
-#include "harness/newton/ahead.h"
 
 /* Fewer elements than these cost less one by one; without AVX2 any number does: there four lanes
  * are two vectors (measured on sheets and collocation). */

@@ -1,15 +1,11 @@
-#include "harness/newton/distributed.h"
+#include "harness/newton/newton.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
 #include "elements/math/rotation.h"
 #include "elements/section/matrices.h"
-#include "harness/model/model.h"
-#include "harness/newton/equations_impl.h"
-#include "harness/newton/loads.h"
 
 int distributed_spreads(const equations *eq, const scene_load *load)
 {

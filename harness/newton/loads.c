@@ -1,17 +1,12 @@
 /* Loads and drivers along the path. */
-#include "harness/newton/loads.h"
-#include "cases/scene/names.h"
+#include "harness/newton/newton.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "cases/scene/along_path.h"
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
-#include "harness/model/model.h"
-#include "harness/newton/applied.h"
-#include "harness/newton/distributed.h"
-#include "harness/newton/equations_impl.h"
 
 /* Asymmetry of a moment's stiffness that is round-off, in parts of the moment. */
 static const double potential = 1e-12;

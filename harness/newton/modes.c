@@ -1,15 +1,77 @@
-/* Family of a mode by the share of its kinetic-like measure: translations along the member, across
- * it, and twist times the radius of gyration; half-waves by the sign changes of the leading
- * component along the first member. */
-#include "harness/newton/modes.h"
+#include "harness/newton/newton.h"
 
 #include <lapacke.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/rotation.h"
-#include "harness/newton/context.h"
+
+static void put(const model *m, int row, const row_label *label, row_label out[])
+{
+    if (row >= 0 && row < model_unknowns(m) && out[row].component == NULL)
+        out[row] = *label;
+}
+
+/* Names of a vertex' six coordinates. */
+static const char *component_of(const model *m, int vertex, int c)
+{
+    static const char *const plain[] = {"ux", "uy", "uz", "rx", "ry", "rz"},
+                             *const angle[] = {"angle 1", "angle 2", "angle 3"},
+                             *const kept[] = {"shift 1", "shift 2", "shift 3",
+                                              "turn 1",  "turn 2",  "turn 3"};
+    if (release_of(m, vertex) != NULL)
+        return kept[c];
+    return c >= SCENE_RX && model_vertex(m, vertex)->angles > 0 ? angle[c - SCENE_RX] : plain[c];
+}
+
+/* The coordinates of a vertex; label: where it is. */
+static void put_vertex(const model *m, int vertex, row_label label, row_label out[])
+{
+    const mesh_vertex *v = model_vertex(m, vertex);
+    if (v->body != vertex && release_of(m, vertex) == NULL)
+        return;
+    for (int c = 0; c < VERTEX_COORDINATES; c++) {
+        label.component = component_of(m, vertex, c);
+        label.unit = c < SCENE_RX ? "m" : "rad";
+        put(m, v->coordinate[c], &label, out);
+    }
+}
+
+static void put_element(const model *m, const mesh_element *el, row_label out[])
+{
+    const int number = (int)(el - model_element(m, model_first_element(m, el->member)));
+    for (int k = 0; k < el->nodes; k++) {
+        const int vertex = el->vertex[k], is_node = vertex < model_scene(m)->nodes;
+        const double at =
+            division_place(model_division(m), el->member, number, (double)k / (el->nodes - 1));
+        row_label label = {
+            .node = is_node ? vertex : SCENE_NONE, .member = el->member, .along = at};
+        memcpy(label.position, model_vertex(m, vertex)->position, sizeof label.position);
+        if (!is_node)
+            put_vertex(m, vertex, label, out);
+        if (el->warp[k] == NONE)
+            continue;
+        label.component = "warping";
+        label.unit = "rad/m";
+        put(m, model_warp(m, el->warp[k]), &label, out);
+    }
+}
+
+void rows_label(const model *m, row_label out[])
+{
+    memset(out, 0, (size_t)model_unknowns(m) * sizeof *out);
+    for (int i = 0; i < model_scene(m)->nodes; i++) {
+        row_label label = {.node = i, .member = SCENE_NONE, .along = NAN};
+        memcpy(label.position, model_vertex(m, i)->position, sizeof label.position);
+        put_vertex(m, i, label, out);
+    }
+    for (int i = 0; i < model_elements(m); i++)
+        put_element(m, model_element(m, i), out);
+}
+
+/* Family of a mode by the share of its kinetic-like measure: translations along the member, across
+ * it, and twist times the radius of gyration; half-waves by the sign changes of the leading
+ * component along the first member. */
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
@@ -255,4 +317,74 @@ status modes_separate(const model *m, const scene *s, int count, const double va
             TRY(separate_cluster(m, s, end - first, n, mode + (size_t)first * n, f));
     }
     return STATUS_OK;
+}
+
+identity identity_begin(void)
+{
+    return (identity){{14695981039346656037ull, 0x9e3779b97f4a7c15ull}};
+}
+
+/* FNV-1a, and beside it a product of another kind. */
+void identity_add(identity *out, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++) {
+        out->part[0] = (out->part[0] ^ at[i]) * 1099511628211ull;
+        out->part[1] = (out->part[1] + at[i] + 1) * 0xd6e8feb86659fd93ull;
+        out->part[1] ^= out->part[1] >> 32;
+    }
+}
+
+static void add_number(identity *out, long number)
+{
+    identity_add(out, &number, sizeof number);
+}
+
+/* All of a type but its words, and what has done its work when the data are there. */
+static void add_type(identity *out, const element_type *type)
+{
+    element_type t;
+    memcpy(&t, type, sizeof t);
+    t.name = t.summary = t.source = t.family = t.lacks_by = t.own_theory = NULL;
+    t.offers = t.lacks = t.shear_theories = 0;
+    t.data_size = NULL;
+    t.prepare = NULL;
+    t.order = NULL;
+    t.judged = NULL;
+    memset(t.options, 0, sizeof t.options);
+    identity_add(out, &t, sizeof t);
+}
+
+static void add_elements(identity *out, const model *m)
+{
+    for (int i = 0; i < model_kinds(m); i++) {
+        identity_add(out, &model_kind(m, i)->length, sizeof model_kind(m, i)->length);
+        identity_add(out, model_kind(m, i)->data, model_kind(m, i)->data_size);
+    }
+    for (int i = 0; i < model_elements(m); i++) {
+        add_number(out, model_element(m, i)->kind);
+        identity_add(out, model_element(m, i)->warp, sizeof model_element(m, i)->warp);
+        identity_add(out, model_element(m, i)->triad, (size_t)model_nodes(m) * sizeof(mesh_triad));
+    }
+}
+
+int identity_add_model(identity *out, const model *m)
+{
+    const char *const *line;
+    const int lines = model_left_out(m, &line);
+    if (model_type(m)->trouble != NULL)
+        return 0;
+    add_type(out, model_type(m));
+    add_number(out, model_features(m));
+    add_number(out, model_features(m) & model_type(m)->offers);
+    add_number(out, model_keeps_all(m));
+    add_number(out, model_elements(m));
+    add_number(out, model_unknowns(m));
+    add_number(out, model_driven(m));
+    for (int i = 0; i < ELEMENT_MAX_OPTIONS; i++)
+        identity_add(out, &model_options(m)[i], sizeof model_options(m)[i]);
+    for (int i = 0; i < lines; i++)
+        identity_add(out, line[i], strlen(line[i]) + 1);
+    add_elements(out, m);
+    return 1;
 }

@@ -1,22 +1,12 @@
 /* The tangent of the free coordinates is factored once; what is released borders it:
  *   [ K  U ] [x]   [f]
  *   [ V  W ] [z] = [g],   S = W - V K^-1 U,   z = S^-1 (g - V K^-1 f),   x = K^-1 f - K^-1 U z. */
-#include "harness/newton/tangent.h"
+#include "harness/newton/newton_impl.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/model.h"
-#include "harness/newton/border.h"
-#include "harness/newton/bordered.h"
-#include "harness/newton/context.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
-#include "harness/newton/singular.h"
-#include "harness/newton/stiffness_parts.h"
-#include "harness/numerics/numerics.h"
 
 /* Solutions are refined where round-off would leave less than eight digits. */
 static const double harmless_condition = 1e8;
@@ -279,4 +269,195 @@ void tangent_movable(const model *m, const node_tangent *t, movable *out)
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
     const int n = columns_of(t, moves, T);
     movable_of(n, T, model_length(m), out);
+}
+
+static int is_released(const analysis_context *c, const scene_compliance *a, int coordinate)
+{
+    for (int k = 0; k < TANGENT_COMPONENTS; k++)
+        if ((a->released >> k & 1u) && kinematics_coordinate(c->model, a->node, k) == coordinate)
+            return 1;
+    return 0;
+}
+
+status border_alloc(const analysis_context *c, const scene_compliance *a, border *b, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    for (int i = size.free; i < size.free + size.driven; i++)
+        if (is_released(c, a, i))
+            b->coordinate[b->count++] = i;
+    b->U = calloc((size_t)(b->count * size.free) + 1, sizeof *b->U);
+    b->V = calloc((size_t)(b->count * size.free) + 1, sizeof *b->V);
+    return b->U == NULL || b->V == NULL
+               ? fault_set(f, STATUS_FAULT, "out of memory for a compliance")
+               : STATUS_OK;
+}
+
+void border_free(border *b)
+{
+    free(b->U);
+    free(b->V);
+}
+
+int border_place(const border *b, int coordinate)
+{
+    for (int i = 0; i < b->count; i++)
+        if (b->coordinate[i] == coordinate)
+            return i;
+    return -1;
+}
+
+void border_fill(border *b, int free_count, const sparse *K)
+{
+    memset(b->U, 0, (size_t)(b->count * free_count) * sizeof *b->U);
+    memset(b->V, 0, (size_t)(b->count * free_count) * sizeof *b->V);
+    memset(b->W, 0, sizeof b->W);
+    for (int j = 0; j < K->n; j++)
+        for (int k = K->column[j]; k < K->column[j + 1]; k++) {
+            const int i = K->row[k], row = i >= free_count ? border_place(b, i) : -1,
+                      column = j >= free_count ? border_place(b, j) : -1;
+            const double value = K->value[k];
+            if (i < free_count && column >= 0)
+                b->U[column * free_count + i] = value;
+            if (j < free_count && row >= 0)
+                b->V[row * free_count + j] = value;
+            if (row >= 0 && column >= 0)
+                b->W[row * b->count + column] = value;
+            if (K->symmetric && i < free_count && column >= 0)
+                b->V[column * free_count + i] = value;
+            if (K->symmetric && row >= 0 && column >= 0)
+                b->W[column * b->count + row] = value;
+        }
+}
+
+status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
+{
+    const border *b = &t->border;
+    const size_t all = (size_t)t->all + 1;
+    const int columns = t->condensed != NULL ? 0 : b->count;
+    out->Z = calloc((size_t)(columns * t->free) + 1, sizeof *out->Z);
+    out->solution = calloc(TANGENT_COMPONENTS * all, sizeof *out->solution);
+    out->x = calloc(4 * all, sizeof *out->x);
+    if (out->Z == NULL || out->x == NULL || out->solution == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a compliance");
+    out->load = out->x + all;
+    out->rest = out->load + all;
+    out->weight = out->rest + all;
+    memcpy(out->Z, b->U, (size_t)(columns * t->free) * sizeof *out->Z);
+    factor_solve_many(t->factor, columns, t->free, out->Z);
+    n->solutions += columns;
+    for (int i = 0; i < columns; i++)
+        for (int j = 0; j < columns; j++)
+            out->S[i * b->count + j] = b->W[i * b->count + j] -
+                                       dense_dot(t->free, b->V + i * t->free, out->Z + j * t->free);
+    return columns > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
+               ? fault_set(f, STATUS_SINGULAR,
+                           "the structure is not held when the prescribed motion is released")
+               : STATUS_OK;
+}
+
+void bordered_free(bordered *s)
+{
+    free(s->Z);
+    free(s->x);
+    free(s->solution);
+}
+
+/* What is released, and what it takes from a solution without it. */
+static void add_released(const node_tangent *t, const bordered *s, double x[])
+{
+    const border *b = &t->border;
+    double z[TANGENT_BORDER];
+    for (int i = 0; i < b->count; i++)
+        z[i] = x[b->coordinate[i]] - dense_dot(t->free, b->V + i * t->free, x);
+    dense_lu_solve(b->count, 1, s->S, s->pivot, z);
+    for (int i = 0; i < b->count; i++) {
+        for (int k = 0; k < t->free; k++)
+            x[k] -= s->Z[i * t->free + k] * z[i];
+        x[b->coordinate[i]] = z[i];
+    }
+}
+
+void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[])
+{
+    factor_solve_many(t->factor, columns, t->all, x);
+    n->solutions += columns;
+    for (int c = 0; c < columns && t->condensed == NULL && t->border.count > 0; c++)
+        add_released(t, s, x + c * t->all);
+}
+
+/* rest[all] = load - K x */
+static void residual_of(const equations *eq, const node_tangent *t, const bordered *s)
+{
+    double *rest = s->rest;
+    memset(rest, 0, (size_t)t->all * sizeof *rest);
+    sparse_mul(&t->geometric, s->x, rest);
+    stiffness_parts_material_product(eq->m, &eq->run->memory, t->state, s->x, rest);
+    for (int k = 0; k < t->all; k++)
+        rest[k] = k < t->free || border_place(&t->border, k) >= 0 ? s->load[k] - rest[k] : 0;
+}
+
+status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
+{
+    /* x itself was the first, and of condensed members as good as the second */
+    solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
+    refinement_state state = REFINEMENT_GOES_ON;
+    metric_of(eq->m, s->weight);
+    while (state == REFINEMENT_GOES_ON) {
+        residual_of(eq, t, s);
+        bordered_solve(t, &eq->run->counters, s, 1, s->rest);
+        for (int k = 0; k < t->all; k++)
+            s->x[k] += s->rest[k];
+        state = refinement_next(&r, refinement_part(t->all, s->weight, s->rest, s->x, 0));
+    }
+    return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the compliance", f);
+}
+
+enum { LEAST = 2, MOST = 30 };
+
+/* Of a correction: beyond the first nobody asks for more; the second is a thousandth of the
+ * tolerance that quantities are judged by (SCENE_TOLERANCE), for what is derived from the solution
+ * may lose digits of its own.  By the level of newton.h, eps (L/side)^2 times 2.5, bars beyond
+ * L/side = 1300 leave the first, beyond 42000 the second; in a run of verify no correction that was
+ * judged by it exceeded 2e-12. */
+static const double sure_digits = 1e-9, enough_digits = 1e-6;
+
+refinement_state refinement_judge(solution_refinement *r, double correction)
+{
+    r->last = correction;
+    return correction <= enough_digits ? REFINEMENT_ENDS : REFINEMENT_LOST;
+}
+
+refinement_state refinement_next(solution_refinement *r, double correction)
+{
+    const int step = r->corrections++, settles = !(correction < r->last / 2);
+    r->last = correction;
+    if (step >= LEAST && correction <= sure_digits)
+        return REFINEMENT_ENDS;
+    if ((step > LEAST && settles) || step == MOST)
+        return refinement_judge(r, correction);
+    return REFINEMENT_GOES_ON;
+}
+
+status refinement_refuse(const solution_refinement *r, const char *what, fault *f)
+{
+    const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN: none */
+    return fault_set(f, STATUS_SINGULAR,
+                     "%s is lost in round-off: %d of its digits are sure (corrections settle at "
+                     "%.1e of it); use fewer elements or a less slender structure",
+                     what, digits, r->last);
+}
+
+static double size_of(int n, const double weight[], const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += weight[i] * x[i] * x[i];
+    return sqrt(sum);
+}
+
+double refinement_part(int n, const double weight[], const double change[], const double x[],
+                       double least)
+{
+    const double size = size_of(n, weight, change);
+    return size == 0 ? 0 : size / fmax(size_of(n, weight, x), least);
 }

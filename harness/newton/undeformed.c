@@ -1,15 +1,11 @@
-#include "harness/newton/undeformed.h"
-#include "cases/scene/names.h"
+#include "harness/newton/newton_impl.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
-#include "harness/model/model.h"
-#include "harness/newton/ahead.h"
-#include "harness/newton/equations_impl.h"
 
 /* Elements of a model from which on room is worth more than the last digits of each J. */
 enum { LARGE = 1000, FIRST_ROOM = 16 };
@@ -150,4 +146,268 @@ void undeformed_begin(const equations *eq)
         return;
     ahead_strains(eq, kinematics_rest(m), AHEAD_E | AHEAD_J, NULL);
     ahead_stresses(eq, NULL, kinematics_rest(m)->inner);
+}
+
+enum { X = ELEMENT_MAX_COORDINATES, SIX = SPRING_STRAINS };
+
+static const mesh_discrete *spring_of(const model *m, int i)
+{
+    return model_discrete(m, model_discretes(m) - model_springs(m) + i);
+}
+
+/* J at rest, and H of sigma where that is given. */
+static void springs_evaluate(const model *m, const mesh_discrete *d, const double sigma[],
+                             double J[], double H[])
+{
+    node_state x[ELEMENT_MAX_NODES];
+    kinematics_gather(m, kinematics_rest(m), &d->el, x);
+    spring_strain(d->el.nodes, x, NULL, &(strain_output){.J = J, .s = sigma, .H = H});
+}
+
+/* J x */
+static void strains(const model *m, const mesh_discrete *d, const double x[], double e[SIX])
+{
+    double J[SIX * X], local[X];
+    springs_evaluate(m, d, NULL, J, NULL);
+    kinematics_local(m, kinematics_rest(m), &d->el, x, local);
+    dense_mul_vec(SIX, NODE_COORDINATES * d->el.nodes, J, local, e);
+}
+
+void linear_springs_stiffness(const model *m, sparse *K)
+{
+    for (int i = 0; i < model_springs(m); i++) {
+        const mesh_discrete *d = spring_of(m, i);
+        double J[SIX * X], k[X * X] = {0}, work[SIX * X];
+        springs_evaluate(m, d, NULL, J, NULL);
+        dense_add_congruence(SIX, NODE_COORDINATES * d->el.nodes, J, d->spring->stiffness, k, work);
+        eliminate_matrix(m, kinematics_rest(m), &d->el, NULL, k);
+        assemble_discrete(&d->el, k, K);
+    }
+}
+
+void linear_springs_stresses(const model *m, const double x[], double sigma[])
+{
+    for (int i = 0; i < model_springs(m); i++) {
+        double e[SIX];
+        strains(m, spring_of(m, i), x, e);
+        dense_mul_vec(SIX, SIX, spring_of(m, i)->spring->stiffness, e, &sigma[SIX * i]);
+    }
+}
+
+void linear_springs_forces(const model *m, const double sigma[], double f[])
+{
+    for (int i = 0; i < model_springs(m); i++) {
+        const mesh_discrete *d = spring_of(m, i);
+        double J[SIX * X], force[X] = {0};
+        springs_evaluate(m, d, NULL, J, NULL);
+        dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, &sigma[SIX * i], force);
+        eliminate_forces(m, kinematics_rest(m), &d->el, force);
+        assemble_vector(&d->el, force, f);
+    }
+}
+
+void linear_springs_node_force(const model *m, const double sigma[], int node, double F[6])
+{
+    for (int i = 0; i < model_springs(m); i++) {
+        const mesh_discrete *d = spring_of(m, i);
+        double J[SIX * X], force[X] = {0}, rho[3], moment[3];
+        springs_evaluate(m, d, NULL, J, NULL);
+        dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, &sigma[SIX * i], force);
+        for (int k = 0; k < d->el.nodes; k++) {
+            const double *at = force + NODE_COORDINATES * k;
+            if (model_vertex(m, d->el.vertex[k])->body != node)
+                continue;
+            kinematics_offset(m, kinematics_rest(m), d->el.vertex[k], rho);
+            vec3_cross(rho, at, moment);
+            for (int c = 0; c < 6; c++)
+                F[c] += at[c] + (c >= 3 && d->el.vertex[k] != node ? moment[c - 3] : 0);
+        }
+    }
+}
+
+/* sum sigma_i H_i in model coordinates. */
+static void geometric(const model *m, const mesh_discrete *d, const double sigma[], double H[])
+{
+    double J[SIX * X], force[X] = {0};
+    springs_evaluate(m, d, sigma, J, H);
+    dense_add_transpose_mul(NODE_COORDINATES * d->el.nodes, SIX, 1, J, sigma, force);
+    eliminate_matrix(m, kinematics_rest(m), &d->el, force, H);
+}
+
+void linear_springs_geometric_stiffness(const model *m, const double sigma[], sparse *G)
+{
+    for (int i = 0; i < model_springs(m); i++) {
+        double H[X * X];
+        geometric(m, spring_of(m, i), &sigma[SIX * i], H);
+        assemble_discrete(&spring_of(m, i)->el, H, G);
+    }
+}
+
+double linear_springs_energy2(const model *m, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < model_springs(m); i++) {
+        double e[SIX];
+        strains(m, spring_of(m, i), x, e);
+        sum += dense_quadratic(SIX, spring_of(m, i)->spring->stiffness, e);
+    }
+    return sum;
+}
+
+/* That of the terms of J x, as for elements. */
+double linear_springs_rounding(const model *m, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < model_springs(m); i++) {
+        const mesh_discrete *d = spring_of(m, i);
+        const int n = NODE_COORDINATES * d->el.nodes;
+        double J[SIX * X], local[X], e[SIX], sigma[SIX];
+        springs_evaluate(m, d, NULL, J, NULL);
+        kinematics_local(m, kinematics_rest(m), &d->el, x, local);
+        dense_mul_vec(SIX, n, J, local, e);
+        dense_mul_vec(SIX, SIX, d->spring->stiffness, e, sigma);
+        for (int k = 0; k < SIX; k++)
+            for (int j = 0; j < n; j++)
+                sum += DBL_EPSILON * 2 * fabs(sigma[k] * J[k * n + j] * local[j]);
+    }
+    return sum;
+}
+
+double linear_springs_geometric_energy2(const model *m, const double sigma[], const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < model_springs(m); i++) {
+        const mesh_element *el = &spring_of(m, i)->el;
+        double H[X * X], own[X];
+        geometric(m, spring_of(m, i), &sigma[SIX * i], H);
+        for (int k = 0; k < NODE_COORDINATES * el->nodes; k++)
+            own[k] = el->index[k] == NONE ? 0 : x[el->index[k]];
+        sum += dense_quadratic(NODE_COORDINATES * el->nodes, H, own);
+    }
+    return sum;
+}
+
+/* Bytes of an array, so that the next one is aligned. */
+static size_t bytes(size_t count, size_t size)
+{
+    const size_t unit = _Alignof(max_align_t);
+    return (count * size + unit - 1) / unit * unit;
+}
+
+static void *part(char **from, size_t count, size_t size)
+{
+    void *here = *from;
+    *from += bytes(count, size);
+    return here;
+}
+
+/* All arrays in one block. 0: no memory. */
+static int allocate(const equations *eq)
+{
+    const model *m = eq->m;
+    const size_t n = (size_t)model_elements(m), s = (size_t)model_strains(m),
+                 c = (size_t)model_own_coordinates(m), nodes = (size_t)model_nodes(m),
+                 memory = (size_t)model_memory(m);
+    const size_t size = bytes(1, sizeof(run_ahead)) + 3 * bytes(n, sizeof(void *)) +
+                        bytes(n * nodes, sizeof(node_state)) + bytes(n, sizeof(strain_output)) +
+                        bytes(n, sizeof(stress_output)) + bytes(n, sizeof(status)) +
+                        2 * bytes(n * s, sizeof(double)) + bytes(n * s * c, sizeof(double)) +
+                        bytes(n * c * c, sizeof(double)) + bytes(n * s * s, sizeof(double)) +
+                        bytes(n * memory, sizeof(double));
+    char *block = eq->run->ahead == NULL ? malloc(size) : NULL;
+    if (block == NULL)
+        return eq->run->ahead != NULL;
+    run_ahead *a = eq->run->ahead = part(&block, 1, sizeof *a);
+    memset(a, 0, sizeof *a);
+    a->data = part(&block, n, sizeof(void *));
+    a->at = part(&block, n, sizeof(void *));
+    a->inner = part(&block, n, sizeof(void *));
+    a->x = part(&block, n * nodes, sizeof *a->x);
+    a->strain = part(&block, n, sizeof *a->strain);
+    a->stress = part(&block, n, sizeof *a->stress);
+    a->outcome = part(&block, n, sizeof *a->outcome);
+    a->e = part(&block, n * s, sizeof *a->e);
+    a->sigma = part(&block, n * s, sizeof *a->sigma);
+    a->J = part(&block, n * s * c, sizeof *a->J);
+    a->H = part(&block, n * c * c, sizeof *a->H);
+    a->C = part(&block, n * s * s, sizeof *a->C);
+    a->memory = part(&block, n * memory, sizeof *a->memory);
+    for (int i = 0; i < model_elements(m); i++)
+        a->data[i] = model_kind_of(m, i)->data;
+    return 1;
+}
+
+void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[])
+{
+    const model *m = eq->m;
+    if (model_type(m)->strain_many == NULL || model_type(m)->lanes > 0 || model_elements(m) == 0 ||
+        !allocate(eq))
+        return;
+    run_ahead *a = eq->run->ahead;
+    const int n = model_strains(m), c = model_own_coordinates(m);
+    for (int i = 0; i < model_elements(m); i++) {
+        kinematics_gather(m, s, model_element(m, i), a->x + i * model_nodes(m));
+        a->strain[i] = (strain_output){.e = what & AHEAD_E ? a->e + i * n : NULL,
+                                       .J = what & AHEAD_J ? a->J + i * n * c : NULL,
+                                       .s = what & AHEAD_H ? sigma + i * n : NULL,
+                                       .H = what & AHEAD_H ? a->H + i * c * c : NULL};
+    }
+    model_type(m)->strain_many(model_elements(m), a->data, a->x, a->strain);
+    a->what = what;
+}
+
+void ahead_stresses(const equations *eq, const double e[], const double inner[])
+{
+    const model *m = eq->m;
+    if (model_type(m)->stress_many == NULL || model_type(m)->lanes > 0 || model_elements(m) == 0 ||
+        !allocate(eq))
+        return;
+    run_ahead *a = eq->run->ahead;
+    const int n = model_strains(m);
+    if (e == NULL && !(a->what & AHEAD_E))
+        return;
+    for (int i = 0; i < model_elements(m); i++) {
+        a->at[i] = (e != NULL ? e : a->e) + i * n;
+        a->inner[i] = inner + i * model_inner(m);
+        a->stress[i] =
+            (stress_output){.sigma = a->sigma + i * n,
+                            .C = a->C + i * n * n,
+                            .memory = model_memory(m) > 0 ? a->memory + i * model_memory(m) : NULL};
+    }
+    model_type(m)->stress_many(model_elements(m), a->data, a->at, a->inner, a->stress, a->outcome);
+    a->stresses = 1;
+}
+
+void ahead_end(const equations *eq)
+{
+    if (eq->run->ahead != NULL)
+        eq->run->ahead->what = eq->run->ahead->stresses = 0;
+}
+
+static void copy(double *to, const double *from, int count)
+{
+    if (to != NULL)
+        memcpy(to, from, (size_t)count * sizeof *to);
+}
+
+void ahead_copy_strain(const equations *eq, int i, const strain_output *out)
+{
+    const model *m = eq->m;
+    const run_ahead *a = eq->run->ahead;
+    const int n = model_strains(m), c = model_own_coordinates(m);
+    copy(out->e, a->e + i * n, n);
+    copy(out->J, a->J + i * n * c, n * c);
+    if (out->s != NULL)
+        copy(out->H, a->H + i * c * c, c * c);
+}
+
+status ahead_copy_stress(const equations *eq, int i, const stress_output *out)
+{
+    const model *m = eq->m;
+    const run_ahead *a = eq->run->ahead;
+    const int n = model_strains(m);
+    copy(out->sigma, a->sigma + i * n, n);
+    copy(out->C, a->C + i * n * n, n * n);
+    copy(out->memory, a->memory + i * model_memory(m), model_memory(m));
+    return a->outcome[i];
 }

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "harness/newton/system_matrices.h"
+#include "harness/newton/newton.h"
 
 /* comment: one line, or NULL. */
 void matrix_market_write(FILE *to, const triplets *, const char *comment);

@@ -3,7 +3,7 @@
 #define BEAMWORK_STORE_SHAPES_H
 
 #include "cases/scene/scene.h"
-#include "harness/newton/shapes.h"
+#include "harness/newton/newton.h"
 #include "harness/records/record.h"
 
 /* Group below `at`: centre lines, sections, bodies; the caller closes it with H5Gclose. */

@@ -5,7 +5,7 @@
 #define BEAMWORK_SYSTEM_FOLDER_H
 
 #include "cases/scene/scene.h"
-#include "harness/newton/system_matrices.h"
+#include "harness/newton/newton.h"
 
 /* title: of the solution, one line, for the comments of the matrices. The folder appears complete
  * or not at all. */

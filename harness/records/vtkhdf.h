@@ -5,7 +5,7 @@
 #define BEAMWORK_VTKHDF_H
 
 #include "cases/scene/scene.h"
-#include "harness/newton/shapes.h"
+#include "harness/newton/newton.h"
 #include "harness/records/record.h"
 
 void vtkhdf_write(record_file *r, const scene *sc, const shapes *s);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/newton/quantity.h"
+#include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 
 static status copy_left_out(const model *m, cell_result *out, fault *f)

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_CLAIMS_H
 #define BEAMWORK_CLAIMS_H
 
-#include "harness/newton/identity.h"
+#include "harness/newton/newton.h"
 
 typedef struct claims claims;
 

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_FOLLOW_MATCH_H
 #define BEAMWORK_FOLLOW_MATCH_H
 
-#include "harness/newton/system_matrices.h"
+#include "harness/newton/newton.h"
 
 typedef struct follow_shapes {
     int modes, rows;

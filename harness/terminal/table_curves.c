@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 #include "harness/study/curve_error.h"
 #include "harness/study/rounding.h"
 #include "harness/terminal/paragraph.h"

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/newton/result.h"
+#include "harness/newton/newton.h"
 
 /* Nothing where nothing moves. Of loads it tells those that jump where the motion begins. */
 void table_motion(FILE *to, const scene *, const solve_result *);

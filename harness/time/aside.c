@@ -1,6 +1,6 @@
 #include "harness/time/aside.h"
 
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 
 status aside_step(analysis_context *c, motion_scheme *s, const instant *from, double time,
                   instant *at, fault *f)

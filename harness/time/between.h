@@ -5,7 +5,7 @@
 #ifndef BEAMWORK_BETWEEN_H
 #define BEAMWORK_BETWEEN_H
 
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 #include "harness/time/instant.h"
 
 typedef enum between_degree {

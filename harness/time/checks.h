@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MOTION_CHECKS_H
 #define BEAMWORK_MOTION_CHECKS_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 #include "harness/time/carried.h"
 
 /* The form of Newton has what the integrator needs; inertia and drivers can be written in time,

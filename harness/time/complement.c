@@ -6,7 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
-#include "harness/newton/chunk.h"
+#include "harness/newton/newton.h"
 
 enum { MOST = ELEMENT_MAX_STRAINS };
 

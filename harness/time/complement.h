@@ -8,7 +8,7 @@
 #define BEAMWORK_COMPLEMENT_H
 
 #include "elements/shared/status.h"
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 
 typedef struct complement complement; /* of one state */
 

@@ -9,7 +9,6 @@
 #include "elements/math/larger.h"
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/chunk.h"
 #include "harness/newton/newton.h"
 #include "harness/time/deformable.h"
 #include "harness/time/drive.h"

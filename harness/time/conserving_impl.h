@@ -3,7 +3,7 @@
 #define BEAMWORK_CONSERVING_IMPL_H
 
 #include "harness/model/model.h"
-#include "harness/newton/arrival.h"
+#include "harness/newton/newton.h"
 #include "harness/time/cayley.h"
 #include "harness/time/complement.h"
 #include "harness/time/inertia.h"

@@ -3,8 +3,7 @@
 
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/newton/applied.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/time/place.h"
 
 typedef struct loaded {

@@ -5,7 +5,7 @@
 #include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
-#include "harness/newton/chunk.h"
+#include "harness/newton/newton.h"
 #include "harness/time/deformable.h"
 
 static const double *inner_of(const model *m, const model_state *s, int i)

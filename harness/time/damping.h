@@ -4,7 +4,7 @@
 #define BEAMWORK_DAMPING_H
 
 #include "harness/model/model.h"
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 #include "harness/time/instant.h"
 
 /* Is any member of the scene damped? */

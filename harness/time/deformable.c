@@ -4,7 +4,7 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/chunk.h"
+#include "harness/newton/newton.h"
 #include "harness/time/place.h"
 
 int deformable_count(const conserving *s)

@@ -6,7 +6,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/time/turning.h"
 
 status drive_check(const model *m, fault *f)

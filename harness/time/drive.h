@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_DRIVE_H
 #define BEAMWORK_DRIVE_H
 
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 
 /* REFUSED: an unknown driver has no motion in time. */
 status drive_check(const model *, fault *);

@@ -4,7 +4,7 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/time/drive.h"
 #include "harness/time/explicit_impl.h"
 #include "harness/time/increment.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_FRAMES_H
 #define BEAMWORK_FRAMES_H
 
-#include "harness/newton/outcome.h"
+#include "harness/newton/newton.h"
 #include "harness/time/between.h"
 
 typedef struct frames {

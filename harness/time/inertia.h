@@ -4,7 +4,7 @@
 #ifndef BEAMWORK_INERTIA_H
 #define BEAMWORK_INERTIA_H
 
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 #include "harness/time/carried.h"
 #include "harness/time/charts.h"
 #include "harness/time/forms.h"

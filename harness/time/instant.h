@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_INSTANT_H
 #define BEAMWORK_INSTANT_H
 
-#include "harness/newton/arrival.h"
+#include "harness/newton/newton.h"
 
 typedef struct instant {
     double time; /* [s] */
@@ -13,7 +13,7 @@ typedef struct instant {
         *strain2; /* [elements x strains] rates of the strains of what is damped, and
                      their derivatives as generalized-alpha has them; NULL: nothing is */
     double stress,
-        contraction;   /* largest stress so far, and how Newton contracted last: arrival.h */
+        contraction;   /* largest stress so far, and how Newton contracted last: newton.h */
     double *ends;      /* [released ends x 6] of their masses as conserving steps go on with them:
                           velocity of the centre, angular one in the end's axes; NULL: none is */
     int ends_known;    /* 0: they are those of v */

@@ -11,7 +11,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 #include "harness/time/damping.h"
 #include "harness/time/drive.h"
 #include "harness/time/massless.h"

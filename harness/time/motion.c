@@ -6,8 +6,6 @@
 
 #include "elements/math/larger.h"
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
-#include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
 #include "harness/time/account.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MOTION_H
 #define BEAMWORK_MOTION_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 

@@ -6,7 +6,6 @@
 
 #include "elements/math/larger.h"
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
 #include "harness/newton/newton.h"
 #include "harness/time/damping.h"
 #include "harness/time/drive.h"

@@ -6,7 +6,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/time/damping.h"
 #include "harness/time/radau_impl.h"
 

@@ -6,7 +6,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/time/inertia.h"
 #include "harness/time/kinks.h"
 #include "harness/time/radau_impl.h"

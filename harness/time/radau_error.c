@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/time/drive.h"
 #include "harness/time/inertia.h"
 #include "harness/time/radau_impl.h"

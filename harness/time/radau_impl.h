@@ -3,7 +3,7 @@
 #define BEAMWORK_RADAU_IMPL_H
 
 #include "harness/model/model.h"
-#include "harness/newton/arrival.h"
+#include "harness/newton/newton.h"
 #include "harness/time/complement.h"
 #include "harness/time/scheme.h"
 #include "harness/time/stages.h"

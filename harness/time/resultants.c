@@ -3,9 +3,7 @@
 #include <math.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/internal_stress.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/time/shares.h"
 
 static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_MOTION_RESULTANTS_H
 #define BEAMWORK_MOTION_RESULTANTS_H
 
-#include "harness/newton/internal.h"
+#include "harness/newton/newton.h"
 
 /* As extracted, without factor and offset, of SCENE_REACTION, SCENE_INTERNAL and SCENE_STRESS. v,
  * a[free + driven]: rates of a motion and their derivatives; NULL: nothing moves. */

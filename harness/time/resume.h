@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_RESUME_H
 #define BEAMWORK_RESUME_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 #include "harness/time/account.h"
 #include "harness/time/extent.h"
 #include "harness/time/instant.h"

@@ -2,7 +2,7 @@
 #ifndef BEAMWORK_SCHEME_H
 #define BEAMWORK_SCHEME_H
 
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 #include "harness/time/between.h"
 #include "harness/time/carried.h"
 #include "harness/time/work.h"

@@ -7,9 +7,6 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/history.h"
-#include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"
 #include "harness/time/damping.h"
 #include "harness/time/massless.h"

@@ -5,7 +5,7 @@
 #ifndef BEAMWORK_SPREAD_H
 #define BEAMWORK_SPREAD_H
 
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 #include "harness/time/charts.h"
 
 struct mesh_element;

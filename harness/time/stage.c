@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/linearise.h"
 #include "harness/newton/newton.h"
 #include "harness/time/complement.h"
 #include "harness/time/increment.h"

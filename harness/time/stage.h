@@ -5,14 +5,13 @@
 #ifndef BEAMWORK_STAGE_H
 #define BEAMWORK_STAGE_H
 
-#include "harness/newton/arrival.h"
-#include "harness/newton/context.h"
+#include "harness/newton/newton.h"
 #include "harness/time/carried.h"
 #include "harness/time/complement.h"
 #include "harness/time/inertia.h"
 
 /* Do the factors of the last equations serve for the next ones? What they lack is the product of
- * both corrections; those of the stresses (arrival.h) tell where members are stiff. Measured with
+ * both corrections; those of the stresses (newton.h) tell where members are stiff. Measured with
  * elongations 1e6 times stiffer: beyond 2e-4 corrections stop to contract and steps of 0.2 s fail,
  * below as many iterations as with factors of their own. */
 int stage_stands(const arrival *);

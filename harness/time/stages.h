@@ -4,7 +4,7 @@
 #define BEAMWORK_STAGES_H
 
 #include "harness/model/model.h"
-#include "harness/newton/run_state.h"
+#include "harness/newton/newton.h"
 #include "harness/time/carried.h"
 
 enum { STAGES = 3 };

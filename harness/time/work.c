@@ -7,9 +7,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/applied.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/time/inertia.h"
 #include "harness/time/kinks.h"
 

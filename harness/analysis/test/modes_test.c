@@ -9,7 +9,7 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/modes.h"
+#include "harness/newton/newton.h"
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
 static const double length = 2;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/newton/refinement.h"
+#include "harness/newton/newton.h"
 #include "harness/tools/kit/accepted.h"
 #include "harness/tools/kit/ask.h"
 

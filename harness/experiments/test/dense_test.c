@@ -5,7 +5,7 @@
 
 #include "harness/experiments/timing.h"
 #include "harness/formulations/formulations.h"
-#include "harness/newton/uncondensed.h"
+#include "harness/newton/newton.h"
 #include "harness/tools/kit/cells.h"
 
 /* The order of the matrix that is eliminated. */

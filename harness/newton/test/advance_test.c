@@ -9,8 +9,7 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 
 static const double length = 2;
 

@@ -9,8 +9,7 @@
 #include "harness/analysis/solve.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/tools/kit/scenes.h"
 
 enum { MOST = 120 };

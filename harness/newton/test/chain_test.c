@@ -9,7 +9,7 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 #include "elements/test/random.h"
-#include "harness/newton/link.h"
+#include "harness/newton/newton_impl.h"
 
 enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 

@@ -8,7 +8,7 @@
 #include "harness/analysis/solve.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 

@@ -9,9 +9,7 @@
 #include "elements/test/worst.h"
 #include "harness/model/model.h"
 #include "harness/model/test/corner.h"
-#include "harness/newton/equations_impl.h"
-#include "harness/newton/extrapolate.h"
-#include "harness/newton/predictor.h"
+#include "harness/newton/newton.h"
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/rotating_frame.h"
+#include "harness/newton/newton.h"
 #include "harness/newton/test/turned_body.h"
 
 /* A dead force has a potential: its stiffness is the second derivative of the work, with the sign

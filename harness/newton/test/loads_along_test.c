@@ -4,8 +4,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/rotating_frame.h"
+#include "harness/newton/newton.h"
 
 enum { MOST = 40 };
 enum { LINE, SPIN };

@@ -7,7 +7,7 @@
 
 #include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"
 

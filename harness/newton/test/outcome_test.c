@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/test/ended.h"
-#include "harness/newton/outcome.h"
+#include "harness/newton/newton.h"
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)
 {

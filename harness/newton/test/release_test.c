@@ -10,8 +10,7 @@
 #include "elements/math/dense.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 
 enum { MOST = 60, ON_NODE, ON_BODY, ON_ANGLES, PLACES };
 

@@ -12,8 +12,7 @@
 #include "elements/test/sections.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/tools/kit/scenes.h"
 
 enum { MOST = 40 };

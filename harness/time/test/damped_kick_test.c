@@ -4,7 +4,7 @@
 
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
-#include "harness/newton/linearise.h"
+#include "harness/newton/newton.h"
 #include "harness/time/inertia.h"
 #include "harness/time/massless.h"
 #include "harness/time/test/flying.h"

@@ -11,7 +11,7 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
+#include "harness/newton/newton.h"
 #include "harness/time/conserving.h"
 #include "harness/time/inertia.h"
 #include "harness/time/launch.h"

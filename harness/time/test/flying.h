@@ -8,8 +8,7 @@
 
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/newton/history.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/time/damping.h"
 #include "harness/time/integrator.h"
 #include "harness/time/launch.h"

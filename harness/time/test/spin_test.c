@@ -6,9 +6,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/model/test/turned_end.h"
-#include "harness/newton/advance.h"
-#include "harness/newton/linearise.h"
-#include "harness/newton/loads.h"
+#include "harness/newton/newton.h"
 #include "harness/time/increment.h"
 #include "harness/time/test/flight.h"
 

@@ -1,0 +1,267 @@
+/* The inside of newton/. */
+#ifndef BEAMWORK_NEWTON_IMPL_H
+#define BEAMWORK_NEWTON_IMPL_H
+
+#include <stddef.h>
+
+#include "elements/shared/status.h"
+#include "harness/model/model.h"
+#include "harness/newton/newton.h"
+
+/* Strains and stresses of all elements evaluated ahead of the loop that wants them, for types that
+ * evaluate all elements at once (element_type.strain_many, stress_many, without lanes). For others,
+ * and where there is no memory for it, nothing is done ahead and every element is evaluated in the
+ * loop; those with lanes a few at a time, where newton.h is used. */
+
+/* Strains and stresses evaluated for all elements at once. */
+typedef struct run_ahead {
+    int what, stresses; /* what of the strains, and whether the stresses, are valid */
+    const element_data **data;
+    const double **at, **inner;
+    node_state *x;
+    strain_output *strain;
+    stress_output *stress;
+    status *outcome;
+    double *e, *sigma, *J, *H, *C, *memory;
+} run_ahead;
+
+enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* what of the strains */
+
+/* Of the nodes of s; sigma[elements x strains] for H. Until ahead_end. */
+void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
+/* At e[elements x strains], or NULL: at the strains evaluated ahead; sigma and C. */
+void ahead_stresses(const equations *eq, const double e[], const double inner[]);
+void ahead_end(const equations *eq);
+
+void ahead_copy_strain(const equations *eq, int i, const strain_output *out);
+status ahead_copy_stress(const equations *eq, int i, const stress_output *out);
+
+/* Those of element i at x or e, for loops between ahead_strains or ahead_stresses and ahead_end:
+ * what was evaluated ahead, or the type's own functions. */
+static inline void ahead_strain(const equations *eq, int i, const node_state x[],
+                                strain_output *out)
+{
+    if (eq->run->ahead != NULL && eq->run->ahead->what != 0)
+        ahead_copy_strain(eq, i, out);
+    else
+        model_type(eq->m)->strain(model_kind_of(eq->m, i)->data, x, out);
+}
+
+static inline status ahead_stress(const equations *eq, int i, const double e[],
+                                  const double inner[], stress_output *out)
+{
+    if (eq->run->ahead != NULL && eq->run->ahead->stresses)
+        return ahead_copy_stress(eq, i, out);
+    return model_type(eq->m)->stress(model_kind_of(eq->m, i)->data, e, inner, out);
+}
+
+/* Solutions of a tangent that what is released borders (tangent.c). */
+
+/* Factors of the bordered system. */
+typedef struct bordered {
+    double *Z; /* [count x free] K^-1 U */
+    double S[TANGENT_BORDER * TANGENT_BORDER];
+    int pivot[TANGENT_BORDER];
+    double *solution;                 /* [TANGENT_COMPONENTS x all] for unit loads */
+    double *x, *load, *rest, *weight; /* [all] of one that is refined */
+} bordered;
+
+/* SINGULAR: not held when the prescribed motion is released. Freed by bordered_free in either
+ * case. */
+status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
+void bordered_free(bordered *s);
+/* In place; what is held or prescribed stays as it is. x: [columns x all] */
+void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns, double x[]);
+/* Iterative refinement of s->x for s->load, with residuals whose stiff part comes from the element
+ * strains (newton.h). SINGULAR: round-off leaves too few digits. */
+status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
+
+/* Links in a row, condensed to what their two ends do, and back.
+ *
+ * A link joins joint p to joint q; y are the coordinates of q, and before them those inside. With
+ * forces g that act on it it is
+ *   y = A x_p + F g_y,   g_p = B x_p - A^T g_y:
+ * A carries it along as if rigid, F is its flexibility with p clamped, B what carrying it along
+ * costs (prestress, warping). Joined links are a link again (the star product of R. Redheffer, J.
+ * Math. Phys. 41, 1962): with F of the row before joint m and B, A of the next link
+ *   x_m = Z (a_m + F (r_m + A^T g_y)),   Z = (1 + F B)^-1,   F <- F_qq + A_q Z F A_q^T.
+ * Flexibilities add without cancellation, so that rounding grows about as the number of links and
+ * not as its fourth power, as it does where stiffnesses are assembled. */
+
+enum { CHAIN_JOINT = 7, CHAIN_LINK = 2 * CHAIN_JOINT };
+
+/* What goes into a chain. */
+typedef struct chain_link {
+    double A[CHAIN_LINK * CHAIN_JOINT];  /* [y x joint] */
+    double F[CHAIN_LINK * CHAIN_LINK];   /* [y x y] symmetric */
+    double B[CHAIN_JOINT * CHAIN_JOINT]; /* symmetric */
+    int negative;                        /* eigenvalues of F */
+} chain_link;
+
+typedef struct chain chain;
+
+/* joint: coordinates of each joint; y: those of a link but for its first joint. */
+status chain_alloc(int links, int joint, int y, chain **out, fault *);
+void chain_free(chain *);
+
+void chain_begin(chain *);
+/* The next link. SINGULAR: the row up to here, clamped at its begin, is at a critical state. */
+status chain_add(chain *, const chain_link *, fault *);
+/* K[2 joint x 2 joint] of the ends when all links are there. SINGULAR: the chain, clamped at both
+ * ends, is at a critical state. */
+status chain_stiffness(const chain *, double K[], fault *);
+/* Negative eigenvalues of what is inside, both ends clamped. */
+int chain_negative(const chain *);
+
+/* Loads r[links x y] on all coordinates but those of the ends (the last joint is not read), in the
+ * order of the links; ends[2 joint]: forces by which they act on the ends. */
+void chain_reduce(chain *, const double r[], double ends[]);
+/* x[links x y] of these loads and of motions of the ends[2 joint]; the last joint is an end. x may
+ * be r. */
+void chain_expand(chain *, const double r[], const double ends[], double x[]);
+
+/* What a chain consists of: chain.c builds it, chain.c solves with it. */
+
+/* Of a symmetric matrix the rows up to the diagonal, one after the other. */
+static inline int chain_packed(int n)
+{
+    return n * (n + 1) / 2;
+}
+
+/* What is kept of a link: its A and F, and with Z, F of the row before it and its B what joins the
+ * two: Z, B Z and Z F. */
+struct chain {
+    int links, count; /* count: that are there */
+    int c, y, inside; /* coordinates of a joint; of a link; inside = y - c */
+    int negative;
+    double *kept;
+    double
+        *a; /* [(links + 1) x c] of joints, without forces behind them; then the forces on them */
+    double F[CHAIN_JOINT * CHAIN_JOINT]; /* of the row */
+    double A[CHAIN_JOINT * CHAIN_JOINT], B[CHAIN_JOINT * CHAIN_JOINT];
+};
+
+typedef struct kept_link {
+    double *A, *Z;         /* [y x c], [c x c] */
+    double *own, *BZ, *ZF; /* packed: F of the link, [y x y]; [c x c] */
+} kept_link;
+
+static inline int chain_kept_size(int c, int y)
+{
+    return y * c + c * c + chain_packed(y) + 2 * chain_packed(c);
+}
+
+static inline kept_link chain_kept(const chain *s, int link, int c, int y)
+{
+    kept_link k;
+    k.A = s->kept + (size_t)link * (size_t)chain_kept_size(c, y);
+    k.Z = k.A + y * c;
+    k.own = k.Z + c * c;
+    k.BZ = k.own + chain_packed(y);
+    k.ZF = k.BZ + chain_packed(c);
+    return k;
+}
+
+/* What a condensation consists of. */
+
+/* More coordinates of ends than this are not condensed: their pattern is made densely. */
+enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
+
+typedef struct condensed_member {
+    mesh_element ends; /* from the first node of the first element to the last of the last */
+    mesh_triad triad[2];
+    int first, links, joint, y;
+    chain *chain;
+} condensed_member;
+
+struct condensation {
+    const equations *eq;
+    const model *m;
+    const model_state *at;
+    int members, all, unknowns;
+    int lent; /* 1: chains and r are another one's */
+    condensed_member *member;
+    int *number;   /* [all] of a coordinate of an end among those; NONE: of no end */
+    int *unknown;  /* [unknowns] coordinates of the system that is left */
+    sparse K;      /* of the ends, in all coordinates */
+    sparse inside; /* of the unknowns */
+    int *from;     /* [entries of inside] in K */
+    matrix_factor *factor;
+    double *r;      /* of the longest member: loads, then motions, [links x y] */
+    double *small;  /* [unknowns] */
+    double *driven; /* [driven] */
+    double *end;    /* [members x MEMBER_COLUMNS] forces of the ends */
+    int negative;   /* eigenvalues of what was condensed */
+    long factorisations;
+};
+
+/* condensation.c: coordinates of ends and, among them, the unknown ones. Returns how many
+ * there are of the former; s->unknown NULL: out of memory. */
+int condensation_number(condensation *s, int count, const int released[]);
+/* Patterns of both. */
+status condensation_patterns(condensation *s, int ends, fault *f);
+
+/* Springs about the undeformed state, as newton.h has it for elements: sigma[6 x springs] are the
+ * last of its stresses. */
+
+void linear_springs_stiffness(const model *, sparse *K); /* += */
+void linear_springs_stresses(const model *, const double x[], double sigma[]);
+void linear_springs_forces(const model *, const double sigma[], double f[]); /* += */
+/* F[6] += on the frame of a node. */
+void linear_springs_node_force(const model *, const double sigma[], int node, double F[6]);
+void linear_springs_geometric_stiffness(const model *, const double sigma[], sparse *G); /* += */
+double linear_springs_energy2(const model *, const double x[]);
+double linear_springs_rounding(const model *, const double x[]);
+double linear_springs_geometric_energy2(const model *, const double sigma[], const double x[]);
+
+/* An element as a link of a chain. */
+
+/* Tangent J^T C J + H of an element in coordinates of its nodes (element.h). */
+typedef struct link_element {
+    int nodes, strains, joint; /* joint: the first coordinates of each node that are wanted */
+    const double *J, *C, *H;   /* [strains x 7 nodes], [strains x strains], [7 nodes x 7 nodes] */
+    const double *r;           /* [nodes x 3] places of the nodes [m] */
+} link_element;
+
+/* Carrying the element along, R, strains it by E = J R, rounding but for warping; it follows by
+ * R + d, d = -F (J_y^T C E + (H R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d):
+ * no entries of the size of K are subtracted from each other.
+ * SINGULAR: clamped at its first node it is at a critical state. */
+status link_of(const link_element *, chain_link *, fault *);
+
+/* Members as rigid parts of a linkage, where their ends are released. */
+
+/* 1: held as it is, the undeformed structure moves without deformation where ends of members are
+ * released: the node that moves most, or -1 and a member between nodes that stay, and its motion
+ * (displacement [m], turn [rad], of any size). Not looked for among more than 200 parts. */
+int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
+
+/* Small symmetric matrices whose rows may have different units. */
+
+enum { SYMMETRIC_MOST = 14 };
+
+/* Negative eigenvalues of A[n x n], which is overwritten; -1: singular, a pivot is
+ * a rounding error. LDL^T without pivoting,
+ * which units of the rows do not change. */
+int symmetric_negative(int n, double A[]);
+/* inverse[n x n]; returns the negative eigenvalues, or -1: singular. */
+int symmetric_inverse(int n, const double A[], double inverse[]);
+
+/* Derivatives of elements in the undeformed state, which never changes: evaluated once and kept in
+ * the model. */
+
+/* de/dx [strains x 7 nodes], dsigma/de [strains x strains] and, of a member with initial strains,
+ * the stresses [strains] of an element whose nodes do not move, to first order (NULL: none); until
+ * the next one is asked for. */
+typedef struct undeformed_element {
+    const double *J, *C, *initial;
+} undeformed_element;
+
+/* In large models elements of one kind that follow each other with the same orientation, as far as
+ * rounding of their places lets it be told, are one. FAULT: out of memory. */
+status undeformed_of(const equations *, int element, undeformed_element *, fault *);
+/* What no element has yet is evaluated for all together, where the formulation can, until
+ * ahead_end. */
+void undeformed_begin(const equations *);
+
+#endif
