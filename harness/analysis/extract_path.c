@@ -6,8 +6,7 @@
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-#include "harness/time/reading.h"
-#include "harness/time/resultants.h"
+#include "harness/time/time.h"
 
 /* A value with its error, in parts of it; NAN with the reason where no digit is left. */
 static double known(const analysis_context *c, double value, double error, const char *what,

@@ -5,7 +5,7 @@
 
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-#include "harness/time/resultants.h"
+#include "harness/time/time.h"
 
 /* Under the loads at path 1. */
 static double reaction_of(const equations *eq, const scene_component *what, const double sigma[])

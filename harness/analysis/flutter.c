@@ -6,7 +6,7 @@
 
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-#include "harness/time/damping.h"
+#include "harness/time/time.h"
 
 status flutter_system_alloc(const newton_run *n, flutter_system *s, fault *f)
 {

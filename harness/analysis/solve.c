@@ -18,7 +18,7 @@
 #include "harness/analysis/static.h"
 #include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
-#include "harness/time/motion.h"
+#include "harness/time/time.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
 

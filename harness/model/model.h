@@ -215,7 +215,7 @@ typedef struct mesh_element {
     int vertex[ELEMENT_MAX_NODES];
     int warp[ELEMENT_MAX_NODES];     /* index, or NONE: held at zero or absent */
     double share[ELEMENT_MAX_NODES]; /* of its mass where that is at nodes: mesh.c */
-    double couple[2];  /* of two nodes: what resultants at an end have beside: time/shares.c */
+    double couple[2];  /* of two nodes: what resultants at an end have beside: time/deformable.c */
     mesh_triad *triad; /* [nodes] initial; not its own: equal ones share them */
     int columns; /* coordinates after elimination: 7 nodes, behind them those of released ends */
     int index[MODEL_MAX_COORDINATES]; /* the global one of each of them, or NONE */

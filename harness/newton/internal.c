@@ -44,7 +44,8 @@ static void note_taken(const model *m, const double force[], double sign, double
 }
 
 /* What was taken off the ends for shares of the mass of an element of two nodes, weight or
- * centrifugal: what lies within it has a couple beside, as its inertia has (harness/time/shares.c).
+ * centrifugal: what lies within it has a couple beside, as its inertia has
+ * (harness/time/deformable.c).
  */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])

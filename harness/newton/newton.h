@@ -56,7 +56,7 @@ typedef struct loading {
     int rotates, rotation_follows_path;
 } loading;
 
-/* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/damping.h. */
+/* Stresses of a motion gain eta S0 e', eta of the member: see harness/time/time.h. */
 typedef struct run_damping {
     double *stiffness;          /* [kinds x strains^2] S0 */
     double *none;               /* [elements x strains] zero */
@@ -291,7 +291,7 @@ typedef struct outcome_rotation {
 
 /* Of a motion at one instant, by scene_balance. */
 typedef struct outcome_instant {
-    double *rate, *acceleration; /* [free + driven]: see harness/time/forms.h; one block */
+    double *rate, *acceleration; /* [free + driven]: see harness/time/time_impl.h; one block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
@@ -321,7 +321,7 @@ typedef struct outcome_end {
     double work, dissipated; /* [J] since the begin */
     double largest, origin;  /* [J] largest energy so far; that of the begin */
     double turned;           /* [J] sum of the work of all steps, whatever their signs */
-    double scale, extent, rate, density; /* of extent.h */
+    double scale, extent, rate, density; /* of time_impl.h */
     double stress, contraction;          /* of newton.h */
     int quiet;                           /* steps since what acts was last smooth no longer */
     size_t states, coordinates, strains, released, between;

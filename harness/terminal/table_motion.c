@@ -6,7 +6,7 @@
 #include "cases/scene/names.h"
 #include "elements/shared/choice.h"
 #include "harness/terminal/paragraph.h"
-#include "harness/time/account.h"
+#include "harness/time/time.h"
 
 enum { MOTION_INDENT = 2 };
 

@@ -1,14 +1,9 @@
-#include "harness/time/alpha.h"
+#include "harness/time/time_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "elements/math/vec3.h"
-#include "harness/model/model.h"
-#include "harness/time/damping.h"
-#include "harness/time/drive.h"
-#include "harness/time/massive.h"
-#include "harness/time/stage.h"
 
 typedef struct alpha {
     motion_scheme base;

@@ -1,4 +1,4 @@
-#include "harness/time/cayley.h"
+#include "harness/time/time_impl.h"
 
 #include <math.h>
 #include <string.h>
@@ -167,4 +167,223 @@ void cayley_forces(const cayley_step *s, int columns, double f[])
     for (int j = 0; j < s->nodes; j++)
         for (int k = 0; k < 3 * n; k++)
             f[(size_t)(NODE_COORDINATES * j + 3) * (size_t)n + (size_t)k] -= s->share * common[k];
+}
+
+enum { N = NODE_COORDINATES };
+
+/* A += factor a b^T */
+static void add_product(double factor, const double a[3], const double b[3], double A[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            A[3 * i + j] += factor * a[i] * b[j];
+}
+
+static void add_identity(double factor, double A[9])
+{
+    for (int i = 0; i < 3; i++)
+        A[4 * i] += factor;
+}
+
+/* A += factor times the derivative of b c (c.v) by c */
+static void add_square(const cayley_step *s, const cayley_slopes *d, double factor,
+                       const double v[3], double A[9])
+{
+    const double along = vec3_dot(s->mean, v);
+    add_product(factor * along, s->mean, d->b, A);
+    add_product(factor * s->b, s->mean, v, A);
+    add_identity(factor * s->b * along, A);
+}
+
+static void spin_of(const cayley_step *s, cayley_slopes *d)
+{
+    const double k = s->kappa, ratio = k / (1 + k);
+    const double part = 1 / (1 + ratio * ratio * vec3_dot(s->mean, s->mean) / 4);
+    double g[9];
+    cayley_skew(s->mean, g);
+    memset(d->spin, 0, sizeof d->spin);
+    add_identity(part * ratio, d->spin);
+    add_product(part / ((1 + k) * (1 + k)), s->mean, d->kappa, d->spin);
+    for (int i = 0; i < 9; i++)
+        d->spin[i] += part * ratio * ratio / 2 * g[i];
+}
+
+/* d psi by (c^ . d c^) */
+static double arc_change(double x, double psi)
+{
+    return x < 0.02 ? -1 / 6.0 + x * x / 20 : (1 / (1 + x * x / 4) - psi) / (x * x);
+}
+
+static void node_slopes(const cayley_step *s, int j, cayley_slopes *d)
+{
+    const double *c = s->c[j], *mean = s->mean, *relative = s->relative[j];
+    const double divisor = s->divisor[j], inside = 1 + vec3_dot(mean, c) / 4,
+                 slope = arc_change(vec3_norm(relative), s->psi[j]);
+    double own[9], common[9], to_own[3], to_common[3], apart[3], psi_own[3], psi_common[3], E[9];
+    for (int i = 0; i < 3; i++) {
+        to_own[i] = s->kappa * mean[i] / 4;
+        to_common[i] = d->kappa[i] * inside + s->kappa * c[i] / 4;
+        apart[i] = c[i] - mean[i];
+    }
+    memcpy(own, s->T, sizeof own);
+    for (int i = 0; i < 9; i++)
+        common[i] = -s->T[i];
+    add_product(-1, relative, to_own, own);
+    add_product(-1, relative, to_common, common);
+    add_square(s, d, -1, apart, common);
+    for (int i = 0; i < 9; i++) {
+        own[i] /= divisor;
+        common[i] /= divisor;
+    }
+    mat3_transpose_mul_vec(own, relative, psi_own);
+    mat3_transpose_mul_vec(common, relative, psi_common);
+    for (int i = 0; i < 3; i++) {
+        d->z_own[j][i] = (slope * psi_own[i] - s->z[j] * to_own[i]) / divisor;
+        d->z_common[j][i] = (slope * psi_common[i] - s->z[j] * to_common[i]) / divisor;
+    }
+    memset(E, 0, sizeof E);
+    add_identity(s->psi[j], E);
+    add_product(slope, relative, relative, E);
+    mat3_mul(E, own, d->own[j]);
+    mat3_mul(E, common, d->common[j]);
+}
+
+void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
+{
+    const double k = s->kappa;
+    for (int i = 0; i < 3; i++) {
+        d->kappa[i] = -k * k * k * s->mean[i] / 4;
+        d->b[i] = d->kappa[i] * k * (2 + k) / (4 * (1 + k) * (1 + k));
+    }
+    spin_of(s, d);
+    for (int j = 0; j < s->nodes; j++)
+        node_slopes(s, j, d);
+}
+
+/* Of a node's r(s) and R(s): by its dphi, and by the mean of c. */
+typedef struct node_columns {
+    double by_phi[9], r_common[9], phi_common[9];
+} node_columns;
+
+static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayley_point *p, int j,
+                       node_columns *out)
+{
+    const double at = p->at, *y = s->y + N * j;
+    double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
+    for (int i = 0; i < 3; i++)
+        back[i] = -at * y[3 + i];
+    turning_jacobian(back, Jl); /* of increments behind the turn: spatial ones */
+    for (int i = 0; i < 9; i++)
+        Jl[i] *= at;
+    mat3_mul(Jl, d->own[j], out->by_phi);
+    mat3_mul(Jl, d->common[j], more);
+    mat3_mul(p->turn[j], d->spin, turned);
+    mat3_mul_vec(s->G, s->Dn[j], first);
+    cayley_skew(first, swept);
+    cayley_skew(s->D1[j], apart);
+    mat3_transpose_mul(s->G, apart, carried);
+    for (int i = 0; i < 9; i++) {
+        apart[i] = at * carried[i] - (1 - at) * swept[i];
+        out->phi_common[i] = more[i] + turned[i];
+    }
+    mat3_mul(apart, d->spin, out->r_common);
+}
+
+/* out += factor a B */
+static void add_row(double factor, const double a[3], const double B[9], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] += factor * (a[0] * B[i] + a[1] * B[3 + i] + a[2] * B[6 + i]);
+}
+
+void cayley_slopes_columns(const cayley_step *s, const cayley_slopes *d, const cayley_point *p,
+                           double weight, int rows, const double A[], double out[])
+{
+    const int n = N * s->nodes;
+    node_columns of[ELEMENT_MAX_NODES];
+    double back[9];
+    for (int j = 0; j < s->nodes; j++)
+        columns_of(s, d, p, j, &of[j]);
+    for (int i = 0; i < 9; i++)
+        back[i] = s->G[3 * (i % 3) + i / 3];
+    for (int r = 0; r < rows; r++) {
+        const double *a = A + (size_t)(r * n);
+        double *to = out + (size_t)(r * n), pulled[3] = {0, 0, 0}, turned[3] = {0, 0, 0};
+        for (int j = 0; j < s->nodes; j++) {
+            add_row(s->share, a + N * j, of[j].r_common, turned);
+            add_row(s->share, a + N * j + 3, of[j].phi_common, turned);
+            for (int i = 0; i < 3; i++)
+                pulled[i] += s->share * a[N * j + i];
+        }
+        for (int j = 0; j < s->nodes; j++) {
+            const double *at = a + N * j;
+            const double alone[3] = {at[0] - pulled[0], at[1] - pulled[1], at[2] - pulled[2]};
+            add_row(weight * p->at, alone, back, to + N * j);
+            add_row(weight, at + 3, of[j].by_phi, to + N * j + 3);
+            for (int i = 0; i < 3; i++)
+                to[N * j + 3 + i] += weight * turned[i];
+            to[N * j + 6] += weight * p->at * at[6];
+        }
+    }
+}
+
+/* K[n x n] at (row, column) += A */
+static void add_block(int n, int row, int column, double factor, const double A[9], double K[])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            K[(row + i) * n + column + j] += factor * A[3 * i + j];
+}
+
+/* Of one node: its force and moment by the mean of c, and its moment by c_j. */
+typedef struct node_forces {
+    double F[3], force[9], moment[9], own[9];
+} node_forces;
+
+static void forces_of(const cayley_step *s, const cayley_slopes *d, const double f[], int j,
+                      node_forces *out)
+{
+    const double *at = f + N * j;
+    double M[3];
+    memset(out, 0, sizeof *out);
+    mat3_mul_vec(s->S, at, out->F);
+    mat3_mul_vec(s->T, at + 3, M);
+    add_product(1, at, d->kappa, out->force);
+    add_square(s, d, 1, at, out->force);
+    add_square(s, d, -s->z[j], at + 3, out->moment);
+    add_product(1, M, d->z_common[j], out->moment);
+    add_product(1, M, d->z_own[j], out->own);
+}
+
+void cayley_slopes_forces(const cayley_step *s, const cayley_slopes *d, const double f[],
+                          double K[])
+{
+    const int n = N * s->nodes;
+    node_forces of[ELEMENT_MAX_NODES];
+    double common[9] = {0}, sum[3] = {0, 0, 0};
+    for (int j = 0; j < s->nodes; j++) {
+        double lever[9], more[9];
+        forces_of(s, d, f, j, &of[j]);
+        cayley_skew(s->Dm[j], lever);
+        mat3_mul(lever, of[j].force, more);
+        for (int i = 0; i < 9; i++)
+            common[i] += s->share * (of[j].moment[i] + more[i]);
+        for (int i = 0; i < 3; i++)
+            sum[i] += s->share * of[j].F[i];
+    }
+    for (int j = 0; j < s->nodes; j++)
+        for (int i = 0; i < s->nodes; i++) {
+            const double half[3] = {(sum[0] - of[i].F[0]) / 2, (sum[1] - of[i].F[1]) / 2,
+                                    (sum[2] - of[i].F[2]) / 2};
+            const int row = N * j, column = N * i;
+            double swept[9];
+            cayley_skew(half, swept);
+            add_block(n, row, column + 3, s->share, of[j].force, K);
+            add_block(n, row + 3, column + 3, s->share, of[j].moment, K);
+            add_block(n, row + 3, column + 3, -s->share, common, K);
+            add_block(n, row + 3, column + 3, -s->share, of[i].own, K);
+            add_block(n, row + 3, column, -s->share, swept, K);
+            if (i == j)
+                add_block(n, row + 3, column + 3, 1, of[j].own, K);
+        }
 }

@@ -1,12 +1,14 @@
 /* Forces A^T sigma_m of elements and springs and their tangent. Geometric terms, all that a stress
  * is a factor of, take s + k W d and never the false stresses of the gaps. */
+#include "harness/time/time_impl.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/model/model.h"
-#include "harness/time/deformable.h"
-#include "harness/time/place.h"
+#include "elements/math/larger.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
@@ -183,5 +185,246 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
             add(s, &s->evaluation[k]);
         }
         first += count;
+    }
+}
+
+/* Loads at the middle of a step: directions and arms that turn are the means of its ends. */
+
+typedef struct loaded {
+    conserving *s;
+    const model_state *from, *now;
+    double *out; /* [free + driven] */
+} loaded;
+
+/* (v_n + v)/2, and its derivative by the step's c: -1/2 v~ T_c. */
+static void mean_of(const double back[9], const double T[9], const double v[3], double mean[3],
+                    double change[9])
+{
+    double before[3], skew[9];
+    mat3_mul_vec(back, v, before);
+    cayley_skew(v, skew);
+    mat3_mul(skew, T, change);
+    for (int i = 0; i < 9; i++)
+        change[i] *= -0.5;
+    for (int i = 0; i < 3; i++)
+        mean[i] = (before[i] + v[i]) / 2;
+}
+
+/* K[6 x 6] at (row, columns of c) -= A */
+static void subtract_block(const double A[9], int row, double K[36])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            K[6 * (row + i) + 3 + j] -= A[3 * i + j];
+}
+
+/* K -= derivative of arm x force at (moment, columns of c): by[3 x 3] of each. */
+static void subtract_lever(const double arm[3], const double by_arm[9], const double force[3],
+                           const double by_force[9], double K[36])
+{
+    double skew[9], first[9], then[9];
+    cayley_skew(force, skew);
+    mat3_mul(skew, by_arm, first);
+    cayley_skew(arm, skew);
+    mat3_mul(skew, by_force, then);
+    for (int i = 0; i < 9; i++)
+        then[i] -= first[i];
+    subtract_block(then, 3, K);
+}
+
+/* Force and moment F[6] of the mean, and K[6 x 6] = -dF by dr, c of the vertex. */
+static void loads_middle_of(const loaded *of, const applied *what, const double c[3], double F[6],
+                            double K[36])
+{
+    double R0[9], R1[9], back[9], T[9], arm[3], levered[3], by_force[9] = {0}, by[9];
+    const size_t q = 4 * (size_t)what->vertex;
+    memcpy(F, what->F, 6 * sizeof *F);
+    cayley_tangent(c, T);
+    rotation_matrix(of->from->q + q, R0);
+    rotation_matrix(of->now->q + q, R1);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            back[3 * i + j] = vec3_dot(&R0[3 * i], &R1[3 * j]);
+    if (what->follower) {
+        mean_of(back, T, what->F + 3, F + 3, by);
+        subtract_block(by, 3, K);
+        mean_of(back, T, what->F, F, by_force);
+        subtract_block(by_force, 0, K);
+    }
+    if (!what->offset)
+        return;
+    mean_of(back, T, what->arm, arm, by);
+    subtract_lever(arm, by, F, by_force, K);
+    vec3_cross(arm, F, levered);
+    for (int i = 0; i < 3; i++)
+        F[3 + i] += levered[i];
+}
+
+/* Onto the coordinates that move the vertex. */
+static void take(void *context, const applied *what)
+{
+    const loaded *of = context;
+    conserving *s = of->s;
+    double dr[3], c[3], F[6], K[36] = {0};
+    place_step(s, of->from, of->now, what->vertex, dr, c);
+    loads_middle_of(of, what, c, F, K);
+    place_add(s, of->from, of->now, what->vertex, F, K, of->out);
+}
+
+void conserving_loads(conserving *s, const instant *from, const model_state *now, double h,
+                      double out[])
+{
+    const model *m = s->of.c->model;
+    loaded of = {s, from->state, now, out};
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        applied_each(m, now, &model_scene(m)->load[i],
+                     applied_factor(&s->of.c->eq, &model_scene(m)->load[i], from->time + h / 2),
+                     take, &of);
+}
+
+/* Strains of the ends and between them take what Newton found. */
+
+/* Increments dr, dc, da of an element's nodes. */
+static void own_increments(const conserving *s, const instant *from, const model_state *now,
+                           const mesh_element *el, double local[])
+{
+    const model *m = s->of.c->model;
+    int own = NODE_COORDINATES * el->nodes;
+    for (int k = 0; k < own; k++)
+        local[k] = el->index[k] == NONE ? 0 : s->dx[el->index[k]];
+    for (int j = 0; j < el->nodes && !el->plain; j++) {
+        double moved[PLACE_MOST], *at = local + NODE_COORDINATES * j;
+        frame_place p;
+        if (place_plain(m, el->vertex[j]))
+            continue;
+        place_of(s, from->state, now, el->vertex[j], NULL, &p);
+        for (int k = 0; k < p.columns; k++) {
+            const int index = el->index[k < 6 ? NODE_COORDINATES * j + k : own++];
+            moved[k] = index == NONE ? 0 : s->dx[index];
+        }
+        dense_mul_vec(6, p.columns, p.moved, moved, at);
+    }
+}
+
+double conserving_update(conserving *s, const instant *from, model_state *now)
+{
+    const model *m = s->of.c->model;
+    double largest = 0;
+    s->change = 0;
+    for (int i = 0; i < deformable_count(s); i++) {
+        const deformable of = deformable_at(s, from, now, i);
+        double local[ELEMENT_MAX_COORDINATES], more[DEFORMABLE_STRAINS], de[DEFORMABLE_STRAINS],
+            dsigma[DEFORMABLE_STRAINS];
+        own_increments(s, from, now, of.el, local);
+        dense_mul_vec(of.strains, of.coordinates, of.J, local, more);
+        for (int k = 0; k < of.strains; k++) {
+            de[k] = of.gap_e[k] + more[k];
+            of.e[k] += de[k];
+            of.d[k] += of.gap_d[k] + more[k];
+        }
+        dense_mul_vec(of.strains, of.strains, of.C, de, dsigma);
+        for (int k = 0; k < of.strains; k++) {
+            const double next = of.present[k] + dsigma[k];
+            s->change = fmax(s->change, fabs(next - of.sigma[k]));
+            of.sigma[k] = next;
+        }
+        if (of.spring == NULL && model_type(m)->update != NULL)
+            largest = larger(
+                largest, model_type(m)->update(model_kind(m, of.el->kind)->data, de, of.memory,
+                                               &now->inner[(size_t)i * (size_t)model_inner(m)]));
+    }
+    return largest;
+}
+
+/* What comes from outside over a step: the very forces of the step, on what they work on. */
+
+/* dr and c of the coordinates; of angles 2 tan(d angle/2). */
+static double worked_on(const conserving *s, const double force[])
+{
+    const model *m = s->of.c->model;
+    double sum = 0;
+    for (int c = 0; c < s->all; c++)
+        sum += force[c] * s->step[c];
+    for (int i = 0; i < model_vertices(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
+        const mesh_release *r = release_of(m, i);
+        const int turns = r == NULL ? (v->body == i ? v->angles : 0) : r->turns < 3 ? r->turns : 0;
+        for (int k = 0; k < turns; k++) {
+            const int c = v->coordinate[SCENE_RX + k];
+            if (c != NONE)
+                sum += force[c] * (2 * tan(s->step[c] / 2) - s->step[c]);
+        }
+    }
+    return sum;
+}
+
+static int moves_by_drivers(const conserving *s)
+{
+    for (int c = s->free; c < s->all; c++)
+        if (s->step[c] != 0)
+            return 1;
+    return 0;
+}
+
+/* eta d . S0 d/h, what the damping stresses of the step take. */
+static double dissipated(const conserving *s, const instant *from, model_state *now)
+{
+    double sum = 0;
+    for (int i = 0; i < model_elements(s->of.c->model) && s->of.c->run->damping != NULL; i++) {
+        const deformable of = deformable_at(s, from, now, i);
+        if (of.S != NULL)
+            sum += of.damping / s->h * dense_quadratic(of.strains, of.S, of.d);
+    }
+    return sum;
+}
+
+status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
+{
+    const size_t bytes = (size_t)s->all * sizeof *s->residual;
+    const int behind = 3; /* of the iterations in which k counts */
+    double ignored = 0;
+    memset(s->residual, 0, bytes);
+    conserving_loads(s, from, to->state, h, s->residual);
+    to->work = from->work;
+    if (moves_by_drivers(s)) {
+        double *held = s->dx;
+        memcpy(held, s->residual, bytes);
+        TRY(conserving_stresses(s, from, to->state, behind, f));
+        s->settled = 1;
+        conserving_forces(s, from, to->state, &ignored);
+        s->settled = 0;
+        conserving_inertia(s, from, to->state, h);
+        for (int c = s->free; c < s->all; c++)
+            held[c] -= s->residual[c];
+        to->work += worked_on(s, held);
+    } else {
+        to->work += worked_on(s, s->residual);
+    }
+    to->dissipated = from->dissipated + dissipated(s, from, to->state);
+    return STATUS_OK;
+}
+
+/* Rates r of strains and theirs, s, at the end of a step, from those at its begin and the mean m:
+ *   r1 = (3 m - r0)/2 + h s0/4,  s1 = (m - r0)/h + s0/2:
+ * of second order, also of what has no inertia, and an error of the begin is gone after two steps
+ * (2 m - r0 would keep it for ever). */
+void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
+{
+    const model *m = s->of.c->model;
+    for (int i = 0; i < model_elements(m) && s->of.c->run->damping != NULL; i++) {
+        const deformable of = deformable_at(s, from, to->state, i);
+        const int first = i * model_strains(m);
+        double *r = to->strain + first, *rate2 = to->strain2 + first, more[DEFORMABLE_STRAINS];
+        for (int k = 0; k < of.strains; k++) {
+            const double mean = of.d[k] / h, r0 = from->strain[first + k],
+                         s0 = from->strain2[first + k];
+            r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
+            rate2[k] = (mean - r0) / h + s0 / 2;
+        }
+        if (of.S == NULL)
+            continue;
+        dense_mul_vec(of.strains, of.strains, of.S, r, more);
+        for (int k = 0; k < of.strains; k++)
+            of.sigma[k] += of.damping * more[k];
     }
 }

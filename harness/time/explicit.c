@@ -1,13 +1,15 @@
-#include "harness/time/explicit.h"
+#include "harness/time/time_impl.h"
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model.h"
-#include "harness/time/explicit_impl.h"
-#include "harness/time/kinks.h"
+#include "cases/scene/names.h"
+#include "elements/math/dense.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
 
 static double error_of(const explicit_scheme *s)
 {
@@ -94,4 +96,347 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     s->all = size.free + size.driven;
     TRY(explicit_check(request->c->model, request->masses, f));
     return allocate(s, f);
+}
+
+/* Masses of the free coordinates of one frame: count, index[count], M[count x count]. */
+static int block(const model *m, const carried_masses *masses, int index, const model_state *s,
+                 const double v[], int of[6], double M[36])
+{
+    const int *at = model_vertex(m, masses->mass[index].frame)->coordinate;
+    inertia_parts p;
+    double K[36];
+    int row[6], count = 0;
+    inertia_frame(m, masses, index, s, v, NULL, &p);
+    inertia_times(p.acceleration, 1, p.rate, K);
+    inertia_rows(p.turn, K);
+    for (int i = 0; i < 6; i++)
+        if (at[i] != NONE && at[i] < model_unknowns(m)) {
+            of[count] = at[i];
+            row[count++] = i;
+        }
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            M[count * i + j] = K[6 * row[i] + row[j]];
+    return count;
+}
+
+status explicit_accelerate(const model *m, const carried_masses *masses, const model_state *s,
+                           const double v[], const double residual[], double a[], fault *f)
+{
+    for (int k = 0; k < masses->masses; k++) {
+        int of[6], pivot[6];
+        double M[36], b[6];
+        const int n = block(m, masses, k, s, v, of, M);
+        for (int i = 0; i < n; i++)
+            b[i] = residual[of[i]];
+        if (dense_lu_regular(n, M, pivot) != 0)
+            return fault_set(f, STATUS_SINGULAR,
+                             "%s: two angles of its rotation turn about one axis",
+                             scene_called(model_scene(m), SCENE_NODES, masses->mass[k].frame).text);
+        dense_lu_solve(n, 1, M, pivot, b);
+        for (int i = 0; i < n; i++)
+            a[of[i]] = b[i];
+    }
+    for (int w = 0; w < model_warps(m); w++) {
+        const int c = model_warp(m, w);
+        if (c < model_unknowns(m))
+            a[c] = residual[c] / masses->warping[c];
+    }
+    return STATUS_OK;
+}
+
+/* 1: no motion of the coordinates is without kinetic energy. */
+static int is_heavy(int n, double M[])
+{
+    const double rounding = 1e-13;
+    double size[6];
+    for (int i = 0; i < n; i++)
+        size[i] = sqrt(fmax(M[n * i + i], 0));
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            M[n * i + j] = size[i] > 0 && size[j] > 0 ? M[n * i + j] / (size[i] * size[j]) : 0;
+    if (dense_cholesky(n, M) != 0)
+        return 0;
+    for (int i = 0; i < n; i++)
+        if (M[n * i + i] * M[n * i + i] < rounding)
+            return 0;
+    return 1;
+}
+
+static status refuse(const model *m, int vertex, const char *what, fault *f)
+{
+    scene_words whose = {"a node inside a member"};
+    if (vertex < model_scene(m)->nodes)
+        whose = scene_called(model_scene(m), SCENE_NODES, vertex);
+    return fault_set(f, STATUS_REFUSED,
+                     "integrator explicit: the %s of %s has no inertia, so that its acceleration "
+                     "is not determined; give what has none a mass or an inertia (members: "
+                     "do not omit rotary_inertia), or take alpha, conserving or radau",
+                     what, whose.text);
+}
+
+static status check_vertex(const model *m, int index, const int heavy[], fault *f)
+{
+    const mesh_vertex *v = model_vertex(m, index);
+    for (int c = 0; c < VERTEX_COORDINATES; c++)
+        if (v->coordinate[c] != NONE && v->coordinate[c] < model_unknowns(m) &&
+            !heavy[v->coordinate[c]])
+            return refuse(m, index, c < SCENE_RX ? "place" : "rotation", f);
+    return STATUS_OK;
+}
+
+/* Which free coordinates have inertia, whatever the others of their frame do. */
+static void mark(const model *m, const carried_masses *masses, const double rest[], int heavy[])
+{
+    for (int k = 0; k < masses->masses; k++) {
+        int of[6];
+        double M[36];
+        const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
+        for (int i = 0; i < n; i++) {
+            double some[36];
+            /* the first i + 1 of them: where the last one adds nothing it has none */
+            for (int r = 0; r <= i; r++)
+                memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
+            heavy[of[i]] = is_heavy(i + 1, some);
+        }
+    }
+    for (int w = 0; w < model_warps(m); w++)
+        heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
+}
+
+status explicit_check(const model *m, const carried_masses *masses, fault *f)
+{
+    const size_t all = (size_t)model_all_coordinates(m) + 1;
+    if (model_releases(m) > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "integrator explicit: released ends of members have no inertia of their "
+                         "own; alpha, conserving and radau take them");
+    int *heavy = calloc(all, sizeof *heavy);
+    double *rest = calloc(all, sizeof *rest);
+    status outcome = heavy != NULL && rest != NULL
+                         ? STATUS_OK
+                         : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    if (outcome == STATUS_OK)
+        mark(m, masses, rest, heavy);
+    for (int i = 0; i < model_vertices(m) && outcome == STATUS_OK; i++)
+        if (model_vertex(m, i)->body == i)
+            outcome = check_vertex(m, i, heavy, f);
+    for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
+        if (model_warp(m, w) < model_unknowns(m) && !heavy[model_warp(m, w)])
+            outcome =
+                fault_set(f, STATUS_REFUSED,
+                          "integrator explicit: warping has no inertia; alpha, conserving and "
+                          "radau take what has none");
+    free(heavy);
+    free(rest);
+    return outcome;
+}
+
+/* inc' = v, but for rotations in the frame's axes. */
+static void turn_rates(const explicit_scheme *s, const double inc[], const double v[],
+                       double rate[])
+{
+    const model *m = s->of.c->model;
+    memcpy(rate, v, (size_t)s->free * sizeof *rate);
+    for (int x = 0; x < model_first_release(m); x++) {
+        const mesh_vertex *frame = model_vertex(m, x);
+        const int *at = frame->coordinate + SCENE_RX;
+        double t[3], W[3], inverse[9], turned[3];
+        if (frame->body != x || forms_of(m, x) != FORM_BODY || at[0] >= s->free)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            t[k] = inc[at[k]];
+            W[k] = v[at[k]];
+        }
+        turning_inverse(t, inverse);
+        mat3_mul_vec(inverse, W, turned);
+        for (int k = 0; k < 3; k++)
+            rate[at[k]] = turned[k];
+    }
+}
+
+/* The unknowns of an element's own, where its strains are given: by Newton, whose steps it knows.
+ */
+static status settle_rates(const explicit_scheme *s, int i, fault *f)
+{
+    enum { MOST = 30 };
+    const double none = 1e-15;
+    const model *m = s->of.c->model;
+    const element_data *data = model_kind_of(m, i)->data;
+    const double *e = s->at->state->e + (size_t)i * (size_t)model_strains(m);
+    double *inner = s->at->state->inner + (size_t)i * (size_t)model_inner(m), before = INFINITY;
+    for (int k = 0; k < MOST; k++) {
+        model_type(m)->stress(data, e, inner, &(stress_output){.memory = s->memory});
+        const double change = model_type(m)->update(data, s->still, s->memory, inner);
+        if (change < none || (k > 3 && change < 1e-9 && change >= before))
+            return STATUS_OK;
+        before = change;
+    }
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "element %d: its own equations are not solved in %d steps", i, MOST);
+}
+
+static status accelerations(explicit_scheme *s, double time, fault *f)
+{
+    const model *m = s->of.c->model;
+    model_linearisation lin = {.path = time, .residual = s->residual};
+    for (int i = 0; i < model_elements(m) && model_inner(m) > 0; i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        kinematics_gather(m, s->at->state, model_element(m, i), x);
+        model_type(m)->strain(
+            model_kind_of(m, i)->data, x,
+            &(strain_output){.e = s->at->state->e + (size_t)i * (size_t)model_strains(m)});
+        TRY(settle_rates(s, i, f));
+    }
+    TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));
+    TRY(linearise_state(&s->of.c->eq, &s->of.c->run->memory, s->at->state, &lin, f));
+    memset(s->at->a, 0, (size_t)s->free * sizeof *s->at->a);
+    inertia_subtract(m, s->of.masses, s->at->state, s->at->v, s->at->a, s->residual);
+    return explicit_accelerate(m, s->of.masses, s->at->state, s->at->v, s->residual, s->at->a, f);
+}
+
+static int is_finite(int n, const double y[])
+{
+    for (int i = 0; i < n; i++)
+        if (!isfinite(y[i]))
+            return 0;
+    return 1;
+}
+
+int explicit_rates(double t, const double y[], double dydt[], void *context)
+{
+    explicit_scheme *s = context;
+    const model *m = s->of.c->model;
+    const double time = t > s->from->time ? fmin(t, s->end) : t;
+    if (!is_finite(2 * s->free + 1, y)) {
+        s->outcome = fault_set(&s->why, STATUS_NOT_CONVERGED,
+                               "at %g s motions grow without bound: the step does not resolve the "
+                               "fastest mode of the mesh",
+                               t);
+        return GSL_EFAILED;
+    }
+    memcpy(s->inc, y, (size_t)s->free * sizeof *s->inc);
+    memcpy(s->at->v, y + s->free, (size_t)s->free * sizeof *s->at->v);
+    drive_at(&s->of.c->eq, s->from->state, time, s->inc, s->at->v, s->at->a);
+    increment_apply(m, s->from->state, s->inc, time, s->at->state);
+    s->outcome = accelerations(s, time, &s->why);
+    if (s->outcome != STATUS_OK)
+        return GSL_EFAILED;
+    turn_rates(s, s->inc, s->at->v, dydt);
+    memcpy(dydt + s->free, s->at->a, (size_t)s->free * sizeof *dydt);
+    dydt[2 * s->free] = work_power(s->of.work, s->at->state, s->at->v, s->at->a, time, s->at->v);
+    return GSL_SUCCESS;
+}
+
+static int is_driven(const model *m, const mesh_element *el)
+{
+    for (int k = 0; k < el->columns; k++)
+        if (el->index[k] >= model_unknowns(m))
+            return 1;
+    return 0;
+}
+
+status work_alloc(const equations *eq, const carried_masses *masses, outer_work *w, fault *f)
+{
+    const model *m = eq->m;
+    *w = (outer_work){.eq = eq,
+                      .m = m,
+                      .masses = masses,
+                      .force = calloc(2 * (size_t)model_all_coordinates(m) + 1, sizeof *w->force),
+                      .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
+    if (w->force == NULL || w->element == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the work of a motion");
+    w->holding = w->force + model_all_coordinates(m);
+    for (int i = 0; i < model_elements(m); i++)
+        if (is_driven(m, model_element(m, i)))
+            w->element[w->elements++] = i;
+    return STATUS_OK;
+}
+
+void work_free(outer_work *w)
+{
+    free(w->force);
+    free(w->element);
+}
+
+/* Sum over the coordinates; moments of frames whose rates are in their own axes are spatial. */
+static double product(const outer_work *w, const model_state *s, const double along[])
+{
+    const model *m = w->m;
+    double sum = dense_dot(model_all_coordinates(m), w->force, along);
+    for (int i = 0; i < model_vertices(m); i++) {
+        const int *at = &model_vertex(m, i)->coordinate[SCENE_RX];
+        double R[9], own[3], moment[3], turned[3];
+        if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
+            forms_of(m, i) != FORM_BODY)
+            continue;
+        rotation_matrix(&s->q[4 * i], R);
+        for (int k = 0; k < 3; k++) {
+            own[k] = along[at[k]];
+            moment[k] = w->force[at[k]];
+        }
+        mat3_mul_vec(R, own, turned);
+        sum += vec3_dot(moment, turned) - vec3_dot(moment, own);
+    }
+    return sum;
+}
+
+/* All that acts on driven coordinates from outside, loads too: what stresses and inertia take. */
+static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
+{
+    const model *m = w->m;
+    const int all = model_all_coordinates(m);
+    memset(w->holding, 0, (size_t)all * sizeof *w->holding);
+    inertia_subtract(m, w->masses, s, v, a, w->holding);
+    for (int c = 0; c < all; c++)
+        w->holding[c] = -w->holding[c];
+    linearise_add_internal(w->eq, s, w->elements, w->element, w->holding);
+    memcpy(w->force + model_unknowns(m), w->holding + model_unknowns(m),
+           (size_t)model_driven(m) * sizeof *w->force);
+}
+
+double work_power(outer_work *w, const model_state *s, const double v[], const double a[],
+                  double time, const double along[])
+{
+    const model *m = w->m;
+    memset(w->force, 0, (size_t)model_all_coordinates(m) * sizeof *w->force);
+    for (int i = 0; i < model_scene(m)->loads; i++)
+        loads_add_one(w->eq, s, &model_scene(m)->load[i],
+                      applied_factor(w->eq, &model_scene(m)->load[i], time), w->force);
+    if (model_driven(m) > 0)
+        hold(w, s, v, a);
+    return product(w, s, along);
+}
+
+double work_trapezoid(outer_work *w, const instant *from, const instant *to, const double inc[])
+{
+    return (work_power(w, from->state, from->v, from->a, from->time, inc) +
+            work_power(w, to->state, to->v, to->a, kinks_before(w->m, to->time), inc)) /
+           2;
+}
+
+static double first_behind(const scene_function *f, double time)
+{
+    double next = INFINITY;
+    for (int i = 0; i < f->pieces - 1; i++)
+        if (f->piece[i].until > time && f->piece[i].until < next)
+            next = f->piece[i].until;
+    return next;
+}
+
+double kinks_next(const model *m, double time)
+{
+    const scene *s = model_scene(m);
+    double next = INFINITY;
+    for (int i = 0; i < s->loads; i++)
+        next = fmin(next, first_behind(&s->load[i].function, time));
+    for (int i = 0; i < s->drivers; i++)
+        next = fmin(next, first_behind(&s->driver[i].function, time));
+    return next;
+}
+
+double kinks_before(const model *m, double time)
+{
+    const double before = nextafter(time, -INFINITY);
+    return kinks_next(m, before) == time ? before : time;
 }

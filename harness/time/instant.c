@@ -1,11 +1,12 @@
-#include "harness/time/instant.h"
+#include "harness/time/time_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model.h"
-#include "harness/time/damping.h"
+#include "cases/scene/quantity_type.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
 
 static size_t strains_of(const model *m)
 {
@@ -85,4 +86,287 @@ void instant_remember(const arrival *a, instant *to)
 {
     to->stress = a->stress;
     to->contraction = a->contraction;
+}
+
+/* A state as kinds of quantities read it; rate NULL: not of a motion. */
+typedef struct read_state {
+    quantity_state as;
+    const model *m;
+    const model_state *state;
+    const double *rate;
+} read_state;
+
+/* The interface is its first member. */
+static const read_state *of(const quantity_state *s)
+{
+    return (const read_state *)s;
+}
+
+static double component_of(const quantity_state *s, int node, int component)
+{
+    return kinematics_component(of(s)->m, of(s)->state, node, component);
+}
+
+static double relative_of(const quantity_state *s, int from, int node, int component)
+{
+    return kinematics_relative(of(s)->m, of(s)->state, from, node, component);
+}
+
+static void frame_of(const quantity_state *s, int node, double place[3], double R[9])
+{
+    double turn[4];
+    kinematics_frame(of(s)->m, of(s)->state, node, place, turn);
+    rotation_matrix(turn, R);
+}
+
+/* Velocity of a node, which a body may carry, or angular velocity in the node's axes. */
+static double rate_of(const quantity_state *s, int node, int component)
+{
+    const model *m = of(s)->m;
+    const int moved_by = model_body(m, node);
+    frame_rates body;
+    forms_rates(m, of(s)->state, moved_by, of(s)->rate, NULL, &body);
+    if (component >= SCENE_RX) {
+        double own[3];
+        mat3_transpose_mul_vec(body.R, body.w, own);
+        return own[component - SCENE_RX];
+    }
+    double rho[3], carried[3];
+    kinematics_offset(m, of(s)->state, node, rho);
+    vec3_cross(body.w, rho, carried);
+    return body.v[component] + (moved_by == node ? 0 : carried[component]);
+}
+
+static double driver_of(const quantity_state *s, int driver)
+{
+    return kinematics_driver_value(of(s)->m, of(s)->state, driver);
+}
+
+int reading_is_kinematic(const scene_quantity *q)
+{
+    return quantity_type_of(q)->read != NULL;
+}
+
+double reading_of(const model *m, const scene_quantity *q, const model_state *s,
+                  const double rate[])
+{
+    const read_state state = {.as = {.component = component_of,
+                                     .relative = relative_of,
+                                     .frame = frame_of,
+                                     .rate = rate_of,
+                                     .driver = driver_of},
+                              .m = m,
+                              .state = s,
+                              .rate = rate};
+    return quantity_type_of(q)->read(q, &state.as);
+}
+
+static int peaks_watches(const peaks *s, const scene_quantity *q)
+{
+    return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
+           !reading_is_kinematic(q);
+}
+
+static void begin(const peaks *s, peak *one, const scene_quantity *q)
+{
+    const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
+    const double end = path->value[path->stations - 1];
+    const int least = q->reduction == SCENE_MIN || q->reduction == SCENE_MIN_TIME;
+    *one = (peak){.q = q,
+                  .out = &s->out->passing[q - s->c->scene->quantity],
+                  .sign = least ? -1 : 1,
+                  .from = q->passing.from,
+                  .until = q->passing.until > 0 ? fmin(q->passing.until, end) : end};
+}
+
+status peaks_alloc(peaks *s, fault *f)
+{
+    const scene *what = s->c->scene;
+    for (int i = 0; i < what->quantities; i++)
+        s->count += peaks_watches(s, &what->quantity[i]);
+    if (s->count == 0)
+        return STATUS_OK;
+    s->one = calloc((size_t)s->count, sizeof *s->one);
+    if (s->one == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the extremes of a motion");
+    for (int i = 0, k = 0; i < what->quantities; i++)
+        if (peaks_watches(s, &what->quantity[i]))
+            begin(s, &s->one[k++], &what->quantity[i]);
+    for (int i = 0; i < PEAKS_ENDS; i++)
+        TRY(instant_alloc(s->c->model, &s->last[i], f));
+    return instant_alloc(s->c->model, &s->at, f);
+}
+
+void peaks_free(peaks *s)
+{
+    if (s->count == 0)
+        return;
+    for (int i = 0; i < PEAKS_ENDS; i++)
+        instant_free(&s->last[i]);
+    instant_free(&s->at);
+    free(s->one);
+}
+
+/* balance NULL: it is not known yet. */
+static status read_at(const peaks *s, const scene_quantity *q, const instant *at,
+                      const double balance[], double *out, fault *f)
+{
+    double own[SCENE_BALANCES];
+    if (q->what.kind != SCENE_BALANCE)
+        return resultants_of(&s->c->eq, q, at->state, at->v, at->a, out, f);
+    if (balance == NULL) {
+        TRY(balance_of(s->c->model, s->masses, at, own, f));
+        own[SCENE_DRIFT] -= s->out->origin;
+        balance = own;
+    }
+    *out = balance[scene_balance_in(q)];
+    return STATUS_OK;
+}
+
+static void take(peak *one, double value, double time, double error)
+{
+    if (time < one->from || time > one->until)
+        return;
+    if (!one->out->known || one->sign * value > one->sign * one->out->value)
+        *one->out = (outcome_passing){1, value, time, error};
+}
+
+/* Of the scheme, at a time inside the step behind the instant; *known 0: no such step succeeds. */
+static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
+                     double *value, int *known, fault *f)
+{
+    fault why = {""};
+    status outcome = aside_step(s->c, s->scheme, from, time, &s->at, &why);
+    if (outcome == STATUS_OK)
+        outcome = read_at(s, q, &s->at, NULL, value, &why);
+    *known = outcome == STATUS_OK;
+    return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
+}
+
+/* The cubic through the last ends, at a time: Neville's scheme. */
+static double cubic(const peaks *s, const peak *one, double time)
+{
+    double p[PEAKS_ENDS];
+    for (int i = 0; i < PEAKS_ENDS; i++)
+        p[i] = one->value[i];
+    for (int k = 1; k < PEAKS_ENDS; k++)
+        for (int i = 0; i + k < PEAKS_ENDS; i++) {
+            const double a = s->last[i].time, b = s->last[i + k].time;
+            p[i] = ((b - time) * p[i] + (time - a) * p[i + 1]) / (b - a);
+        }
+    return p[0];
+}
+
+/* Where the cubic is largest between two ends: golden section. Where it has two humps in a step,
+ * steps resolve nothing. */
+static double top_of(const peaks *s, const peak *one, double a, double b)
+{
+    const double golden = (sqrt(5) - 1) / 2;
+    for (int i = 0; i < 60; i++) {
+        const double c = b - golden * (b - a), d = a + golden * (b - a);
+        if (one->sign * cubic(s, one, c) > one->sign * cubic(s, one, d))
+            b = d;
+        else
+            a = c;
+    }
+    return (a + b) / 2;
+}
+
+/* Between the ends i and i + 1. */
+static status look_between(peaks *s, peak *one, int i, fault *f)
+{
+    const double a = fmax(s->last[i].time, one->from), b = fmin(s->last[i + 1].time, one->until);
+    const double ends = fmax(one->sign * one->value[i], one->sign * one->value[i + 1]);
+    if (!(b > a))
+        return STATUS_OK;
+    const double time = top_of(s, one, a, b), top = cubic(s, one, time),
+                 adds = one->sign * top - ends;
+    if (!(adds > 1e-12 * fabs(ends)) ||
+        (one->out->known && one->sign * top <= one->sign * one->out->value))
+        return STATUS_OK;
+    double there = 0;
+    int known;
+    TRY(beside(s, one->q, &s->last[i], time, &there, &known, f));
+    if (known && fabs(there - top) < adds)
+        take(one, top, time, fabs(there - top));
+    return STATUS_OK;
+}
+
+/* A window that begins or ends inside the last step. */
+static status look_at_edges(peaks *s, peak *one, fault *f)
+{
+    const instant *from = &s->last[PEAKS_ENDS - 2], *to = &s->last[PEAKS_ENDS - 1];
+    const double edge[] = {one->from, one->until};
+    for (int i = 0; i < 2; i++) {
+        double value;
+        int known;
+        if (!(edge[i] > from->time && edge[i] < to->time))
+            continue;
+        TRY(beside(s, one->q, from, edge[i], &value, &known, f));
+        if (known)
+            take(one, value, edge[i], 0);
+    }
+    return STATUS_OK;
+}
+
+static void shift(peaks *s)
+{
+    const instant first = s->last[0];
+    for (int i = 0; i + 1 < PEAKS_ENDS; i++)
+        s->last[i] = s->last[i + 1];
+    s->last[PEAKS_ENDS - 1] = first;
+    for (int k = 0; k < s->count; k++)
+        for (int i = 0; i + 1 < PEAKS_ENDS; i++)
+            s->one[k].value[i] = s->one[k].value[i + 1];
+}
+
+status peaks_here(peaks *s, const instant *now, const double balance[SCENE_BALANCES], int last,
+                  fault *f)
+{
+    if (s->count == 0)
+        return STATUS_OK;
+    shift(s);
+    s->ends++;
+    instant_copy(s->c->model, now, &s->last[PEAKS_ENDS - 1]);
+    for (int k = 0; k < s->count; k++) {
+        peak *one = &s->one[k];
+        double *value = &one->value[PEAKS_ENDS - 1];
+        TRY(read_at(s, one->q, now, balance, value, f));
+        take(one, *value, now->time, 0);
+        if (s->ends > 1)
+            TRY(look_at_edges(s, one, f));
+        if (s->ends == PEAKS_ENDS)
+            TRY(look_between(s, one, 0, f));
+        if (s->ends >= PEAKS_ENDS)
+            TRY(look_between(s, one, 1, f));
+        if (s->ends >= PEAKS_ENDS && last)
+            TRY(look_between(s, one, 2, f));
+    }
+    return STATUS_OK;
+}
+
+void peaks_jump(peaks *s)
+{
+    s->ends = 0;
+}
+
+void peaks_end(peaks *s)
+{
+    for (int k = 0; k < s->count && s->one != NULL; k++) {
+        outcome_passing *out = s->one[k].out;
+        const scene_reduction how = s->one[k].q->reduction;
+        if (how == SCENE_MAX_TIME || how == SCENE_MIN_TIME)
+            *out = (outcome_passing){out->known, out->time, out->time, 0};
+    }
+}
+
+status aside_step(analysis_context *c, motion_scheme *s, const instant *from, double time,
+                  instant *at, fault *f)
+{
+    step_record record = {.path = time, .increment = time - from->time};
+    double error = 0;
+    const status outcome = s->step(s, from, time - from->time, at, &error, &record, f);
+    history_drop_step(c->result, &record);
+    at->time = time;
+    return outcome;
 }

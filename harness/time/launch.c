@@ -1,21 +1,16 @@
 /* Accelerations are those of a stage in which positions give way by next to nothing; where
- * something has no inertia see settle.h. */
-#include "harness/time/launch.h"
-#include "cases/scene/names.h"
+ * something has no inertia see time_impl.h. */
+#include "harness/time/time_impl.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model.h"
-#include "harness/newton/newton.h"
-#include "harness/time/damping.h"
-#include "harness/time/drive.h"
-#include "harness/time/massless.h"
-#include "harness/time/settle.h"
 
 /* Of the square of a step: how far positions give way. */
 static const double softness = 1e-12;
@@ -216,4 +211,137 @@ status launch_turning(analysis_context *c, const carried_masses *masses, const s
     }
     set_field(m, now->state, &field, now->v);
     return launch_again(c, masses, how, now, room, f);
+}
+
+static status check_newton(const analysis_context *c, const scene_motion *how, fault *f)
+{
+    const newton_form newton = c->options->newton;
+    if (newton == NEWTON_DENSE)
+        return fault_set(f, STATUS_REFUSED,
+                         "motions in time need a factored tangent, which newton=dense does not "
+                         "make; give newton=mixed");
+    if (newton == NEWTON_DISPLACEMENT && how->scheme == SCENE_CONSERVING)
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator conserving needs strains as unknowns; give newton=mixed");
+    return STATUS_OK;
+}
+
+/* What consistent mass does not go with. */
+static status check_mass(const analysis_context *c, int analysis, fault *f)
+{
+    const scene_analysis *one = &c->scene->analysis[analysis];
+    const int spreads = model_spreads(c->model, analysis), follows = one->follows;
+    const scene_scheme scheme = scene_motion_of(one)->scheme;
+    if ((spreads || scene_spreads(one)) && (scheme == SCENE_CONSERVING || scheme == SCENE_EXPLICIT))
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator %s has lumped mass only; alpha and radau take mass: "
+                         "consistent",
+                         scheme == SCENE_CONSERVING ? "conserving" : "explicit");
+    if (!spreads && scene_spreads(one))
+        return fault_set(f, STATUS_REFUSED,
+                         "the mass of %s is lumped at its nodes; give mass: lumped, or another "
+                         "formulation",
+                         model_formulation(c->model));
+    if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
+        model_spreads(c->model, follows) != spreads)
+        return fault_set(f, STATUS_REFUSED,
+                         "a motion continues with the mass of the motion before it; give both "
+                         "lumped or both consistent");
+    return STATUS_OK;
+}
+
+status checks_of(const analysis_context *c, int analysis, fault *f)
+{
+    TRY(check_newton(c, scene_motion_of(&c->scene->analysis[analysis]), f));
+    TRY(check_mass(c, analysis, f));
+    TRY(forms_check(c->model, f));
+    return drive_check(c->model, f);
+}
+
+status checks_massless(const analysis_context *c, const carried_masses *masses,
+                       const scene_motion *how, const model_state *begin, fault *f)
+{
+    int massless;
+    TRY(massless_count(c->model, masses, begin, &massless, f));
+    if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "%d coordinates have no inertia: their accelerations would grow by the "
+                     "trapezoidal rule and with rho = 1; take rho < 1 or radau, or give the "
+                     "sections rotary inertia (do not omit rotary_inertia)",
+                     massless);
+}
+
+const double extent_guess = 0.02;
+
+void extent_begin(extent *e, const model *m)
+{
+    e->bent = metric_distance(m, kinematics_rest(m), e->begin, NULL);
+}
+
+extent extent_with(const extent *so_far, const model *m, const motion_scheme *s,
+                   const instant *from, const instant *to, double h, double error)
+{
+    const double memory = 10, /* [rad] */
+        distance = metric_distance(m, so_far->begin, to->state, s->light),
+                 step = metric_distance(m, from->state, to->state, s->light);
+    extent out = *so_far;
+    out.largest = fmax(out.largest, distance);
+    out.rate = fmax(out.rate, step / h);
+    if (!s->adds || !(out.rate > 0))
+        return out;
+    const double per_jerk = 1 / 12.0, omega = sqrt(out.density / (per_jerk * out.rate));
+    out.density = fmax(error / pow(h, s->order), out.density * exp(-omega * h / memory));
+    return out;
+}
+
+double extent_error(const extent *so_far, const motion_scheme *s, double h, double error)
+{
+    return s->adds ? so_far->density * pow(h, s->order) : error;
+}
+
+/* What coordinates are rounded by. */
+static const double rounding = 32 * DBL_EPSILON;
+
+double extent_allows(const extent *so_far, double part, double tolerance)
+{
+    const double size = 1; /* flights far away leave the structure its size */
+    const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
+                 noise = 8 * DBL_EPSILON * so_far->bent;
+    return fmax(part * fmax(most, rounding), noise);
+}
+
+int extent_is_less(const extent *so_far, double tolerance, double *scale)
+{
+    const double part = 0.5, known = 1e-10; /* of an equilibrium, by Newton */
+    *scale = fmax(so_far->largest, rounding);
+    return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&
+           so_far->worst > tolerance * *scale;
+}
+
+status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
+{
+    *out = NULL;
+    if (r->how->scheme == SCENE_EXPLICIT && damping_acts(r->c->scene))
+        return fault_set(f, STATUS_REFUSED,
+                         "integrator explicit takes no members with damping: take another");
+    switch (r->how->scheme) {
+    case SCENE_ALPHA:
+        return alpha_alloc(r, out, f);
+    case SCENE_RADAU:
+        return radau_alloc(r, out, f);
+    case SCENE_CONSERVING:
+        return conserving_alloc(r, out, f);
+    case SCENE_EXPLICIT:
+        return explicit_alloc(r, out, f);
+    case SCENE_SCHEMES:
+        break;
+    }
+    return fault_set(f, STATUS_REFUSED, "this integrator is not available");
+}
+
+void integrator_free(motion_scheme *s)
+{
+    if (s != NULL)
+        s->free(s);
 }

@@ -1,25 +1,11 @@
-#include "harness/time/motion.h"
+#include "harness/time/time_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "elements/math/larger.h"
-#include "harness/model/model.h"
-#include "harness/newton/newton.h"
 #include "harness/numerics/numerics.h"
-#include "harness/time/account.h"
-#include "harness/time/balance.h"
-#include "harness/time/checks.h"
-#include "harness/time/damping.h"
-#include "harness/time/frames.h"
-#include "harness/time/integrator.h"
-#include "harness/time/kinks.h"
-#include "harness/time/launch.h"
-#include "harness/time/peaks.h"
-#include "harness/time/resume.h"
-#include "harness/time/stations.h"
-#include "harness/time/watches.h"
 
 enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 
@@ -407,4 +393,48 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
         outcome_free(o);
         *o = (analysis_outcome){.kind = SCENE_MOTION};
     }
+}
+
+status frames_alloc(frames *p, int count, fault *f)
+{
+    TRY(between_alloc(p->eq, &p->inside, f));
+    TRY(instant_alloc(p->m, &p->at, f));
+    return outcome_stations(p->to, count, f);
+}
+
+void frames_free(frames *p)
+{
+    between_free(&p->inside);
+    instant_free(&p->at);
+}
+
+/* Of the next frame; infinite: there is none. */
+static double next_of(const frames *p)
+{
+    const int next = p->to->reached, last = p->to->stations - 1;
+    if (next > last)
+        return INFINITY;
+    return next == last ? p->end : p->begin + next * (p->end - p->begin) / last;
+}
+
+status frames_begin(frames *p, const instant *now, fault *f)
+{
+    return p->to->stations > 0 ? outcome_keep(p->to, p->m, now->state, 1, now->time, f) : STATUS_OK;
+}
+
+status frames_step(frames *p, between_degree degree, const instant *from, const instant *to,
+                   fault *f)
+{
+    if (next_of(p) <= to->time)
+        between_take(&p->inside, degree, from, to);
+    while (next_of(p) <= to->time) {
+        const double time = next_of(p);
+        const model_state *state = to->state;
+        if (time < to->time) {
+            between_at(&p->inside, time, &p->at);
+            state = p->at.state;
+        }
+        TRY(outcome_keep(p->to, p->m, state, 1, time, f));
+    }
+    return STATUS_OK;
 }

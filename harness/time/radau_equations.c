@@ -1,16 +1,12 @@
 /* The equations of three stages at once. */
+#include "harness/time/time_impl.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model.h"
-#include "harness/newton/newton.h"
-#include "harness/time/inertia.h"
-#include "harness/time/kinks.h"
-#include "harness/time/radau_impl.h"
-#include "harness/time/released.h"
 
 /* Blocks (i, k) of one frame, k = 0 .. */
 static void add_frame(radau *r, int index, double h, int i)
@@ -128,4 +124,308 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
     if (r->of.masses->spread)
         radau_spread(r, h);
     return STATUS_OK;
+}
+
+/* Rates and accelerations of three stages, from their increments. Rates of stage j gain by the
+ * increment of stage k
+ *   G_jk = B_jk/h Jr(t_j) + (j = k) d(Jr(t_j) t_j')/dt_j,
+ * accelerations of stage i sum_j B_ij/h G_jk. */
+
+void radau_coefficients(radau *r)
+{
+    const double s = sqrt(6);
+    const double A[9] = {(88 - 7 * s) / 360,     (296 - 169 * s) / 1800, (-2 + 3 * s) / 225,
+                         (296 + 169 * s) / 1800, (88 + 7 * s) / 360,     (-2 - 3 * s) / 225,
+                         (16 - s) / 36,          (16 + s) / 36,          1 / 9.0};
+    double LU[9];
+    int pivot[STAGES];
+    memcpy(LU, A, sizeof LU);
+    memcpy(r->weights, &A[6], sizeof r->weights);
+    for (int i = 0; i < 9; i++)
+        r->B[i] = i % 4 == 0;
+    dense_lu(STAGES, LU, pivot);
+    dense_lu_solve(STAGES, STAGES, LU, pivot, r->B);
+    r->node[0] = (4 - s) / 10;
+    r->node[1] = (4 + s) / 10;
+    r->node[2] = 1;
+}
+
+static void three(const int at[6], const double of[], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = of[at[SCENE_RX + i]];
+}
+
+static int is_free_turn(const model *m, int vertex)
+{
+    const mesh_vertex *v = model_vertex(m, vertex);
+    return (v->body == vertex || vertex >= model_first_release(m)) && v->angles == 0 &&
+           forms_of(m, vertex) == FORM_BODY && v->coordinate[SCENE_RX] < model_unknowns(m);
+}
+
+double radau_time(const radau *r, const instant *from, double h, int stage,
+                  const step_record *record)
+{
+    return stage == STAGES - 1 ? record->path : from->time + r->node[stage] * h;
+}
+
+void radau_rates(radau *r, const instant *from, double h)
+{
+    const model *m = r->of.c->model;
+    for (int i = 0; i < STAGES; i++) {
+        radau_stage *one = &r->stage[i];
+        for (int c = 0; c < r->free; c++) {
+            one->rate[c] = 0;
+            for (int j = 0; j < STAGES; j++)
+                one->rate[c] += r->B[STAGES * i + j] * r->stage[j].inc[c] / h;
+            one->v[c] = one->rate[c];
+        }
+        for (int x = 0; x < model_vertices(m); x++) {
+            const int *at = model_vertex(m, x)->coordinate;
+            double t[3], rate[3], Jr[9], W[3];
+            if (!is_free_turn(m, x))
+                continue;
+            three(at, one->inc, t);
+            three(at, one->rate, rate);
+            turning_jacobian(t, Jr);
+            mat3_mul_vec(Jr, rate, W);
+            for (int k = 0; k < 3; k++)
+                one->v[at[SCENE_RX + k]] = W[k];
+        }
+    }
+    for (int i = 0; i < STAGES; i++)
+        for (int c = 0; c < r->free; c++) {
+            r->stage[i].a[c] = 0;
+            for (int j = 0; j < STAGES; j++)
+                r->stage[i].a[c] += r->B[STAGES * i + j] * (r->stage[j].v[c] - from->v[c]) / h;
+        }
+}
+
+/* G_jk: what rates of stage j gain by inc of stage k, of one frame: scalar of translations, [3 x 3]
+ * of rotations. */
+static void gains(const radau *r, int vertex, double h, int j, int k, double *translation,
+                  double turn[9])
+{
+    const model *m = r->of.c->model;
+    const double b = r->B[STAGES * j + k] / h;
+    *translation = b;
+    for (int i = 0; i < 9; i++)
+        turn[i] = i % 4 == 0 ? b : 0;
+    if (!is_free_turn(m, vertex))
+        return;
+    double t[3], rate[3], D[9];
+    three(model_vertex(m, vertex)->coordinate, r->stage[j].inc, t);
+    three(model_vertex(m, vertex)->coordinate, r->stage[j].rate, rate);
+    turning_jacobian(t, turn);
+    turning_derivative(t, rate, D);
+    for (int i = 0; i < 9; i++)
+        turn[i] = b * turn[i] + (j == k ? D[i] : 0);
+}
+
+void radau_relate(const radau *r, int vertex, double h, int i, int k, radau_relation *out)
+{
+    const model *m = r->of.c->model;
+    double R[9], N[9], turn[9], sum[9] = {0};
+    out->acceleration = 0;
+    for (int j = 0; j < STAGES; j++) {
+        double translation;
+        gains(r, vertex, h, j, k, &translation, turn);
+        out->acceleration += r->B[STAGES * i + j] / h * translation;
+        for (int x = 0; x < 9; x++)
+            sum[x] += r->B[STAGES * i + j] / h * turn[x];
+    }
+    gains(r, vertex, h, i, k, &out->rate, turn);
+    rotation_matrix(&r->stage[k].state->q[4 * vertex], R);
+    inertia_chart(m, vertex, r->stage[k].inc, R, N);
+    mat3_mul(sum, N, out->turn_acceleration);
+    mat3_mul(turn, N, out->turn_rate);
+}
+
+void radau_in_space(const radau *r, int vertex, int i, const double B[9], double out[9])
+{
+    double R[9];
+    rotation_matrix(&r->stage[i].state->q[4 * vertex], R);
+    mat3_mul(R, B, out);
+}
+
+/* Members whose stresses gain eta S0 e': strains of the stages have the rates
+ *   e_i' = 1/h sum_j B_ij (e_j - e_0),
+ * which couple all three in every damped element. */
+
+/* Of one element in one stage. */
+typedef struct damped {
+    double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES]; /* by the model's coordinates */
+    double gained[ELEMENT_MAX_STRAINS];                    /* strains since the begin */
+} damped;
+
+static void take(radau *r, const instant *from, int stage, int element, damped *out)
+{
+    const model *m = r->of.c->model;
+    const mesh_element *el = model_element(m, element);
+    const size_t first = (size_t)element * (size_t)model_strains(m);
+    const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
+    for (int k = 0; k < model_strains(m); k++) {
+        double *row = out->J + k * el->columns;
+        memset(row, 0, (size_t)el->columns * sizeof *row);
+        memcpy(row, w.J + k * model_own_coordinates(m),
+               (size_t)model_own_coordinates(m) * sizeof *row);
+        eliminate_forces(m, r->stage[stage].state, el, row);
+        out->gained[k] = r->stage[stage].state->e[first + (size_t)k] + w.incompatibility[k] -
+                         from->state->e[first + (size_t)k];
+    }
+}
+
+/* eta S0 e' of a stage joins the stress that its element has linearised, and its forces. */
+static void add_stress(radau *r, const damped all[STAGES], double h, double eta, const double S[],
+                       int stage, int element)
+{
+    const model *m = r->of.c->model;
+    const mesh_element *el = model_element(m, element);
+    double rate[ELEMENT_MAX_STRAINS] = {0}, more[ELEMENT_MAX_STRAINS],
+           force[MODEL_MAX_COORDINATES] = {0};
+    for (int j = 0; j < STAGES; j++)
+        for (int k = 0; k < model_strains(m); k++)
+            rate[k] += eta * r->B[STAGES * stage + j] / h * all[j].gained[k];
+    dense_mul_vec(model_strains(m), model_strains(m), S, rate, more);
+    const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
+    for (int k = 0; k < model_strains(m); k++)
+        w.sigma[k] += more[k];
+    dense_add_transpose_mul(el->columns, model_strains(m), 1, all[stage].J, more, force);
+    for (int c = 0; c < el->columns; c++)
+        if (el->index[c] != NONE && el->index[c] < r->free)
+            r->residual[(size_t)stage * (size_t)r->free + (size_t)el->index[c]] -= force[c];
+}
+
+/* J_i^T S0 J_k in all blocks. */
+static void add_blocks(radau *r, const damped all[STAGES], double h, double eta, const double S[],
+                       int element)
+{
+    const model *m = r->of.c->model;
+    const mesh_element *el = model_element(m, element);
+    const int n = el->columns;
+    for (int k = 0; k < STAGES; k++) {
+        double SJ[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
+        dense_mul(model_strains(m), model_strains(m), n, S, all[k].J, SJ);
+        for (int i = 0; i < STAGES; i++) {
+            const double part = eta * r->B[STAGES * i + k] / h;
+            double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+            dense_add_transpose_mul(n, model_strains(m), n, all[i].J, SJ, K);
+            for (int row = 0; row < n; row++)
+                for (int column = 0; column < n; column++)
+                    stages_add(&r->S, i, k, el->index[row], el->index[column],
+                               part * K[n * row + column]);
+        }
+    }
+}
+
+void radau_damp(radau *r, int fresh, const instant *from, double h)
+{
+    const model *m = r->of.c->model;
+    const size_t n = (size_t)model_strains(m);
+    for (int i = 0; i < model_elements(m) && r->of.c->run->damping != NULL; i++) {
+        const double eta = model_scene(m)->member[model_element(m, i)->member].damping;
+        const double *S =
+            r->of.c->run->damping->stiffness + (size_t)model_element(m, i)->kind * n * n;
+        damped all[STAGES];
+        if (eta == 0)
+            continue;
+        for (int stage = 0; stage < STAGES; stage++)
+            take(r, from, stage, i, &all[stage]);
+        for (int stage = 0; stage < STAGES; stage++)
+            add_stress(r, all, h, eta, S, stage, i);
+        if (fresh)
+            add_blocks(r, all, h, eta, S, i);
+    }
+}
+
+/* out = sum_j weight_j (e_j - e_0) */
+static void sum_strains(const radau *r, const instant *from, const double weight[STAGES],
+                        double out[])
+{
+    const model *m = r->of.c->model;
+    const size_t count = (size_t)model_elements(m) * (size_t)model_strains(m);
+    for (size_t k = 0; k < count; k++) {
+        out[k] = 0;
+        for (int j = 0; j < STAGES; j++)
+            out[k] += weight[j] * (r->stage[j].state->e[k] - from->state->e[k]);
+    }
+}
+
+double radau_dissipated(const radau *r, const instant *from, double h, double room[])
+{
+    double sum = 0;
+    for (int i = 0; i < STAGES && r->of.c->run->damping != NULL; i++) {
+        double weight[STAGES];
+        for (int j = 0; j < STAGES; j++)
+            weight[j] = r->B[STAGES * i + j] / h;
+        sum_strains(r, from, weight, room);
+        sum += h * r->weights[i] * damping_power(&r->of.c->eq, room);
+    }
+    return sum;
+}
+
+void radau_damp_error(const radau *r, const instant *from, double h, const double e[STAGES],
+                      double g, double room[])
+{
+    double weight[STAGES];
+    if (r->of.c->run->damping == NULL)
+        return;
+    for (int j = 0; j < STAGES; j++)
+        weight[j] = -e[j] / h;
+    sum_strains(r, from, weight, room);
+    damping_follow(&r->of.c->eq, g, room, from->state->e);
+}
+
+/* Masses that elements spread, in the equations of three stages: blocks of all nodes of an element.
+ */
+
+/* What the motion of a node in stage i gains by spatial increments of its coordinates in stage k.
+ */
+static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
+                       spread_motion *rates, spread_motion *accelerations)
+{
+    const int vertex = p->el->vertex[node], body = model_vertex(r->of.c->model, vertex)->body;
+    radau_relation of;
+    radau_relate(r, body, h, i, k, &of);
+    rates->plain = of.rate;
+    accelerations->plain = of.acceleration;
+    if (vertex < model_first_release(r->of.c->model)) {
+        mat3_mul(p->rate[node], of.turn_rate, rates->turn);
+        mat3_mul(p->rate[node], of.turn_acceleration, accelerations->turn);
+        return;
+    }
+    radau_in_space(r, body, i, of.turn_rate, rates->turn);
+    radau_in_space(r, body, i, of.turn_acceleration, accelerations->turn);
+    radau_relate(r, vertex, h, i, k, &of);
+    radau_in_space(r, vertex, i, of.turn_rate, rates->ball);
+    radau_in_space(r, vertex, i, of.turn_acceleration, accelerations->ball);
+}
+
+static void add_element(radau *r, int element, double h, int i)
+{
+    const model *m = r->of.c->model;
+    spread_parts p;
+    spread_motion rates[ELEMENT_MAX_NODES], accelerations[ELEMENT_MAX_NODES],
+        place[ELEMENT_MAX_NODES];
+    spread_element(m, element, r->stage[i].state, r->stage[i].v, r->stage[i].a, &p);
+    spread_place(m, &p, place);
+    for (int k = 0; k < STAGES; k++) {
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+        memset(K, 0, (size_t)(p.columns * p.columns) * sizeof *K);
+        for (int node = 0; node < p.el->nodes; node++)
+            motions_of(r, &p, node, h, i, k, &rates[node], &accelerations[node]);
+        spread_times(m, &p, p.acceleration, accelerations, K);
+        spread_times(m, &p, p.velocity, rates, K);
+        if (i == k)
+            spread_times(m, &p, p.place, place, K);
+        spread_rows(&p, K);
+        stages_add_element(&r->S, i, k, assemble_of(r->of.c->run->patterns, &r->K), element, K);
+    }
+}
+
+void radau_spread(radau *r, double h)
+{
+    for (int i = 0; i < STAGES; i++)
+        for (int e = 0; e < model_elements(r->of.c->model); e++)
+            add_element(r, e, h, i);
 }

@@ -4,13 +4,15 @@
  *   v_end = v + w x p + w_end x q + sum d s',
  *   a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q) + 2 w_end x sum d s' + sum
  * d s''. Three turns are free: their rates are the angular velocity in the end's axes. */
-#include "harness/time/released.h"
+#include "harness/time/time_impl.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/names.h"
+#include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
-#include "harness/model/model.h"
 
 enum { BALL = 3 };
 
@@ -162,4 +164,307 @@ void released_project(const released_masses *of, const double A[36], const doubl
         for (int k = 0; k < 6; k++)
             for (int j = 0; j < n; j++)
                 out[i * n + j] += of->T[k * n + i] * half[k * n + j];
+}
+
+int damping_acts(const scene *s)
+{
+    for (int i = 0; i < s->members; i++)
+        if (s->member[i].damping > 0)
+            return 1;
+    return 0;
+}
+
+status damping_begin(const equations *eq, run_damping *d, fault *f)
+{
+    const model *m = eq->m;
+    const size_t n = (size_t)model_strains(m), all = (size_t)model_elements(m) * n;
+    memset(d, 0, sizeof *d);
+    if (!damping_acts(model_scene(m)))
+        return STATUS_OK;
+    d->stiffness = calloc((size_t)model_kinds(m) * n * n + 1, sizeof *d->stiffness);
+    d->none = calloc(all + 1, sizeof *d->none);
+    if (d->stiffness == NULL || d->none == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+    for (int i = 0; i < model_elements(m); i++) {
+        const int kind = model_element(m, i)->kind;
+        const status outcome =
+            model_type(m)->stress(model_kind(m, kind)->data, kinematics_rest(m)->e + (size_t)i * n,
+                                  kinematics_rest(m)->inner + (size_t)i * (size_t)model_inner(m),
+                                  &(stress_output){.C = d->stiffness + (size_t)kind * n * n});
+        if (outcome != STATUS_OK)
+            return fault_set(f, outcome, "element %d: outside what %s can evaluate", i,
+                             model_type(m)->name);
+    }
+    eq->run->damping = d;
+    damping_follow(eq, 0, d->none, d->none);
+    return STATUS_OK;
+}
+
+void damping_end(const equations *eq, run_damping *d)
+{
+    eq->run->damping = NULL;
+    free(d->stiffness);
+    free(d->none);
+}
+
+void damping_follow(const equations *eq, double g, const double known[], const double from[])
+{
+    if (eq->run->damping == NULL)
+        return;
+    eq->run->damping->g = g;
+    eq->run->damping->known = known;
+    eq->run->damping->from = from;
+}
+
+status damping_matrix(const equations *eq, const model_state *s, sparse *C, fault *f)
+{
+    const model *m = eq->m;
+    enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
+    const mesh_pattern *p = assemble_of(eq->run->patterns, C);
+    run_damping *const before = eq->run->damping;
+    run_damping d;
+    sparse_zero(C);
+    eq->run->damping = NULL;
+    const status begun = damping_begin(eq, &d, f);
+    for (int i = 0; begun == STATUS_OK && eq->run->damping != NULL && i < model_elements(m); i++) {
+        const mesh_element *el = model_element(m, i);
+        const double eta = model_scene(m)->member[el->member].damping;
+        const size_t n = (size_t)model_strains(m);
+        node_state x[ELEMENT_MAX_NODES];
+        double J[E * ELEMENT_MAX_COORDINATES], S[E * E], A[X * X] = {0}, work[E * X];
+        if (eta == 0)
+            continue;
+        kinematics_gather(m, s, el, x);
+        model_type(m)->strain(model_kind(m, el->kind)->data, x, &(strain_output){.J = J});
+        for (size_t k = 0; k < n * n; k++)
+            S[k] = eta * d.stiffness[(size_t)el->kind * n * n + k];
+        dense_add_congruence(model_strains(m), model_own_coordinates(m), J, S, A, work);
+        eliminate_matrix(m, s, el, NULL, A);
+        assemble_matrix(p, i, A, C);
+    }
+    damping_end(eq, &d);
+    eq->run->damping = before;
+    return begun;
+}
+
+/* Increments that the rates would be of an instant: those of rotations in fixed axes. */
+static void in_space(const model *m, const model_state *s, const double v[], double out[])
+{
+    memcpy(out, v, (size_t)model_all_coordinates(m) * sizeof *out);
+    for (int i = 0; i < model_vertices(m); i++) {
+        const int *at = &model_vertex(m, i)->coordinate[SCENE_RX];
+        double R[9], own[3], turned[3];
+        if ((model_vertex(m, i)->body != i && i < model_first_release(m)) ||
+            forms_of(m, i) != FORM_BODY)
+            continue;
+        rotation_matrix(&s->q[4 * i], R);
+        for (int k = 0; k < 3; k++)
+            own[k] = v[at[k]];
+        mat3_mul_vec(R, own, turned);
+        for (int k = 0; k < 3; k++)
+            out[at[k]] = turned[k];
+    }
+}
+
+status damping_rates(const model *m, const model_state *s, const double v[], double rate[],
+                     fault *f)
+{
+    double *dx = calloc((size_t)model_all_coordinates(m) + 1, sizeof *dx);
+    if (dx == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+    in_space(m, s, v, dx);
+    for (int i = 0; i < model_elements(m); i++) {
+        node_state x[ELEMENT_MAX_NODES];
+        double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], local[ELEMENT_MAX_COORDINATES];
+        kinematics_gather(m, s, model_element(m, i), x);
+        model_type(m)->strain(model_kind_of(m, i)->data, x, &(strain_output){.J = J});
+        kinematics_local(m, s, model_element(m, i), dx, local);
+        dense_mul_vec(model_strains(m), model_own_coordinates(m), J, local,
+                      rate + (size_t)i * (size_t)model_strains(m));
+    }
+    free(dx);
+    return STATUS_OK;
+}
+
+status damping_now(const equations *eq, instant *now, fault *f)
+{
+    const model *m = eq->m;
+    if (now->strain == NULL)
+        return STATUS_OK;
+    TRY(damping_rates(m, now->state, now->v, now->strain, f));
+    memset(now->strain2, 0, (size_t)(model_elements(m) * model_strains(m)) * sizeof *now->strain2);
+    damping_follow(eq, 0, now->strain, kinematics_strains(now->state));
+    return STATUS_OK;
+}
+
+double damping_power(const equations *eq, const double rate[])
+{
+    const model *m = eq->m;
+    const size_t n = (size_t)model_strains(m);
+    double sum = 0;
+    for (int i = 0; i < model_elements(m); i++)
+        sum +=
+            model_scene(m)->member[model_element(m, i)->member].damping *
+            dense_quadratic(model_strains(m),
+                            eq->run->damping->stiffness + (size_t)model_element(m, i)->kind * n * n,
+                            rate + (size_t)i * n);
+    return sum;
+}
+
+/* Components of a rotation about fixed axes that move. */
+static int turns_of(const model *m, int vertex)
+{
+    const mesh_vertex *v = model_vertex(m, vertex);
+    int count = 0;
+    for (int c = SCENE_RX; c <= SCENE_RZ; c++)
+        count += v->coordinate[c] != NONE;
+    return count;
+}
+
+rotation_form forms_of(const model *m, int vertex)
+{
+    if (model_vertex(m, vertex)->angles > 0)
+        return FORM_SEQUENCE;
+    return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
+}
+
+/* Do held turns that are kept as rows leave one axis at most? */
+static int keeps_axis(const model *m, int vertex)
+{
+    int moving = 0;
+    for (int k = 0; k < 3; k++)
+        moving += model_scene(m)->node[vertex].angle[k] != SCENE_HELD;
+    return moving <= 1;
+}
+
+/* Names two axes that it turns about, and the third. */
+static status refuse_turns(const model *m, int vertex, fault *f)
+{
+    static const char axis[] = "xyz";
+    int last = 2, first;
+    while (last > 0 && model_scene(m)->node[vertex].angle[last] == SCENE_HELD)
+        last--;
+    first = last > 0 ? last - 1 : 0;
+    while (first > 0 && model_scene(m)->node[vertex].angle[first] == SCENE_HELD)
+        first--;
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: a motion in time must know how it lies, which turns about fixed axes do not say: "
+        "about %c, then about %c, and back by both leaves it turned about %c; give its rotation as "
+        "a sequence of angles or as a vector, or hold one turn more",
+        scene_called(model_scene(m), SCENE_NODES, vertex).text, axis[first], axis[last],
+        axis[3 - first - last]);
+}
+
+status forms_check(const model *m, fault *f)
+{
+    for (int i = 0; i < model_first_release(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
+        if (v->body != i || v->angles > 0)
+            continue;
+        int driven = 0;
+        for (int c = SCENE_RX; c <= SCENE_RZ; c++)
+            driven += v->coordinate[c] >= model_unknowns(m);
+        const int turns = turns_of(m, i);
+        const int loose = turns == 3 && driven > 0 && v->vector_driver[0] == NONE;
+        if (turns == 2 || (loose && !keeps_axis(m, i)))
+            return refuse_turns(m, i, f);
+    }
+    return STATUS_OK;
+}
+
+/* Angles a_k about axes b_k, each carried by those before it:
+ * w = sum b_k a_k', w' = sum b_k a_k'' + sum_(j<k) a_j' a_k' b_j x b_k. */
+static void sequence_rates(const model *m, const model_state *s, int vertex, const double v[],
+                           const double a[], frame_rates *out)
+{
+    const mesh_vertex *frame = model_vertex(m, vertex);
+    double b[3][3], rate[3] = {0, 0, 0};
+    kinematics_axes(m, s, vertex, b);
+    for (int k = 0; k < frame->angles; k++) {
+        const int c = frame->coordinate[SCENE_RX + k];
+        if (c == NONE)
+            continue;
+        rate[k] = v[c];
+        for (int i = 0; i < 3; i++) {
+            out->w[i] += b[k][i] * v[c];
+            out->wd[i] += a != NULL ? b[k][i] * a[c] : 0;
+        }
+        for (int j = 0; j < k; j++) {
+            double carried[3];
+            vec3_cross(b[j], b[k], carried);
+            for (int i = 0; i < 3; i++)
+                out->wd[i] += rate[j] * rate[k] * carried[i];
+        }
+    }
+}
+
+void forms_rates(const model *m, const model_state *s, int vertex, const double v[],
+                 const double a[], frame_rates *out)
+{
+    const mesh_vertex *frame = model_vertex(m, vertex);
+    memset(out, 0, sizeof *out);
+    rotation_matrix(&s->q[4 * vertex], out->R);
+    for (int i = 0; i < 3; i++) {
+        const int c = frame->coordinate[i];
+        out->v[i] = c != NONE ? v[c] : 0;
+        out->a[i] = c != NONE && a != NULL ? a[c] : 0;
+    }
+    if (frame->angles > 0) {
+        sequence_rates(m, s, vertex, v, a, out);
+        return;
+    }
+    double w[3] = {0, 0, 0}, wd[3] = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        const int c = frame->coordinate[SCENE_RX + i];
+        w[i] = c != NONE ? v[c] : 0;
+        wd[i] = c != NONE && a != NULL ? a[c] : 0;
+    }
+    mat3_mul_vec(out->R, w, out->w);
+    mat3_mul_vec(out->R, wd, out->wd);
+}
+
+void forms_add_force(const model *m, const model_state *s, int vertex, const double F[6],
+                     double out[])
+{
+    const mesh_vertex *frame = model_vertex(m, vertex);
+    double b[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (frame->angles > 0)
+        kinematics_axes(m, s, vertex, b);
+    for (int c = 0; c < 3; c++)
+        if (frame->coordinate[c] != NONE)
+            out[frame->coordinate[c]] += F[c];
+    for (int k = 0; k < 3; k++)
+        if (frame->coordinate[SCENE_RX + k] != NONE)
+            out[frame->coordinate[SCENE_RX + k]] += vec3_dot(b[k], F + 3);
+}
+
+void inertia_rates(const model *m, const model_state *s, int vertex, const double v[],
+                   const double a[], frame_rates *out)
+{
+    if (model_is_released(m, vertex))
+        released_rates(m, s, vertex, v, a, out);
+    else
+        forms_rates(m, s, vertex, v, a, out);
+}
+
+void vertex_rates(const model *m, const model_state *s, int vertex, const double v[],
+                  const double a[], frame_rates *out)
+{
+    const int body = model_body(m, vertex),
+              by_itself = vertex == body || model_is_released(m, vertex);
+    double rho[3], moved[3], twice[3];
+    inertia_rates(m, s, by_itself ? vertex : body, v, a, out);
+    if (by_itself)
+        return;
+    kinematics_offset(m, s, vertex, rho);
+    vec3_cross(out->w, rho, moved);
+    vec3_cross(out->w, moved, twice);
+    for (int i = 0; i < 3; i++) {
+        out->v[i] += moved[i];
+        out->a[i] += twice[i];
+    }
+    vec3_cross(out->wd, rho, moved);
+    for (int i = 0; i < 3; i++)
+        out->a[i] += moved[i];
 }

@@ -1,14 +1,10 @@
-#include "harness/time/stage.h"
+#include "harness/time/time_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model.h"
-#include "harness/newton/newton.h"
-#include "harness/time/complement.h"
-#include "harness/time/increment.h"
-#include "harness/time/kinks.h"
+#include "elements/math/dense.h"
 
 status stage_alloc(analysis_context *c, const carried_masses *masses, motion_stage *s, fault *f)
 {
@@ -128,4 +124,270 @@ status stage_solve(motion_stage *s, const model_state *from, double time, stage_
     increment_apply(s->c->model, from, r->inc, time, now);
     rates_of(s, r);
     return newton_iterate(s->c, &use, &s->arrival, record, f);
+}
+
+enum { MOST = ELEMENT_MAX_STRAINS };
+
+struct complement {
+    const equations *eq;
+    const model *m;
+    double *before; /* [elements x strains], from which stresses were advanced */
+    double settled; /* the correction after which all elements agreed; 0: not in this step */
+};
+
+/* Does C change with the strains? */
+static int curved(const model *m, const element_data *data, double length)
+{
+    double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
+    const size_t bytes = (size_t)(model_strains(m) * model_strains(m)) * sizeof *C;
+    if (model_type(m)->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = rest}) !=
+        STATUS_OK)
+        return 1;
+    for (int k = 0; k < model_strains(m); k++)
+        e[k] = 0.01 * length / (k + 1);
+    return model_type(m)->stress(data, e, NULL, &(stress_output){.sigma = sigma, .C = C}) !=
+               STATUS_OK ||
+           memcmp(C, rest, bytes) != 0;
+}
+
+static int wanted(const model *m)
+{
+    const int elsewhere = model_type(m)->stress_many != NULL && model_type(m)->lanes == 0;
+    if (model_inner(m) > 0 || elsewhere)
+        return 0;
+    for (int k = 0; k < model_kinds(m); k++)
+        if (curved(m, model_kind(m, k)->data, model_kind(m, k)->length))
+            return 1;
+    return 0;
+}
+
+status complement_alloc(const equations *eq, complement **out, fault *f)
+{
+    const model *m = eq->m;
+    const size_t strains = (size_t)model_elements(m) * (size_t)model_strains(m);
+    complement *c = NULL;
+    *out = NULL;
+    if (!wanted(m))
+        return STATUS_OK;
+    c = malloc(sizeof *c + strains * sizeof *c->before);
+    if (c == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for the strains of a step");
+    c->eq = eq;
+    c->m = m;
+    c->before = (double *)(c + 1);
+    c->settled = 0;
+    *out = c;
+    return STATUS_OK;
+}
+
+void complement_free(complement *c)
+{
+    free(c);
+}
+
+void complement_keep(complement *c, const model_state *s)
+{
+    if (c != NULL)
+        memcpy(c->before, s->e,
+               (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
+}
+
+/* An element on its way. */
+typedef struct complement_way {
+    const equations *eq;
+    const model *m;
+    int element;
+    double near;                                 /* stresses agree [N] */
+    double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
+} complement_way;
+
+/* Near enough: what is nearer converges as fast from the strains as from the stresses. */
+static double near_of(int n, const double sigma[])
+{
+    double largest = 0;
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, fabs(sigma[i]));
+    return 0.1 * largest;
+}
+
+/* What sigma lacks of the goal; returns the largest, NAN: not a number. */
+static double gap_of(int n, const double goal[], const double sigma[], double gap[])
+{
+    double sum = 0, largest = 0;
+    for (int i = 0; i < n; i++) {
+        gap[i] = goal[i] - sigma[i];
+        sum += gap[i];
+        largest = fmax(largest, fabs(gap[i]));
+    }
+    return isfinite(sum) ? largest : NAN;
+}
+
+static int evaluate(complement_way *w)
+{
+    w->eq->run->counters.stress_evaluations++;
+    return model_type(w->m)->stress(model_kind_of(w->m, w->element)->data, w->e, NULL,
+                                    &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
+}
+
+/* e += C^-1 gap. Strains that meet no stiffness (no warping) stay. */
+static int move(complement_way *w, double gap[])
+{
+    const int n = model_strains(w->m);
+    int pivot[MOST];
+    double LU[MOST * MOST];
+    memcpy(LU, w->C, (size_t)(n * n) * sizeof *LU);
+    for (int i = 0; i < n; i++) {
+        double row = 0;
+        for (int j = 0; j < n; j++)
+            row = fmax(row, fabs(LU[n * i + j]));
+        if (row == 0)
+            LU[n * i + i] = 1;
+    }
+    if (dense_lu_regular(n, LU, pivot) != 0)
+        return 0;
+    dense_lu_solve(n, 1, LU, pivot, gap);
+    for (int i = 0; i < n; i++)
+        w->e[i] += gap[i];
+    return 1;
+}
+
+/* Newton, as long as he contracts. */
+static int arrive(complement_way *w, const double goal[])
+{
+    enum { MOST_ITERATIONS = 8 };
+    const double contracts = 0.3;
+    double before = INFINITY;
+    for (int i = 0; i < MOST_ITERATIONS; i++) {
+        double gap[MOST];
+        const double off = evaluate(w) ? gap_of(model_strains(w->m), goal, w->sigma, gap) : NAN;
+        if (off <= w->near)
+            return 1;
+        if (!(off <= contracts * before) || !move(w, gap))
+            return 0;
+        before = off;
+    }
+    return 0;
+}
+
+/* From where it is, in parts of the way from its stresses to the goal. */
+static int follow(complement_way *w, const double goal[])
+{
+    const int n = model_strains(w->m);
+    const double shortest = 1.0 / 256, longest = 0.5;
+    double part = longest, begin[MOST], target[MOST], gap[MOST];
+    complement_way at = *w;
+    if (!evaluate(&at))
+        return 0;
+    memcpy(begin, at.sigma, sizeof begin);
+    for (double done = 0; done < 1 && part >= shortest;) {
+        const double next = fmin(1, done + part);
+        for (int i = 0; i < n; i++)
+            target[i] = next < 1 ? begin[i] + next * (goal[i] - begin[i]) : goal[i];
+        *w = at;
+        gap_of(n, target, at.sigma, gap);
+        if (move(w, gap) && arrive(w, target)) {
+            at = *w;
+            done = next;
+            part = fmin(longest, 2 * part);
+        } else
+            part /= 2;
+    }
+    return part >= shortest;
+}
+
+/* The stresses that the strains of an element are to have: those of the state, or where damping has
+ * a share in these, what the strains alone have of them: P'(e) + P''(e) de, e those before the
+ * increment. NULL: cannot be told. */
+static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
+{
+    const model *m = c->m;
+    const size_t first = (size_t)element * (size_t)model_strains(m);
+    double C[MOST * MOST], de[MOST], more[MOST];
+    if (c->eq->run->damping == NULL ||
+        model_scene(m)->member[model_element(m, element)->member].damping == 0)
+        return s->sigma + first;
+    c->eq->run->counters.stress_evaluations++;
+    if (model_type(m)->stress(model_kind_of(m, element)->data, c->before + first, NULL,
+                              &(stress_output){.sigma = room, .C = C}) != STATUS_OK)
+        return NULL;
+    for (int k = 0; k < model_strains(m); k++)
+        de[k] = s->e[first + (size_t)k] - c->before[first + (size_t)k];
+    dense_mul_vec(model_strains(m), model_strains(m), C, de, more);
+    for (int k = 0; k < model_strains(m); k++)
+        room[k] += more[k];
+    return room;
+}
+
+static void find(const complement *c, int element, const double sigma[], double e[])
+{
+    const size_t n = (size_t)model_strains(c->m);
+    complement_way w = {
+        .eq = c->eq, .m = c->m, .element = element, .near = near_of(model_strains(c->m), sigma)};
+    memcpy(w.e, e, n * sizeof *e);
+    if (arrive(&w, sigma)) {
+        memcpy(e, w.e, n * sizeof *e);
+        return;
+    }
+    memcpy(w.e, c->before + (size_t)element * n, n * sizeof *e);
+    if (follow(&w, sigma))
+        memcpy(e, w.e, n * sizeof *e);
+}
+
+/* Elements of one go whose stresses are those asked for already. */
+static void settled(const complement *c, const model_state *s, int count, const int index[],
+                    const double *const goal[], int is[])
+{
+    const model *m = c->m;
+    const element_data *data[CHUNK_MOST];
+    const double *e[CHUNK_MOST], *inner[CHUNK_MOST] = {NULL};
+    double sigma[CHUNK_MOST][MOST], gap[MOST];
+    stress_output out[CHUNK_MOST];
+    status outcome[CHUNK_MOST];
+    for (int k = 0; k < count; k++) {
+        data[k] = model_kind_of(m, index[k])->data;
+        e[k] = &s->e[(size_t)index[k] * (size_t)model_strains(m)];
+        out[k] = (stress_output){.sigma = sigma[k]};
+    }
+    c->eq->run->counters.stress_evaluations += count;
+    if (count > 1)
+        model_type(m)->stress_many(count, data, e, inner, out, outcome);
+    else
+        outcome[0] = model_type(m)->stress(data[0], e[0], NULL, &out[0]);
+    for (int k = 0; k < count; k++)
+        is[k] = goal[k] == NULL ||
+                (outcome[k] == STATUS_OK && gap_of(model_strains(m), goal[k], sigma[k], gap) <=
+                                                near_of(model_strains(m), goal[k]));
+}
+
+/* Returns whether all of them were settled. */
+static int follow_stresses(const complement *c, model_state *s, int first, int end)
+{
+    const size_t n = (size_t)model_strains(c->m);
+    unsigned char done[CHUNK_WINDOW] = {0};
+    int index[CHUNK_MOST], is[CHUNK_MOST], count, all = 1;
+    double room[CHUNK_MOST][MOST];
+    const double *goal[CHUNK_MOST];
+    while ((count = chunk_next(c->m, first, end, done, index)) > 0) {
+        for (int k = 0; k < count; k++)
+            goal[k] = goal_of(c, s, index[k], room[k]);
+        settled(c, s, count, index, goal, is);
+        for (int k = 0; k < count; k++)
+            if (!is[k]) {
+                find(c, index[k], goal[k], &s->e[(size_t)index[k] * n]);
+                all = 0;
+            }
+    }
+    return all;
+}
+
+void complement_strains(complement *c, model_state *s, int iteration, double correction)
+{
+    int all = 1;
+    if (c == NULL || (iteration > 1 && correction <= c->settled))
+        return;
+    for (int first = 0; first < model_elements(c->m); first += CHUNK_WINDOW) {
+        const int rest = model_elements(c->m) - first;
+        all &= follow_stresses(c, s, first, first + (rest < CHUNK_WINDOW ? rest : CHUNK_WINDOW));
+    }
+    c->settled = all ? correction : 0;
 }

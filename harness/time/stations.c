@@ -1,12 +1,230 @@
-#include "harness/time/stations.h"
+#include "harness/time/time_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/model/model.h"
-#include "harness/time/aside.h"
-#include "harness/time/balance.h"
+#include "elements/math/rotation.h"
+#include "elements/math/vec3.h"
+
+enum { PARTS = 5, BALL = 3 };
+
+/* Of one coordinate: its increment over the step, and rates and their derivatives at both ends, by
+ * the length of the step. */
+typedef struct between_ends {
+    double whole, rate[2], second[2];
+} between_ends;
+
+status between_alloc(const equations *eq, step_between *b, fault *f)
+{
+    const model *m = eq->m;
+    const model_size size = model_sizes(m);
+    const size_t all = (size_t)(size.free + size.driven) + 1;
+    memset(b, 0, sizeof *b);
+    b->eq = eq;
+    b->m = m;
+    b->part = calloc(PARTS * all, sizeof *b->part);
+    b->room = calloc(3 * all, sizeof *b->room);
+    return b->part != NULL && b->room != NULL
+               ? STATUS_OK
+               : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+}
+
+void between_free(step_between *b)
+{
+    free(b->part);
+    free(b->room);
+}
+
+static void put(const step_between *b, int coordinate, const between_ends *e)
+{
+    double *part = b->part + PARTS * (size_t)coordinate;
+    const double D = e->whole, r = e->rate[0], t = e->rate[1], p = e->second[0], q = e->second[1];
+    const double cubic[PARTS] = {r, 3 * D - 2 * r - t, r + t - 2 * D, 0, 0};
+    const double quintic[PARTS] = {r, p / 2, 10 * D - 6 * r - 4 * t - 1.5 * p + 0.5 * q,
+                                   8 * r + 7 * t + 1.5 * p - q - 15 * D,
+                                   6 * D - 3 * r - 3 * t - 0.5 * p + 0.5 * q};
+    memcpy(part, b->degree == BETWEEN_CUBIC ? cubic : quintic, sizeof cubic);
+}
+
+/* An additive coordinate that is `whole` further at the end. */
+static void put_plain(const step_between *b, int c, double whole, double h)
+{
+    const instant *from = b->from, *to = b->to;
+    if (c == NONE)
+        return;
+    put(b, c,
+        &(between_ends){
+            whole, {h * from->v[c], h * to->v[c]}, {h * h * from->a[c], h * h * to->a[c]}});
+}
+
+/* Rates t' and t'' of the vector t of a turn, of body rates W, W'. */
+static void vector_rates(const double t[3], const double W[3], const double Wd[3], double rate[3],
+                         double second[3])
+{
+    double inverse[9], D[9], more[3];
+    turning_inverse(t, inverse);
+    mat3_mul_vec(inverse, W, rate);
+    turning_derivative(t, rate, D);
+    mat3_mul_vec(D, rate, more);
+    for (int k = 0; k < 3; k++)
+        more[k] = Wd[k] - more[k];
+    mat3_mul_vec(inverse, more, second);
+}
+
+/* Vector of the turn over the step, in the vertex's axes at its begin. */
+static void turn_of(const step_between *b, int vertex, double t[3])
+{
+    double back[4], q[4];
+    rotation_conjugate(&b->from->state->q[4 * vertex], back);
+    rotation_compose(back, &b->to->state->q[4 * vertex], q);
+    rotation_log(q, t);
+}
+
+static void put_turn(const step_between *b, int vertex, double h)
+{
+    const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
+    const instant *end[2] = {b->from, b->to};
+    double t[2][3] = {{0}}, rate[2][3], second[2][3];
+    turn_of(b, vertex, t[1]);
+    for (int i = 0; i < 2; i++) {
+        double W[3], Wd[3];
+        for (int k = 0; k < 3; k++) {
+            W[k] = at[k] != NONE ? h * end[i]->v[at[k]] : 0;
+            Wd[k] = at[k] != NONE ? h * h * end[i]->a[at[k]] : 0;
+        }
+        vector_rates(t[i], W, Wd, rate[i], second[i]);
+    }
+    for (int k = 0; k < 3; k++)
+        if (at[k] != NONE)
+            put(b, at[k],
+                &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
+}
+
+/* Ends that are free to turn have no rates of it: evenly. */
+static void put_ball(const step_between *b, int vertex)
+{
+    const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
+    double t[3];
+    turn_of(b, vertex, t);
+    for (int k = 0; k < 3; k++)
+        put(b, at[k], &(between_ends){t[k], {t[k], t[k]}, {0, 0}});
+}
+
+static void put_release(const step_between *b, int vertex, double h)
+{
+    const model *m = b->m;
+    const mesh_release *r = release_of(m, vertex);
+    const int *at = model_vertex(m, vertex)->coordinate;
+    const model_state *from = b->from->state, *to = b->to->state;
+    for (int k = 0; k < r->slides; k++) {
+        const int i = 3 * (vertex - model_first_release(m)) + k;
+        put_plain(b, at[k], to->shift[i] - from->shift[i], h);
+    }
+    for (int k = 0; k < r->turns && r->turns < BALL; k++)
+        put_plain(b, at[SCENE_RX + k], to->angle[3 * vertex + k] - from->angle[3 * vertex + k], h);
+    if (r->turns == BALL)
+        put_ball(b, vertex);
+}
+
+void between_take(step_between *b, between_degree degree, const instant *from, const instant *to)
+{
+    const model *m = b->m;
+    const double h = to->time - from->time;
+    b->degree = degree;
+    b->from = from;
+    b->to = to;
+    for (int i = 0; i < model_first_release(m); i++) {
+        const mesh_vertex *v = model_vertex(m, i);
+        if (v->body != i)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            const int at = 3 * i + k;
+            put_plain(b, v->coordinate[k], to->state->u[at] - from->state->u[at], h);
+            if (v->angles > 0)
+                put_plain(b, v->coordinate[SCENE_RX + k],
+                          to->state->angle[at] - from->state->angle[at], h);
+        }
+        if (v->angles == 0)
+            put_turn(b, i, h);
+    }
+    for (int i = model_first_release(m); i < model_vertices(m); i++)
+        put_release(b, i, h);
+    for (int i = 0; i < model_warps(m); i++)
+        put_plain(b, model_warp(m, i), to->state->warp[i] - from->state->warp[i], h);
+}
+
+/* Body rates of the turns, from those of their vectors. */
+static void turn_rates(const step_between *b, int vertex, const double inc[], const double rate[],
+                       const double second[], instant *at)
+{
+    const int *index = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
+    double t[3], first[3], then[3], Jr[9], D[9], W[3], Wd[3], more[3];
+    for (int k = 0; k < 3; k++) {
+        t[k] = index[k] != NONE ? inc[index[k]] : 0;
+        first[k] = index[k] != NONE ? rate[index[k]] : 0;
+        then[k] = index[k] != NONE ? second[index[k]] : 0;
+    }
+    turning_jacobian(t, Jr);
+    turning_derivative(t, first, D);
+    mat3_mul_vec(Jr, first, W);
+    mat3_mul_vec(Jr, then, Wd);
+    mat3_mul_vec(D, first, more);
+    for (int k = 0; k < 3; k++)
+        if (index[k] != NONE) {
+            at->v[index[k]] = W[k];
+            at->a[index[k]] = Wd[k] + more[k];
+        }
+}
+
+static void blend(size_t count, double s, const double from[], const double to[], double out[])
+{
+    for (size_t i = 0; i < count; i++)
+        out[i] = (1 - s) * from[i] + s * to[i];
+}
+
+static void blend_elements(const step_between *b, double s, model_state *at)
+{
+    const model *m = b->m;
+    const model_state *from = b->from->state, *to = b->to->state;
+    const size_t strains = (size_t)model_elements(m) * (size_t)model_strains(m),
+                 inner = (size_t)model_elements(m) * (size_t)model_inner(m);
+    blend(strains, s, from->e, to->e, at->e);
+    blend(strains, s, from->sigma, to->sigma, at->sigma);
+    blend(inner, s, from->inner, to->inner, at->inner);
+}
+
+void between_places(const step_between *b, double time, instant *at)
+{
+    const model *m = b->m;
+    const int all = model_all_coordinates(m);
+    const double h = b->to->time - b->from->time, s = (time - b->from->time) / h;
+    double *inc = b->room, *rate = inc + all, *second = rate + all;
+    for (int c = 0; c < all; c++) {
+        const double *p = b->part + PARTS * (size_t)c;
+        inc[c] = s * (p[0] + s * (p[1] + s * (p[2] + s * (p[3] + s * p[4]))));
+        rate[c] = (p[0] + s * (2 * p[1] + s * (3 * p[2] + s * (4 * p[3] + s * 5 * p[4])))) / h;
+        second[c] = (2 * p[1] + s * (6 * p[2] + s * (12 * p[3] + s * 20 * p[4]))) / (h * h);
+    }
+    memcpy(at->v, rate, (size_t)all * sizeof *rate);
+    memcpy(at->a, second, (size_t)all * sizeof *second);
+    for (int i = 0; i < model_first_release(m); i++)
+        if (model_vertex(m, i)->body == i && model_vertex(m, i)->angles == 0)
+            turn_rates(b, i, inc, rate, second, at);
+    if (b->degree == BETWEEN_CUBIC)
+        blend((size_t)all, s, b->from->a, b->to->a, at->a);
+    drive_at(b->eq, b->from->state, time, inc, at->v, at->a);
+    memcpy(at->algorithm, at->a, (size_t)all * sizeof *at->a);
+    increment_apply(m, b->from->state, inc, time, at->state);
+    at->time = time;
+    at->ends_known = 0;
+}
+
+void between_at(const step_between *b, double time, instant *at)
+{
+    between_places(b, time, at);
+    blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
+}
 
 /* Of a step: nearer than that to its end is at its end. */
 static const double same_instant = 1e-9;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "harness/formulations/formulations.h"
-#include "harness/time/account.h"
+#include "harness/time/time.h"
 #include "harness/tools/kit/scenes.h"
 
 #define SWUNG "harness/time/test/swung.yaml"

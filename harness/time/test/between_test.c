@@ -1,7 +1,7 @@
 /* What runs between two instants comes to both of them: places, shifts, angles, warping, rates and
  * accelerations, of bodies, sequences of angles and released ends, turned by half a radian. */
 #include "harness/model/model.h"
-#include "harness/time/between.h"
+#include "harness/time/time.h"
 
 #include "elements/test/worst.h"
 #include "harness/time/test/masses.h"

@@ -7,7 +7,7 @@
 
 #include "elements/math/dense.h"
 #include "harness/model/model.h"
-#include "harness/time/complement.h"
+#include "harness/time/time_impl.h"
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;

@@ -5,10 +5,9 @@
 #include "elements/math/vec3.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-#include "harness/time/inertia.h"
-#include "harness/time/massless.h"
 #include "harness/time/test/flying.h"
 #include "harness/time/test/moving.h"
+#include "harness/time/time_impl.h"
 
 extern const element_type element_geometrically_exact, element_beamw, element_beamw_consistent,
     element_collocation;

@@ -1,9 +1,8 @@
 /* A rotation that is driven by its vector along any path: increments lead to it, rates and their
  * derivatives are those of the frame, from any state. */
-#include "harness/time/drive.h"
+#include "harness/time/time_impl.h"
 
 #include "elements/math/rotation.h"
-#include "harness/time/forms.h"
 #include "harness/time/test/masses.h"
 
 static void build_driven(scene *s)

@@ -12,9 +12,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-#include "harness/time/conserving.h"
-#include "harness/time/inertia.h"
-#include "harness/time/launch.h"
+#include "harness/time/time_impl.h"
 
 typedef struct flight {
     scene scene;

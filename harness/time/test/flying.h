@@ -9,9 +9,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
-#include "harness/time/damping.h"
-#include "harness/time/integrator.h"
-#include "harness/time/launch.h"
+#include "harness/time/time_impl.h"
 
 typedef struct flying {
     formulation chosen;

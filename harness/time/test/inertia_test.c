@@ -2,8 +2,7 @@
  * sequences of angles, released ends, warping) are the change of momenta and of kinetic energy
  * along a motion; kinetic energy is that of all masses one by one. */
 #include "harness/model/model.h"
-#include "harness/time/inertia.h"
-#include "harness/time/vertex_rates.h"
+#include "harness/time/time_impl.h"
 
 #include "elements/math/rotation.h"
 #include "harness/time/test/masses.h"

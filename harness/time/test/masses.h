@@ -13,8 +13,7 @@
 #include "elements/test/random.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
-#include "harness/time/carried.h"
-#include "harness/time/increment.h"
+#include "harness/time/time_impl.h"
 #include "harness/tools/kit/scenes.h"
 
 extern const element_type element_collocation, element_geometrically_exact,

@@ -1,6 +1,6 @@
 /* What of forces works on what has no inertia: warping amplitudes with and without mass. */
 #include "harness/model/model.h"
-#include "harness/time/massless.h"
+#include "harness/time/time_impl.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -7,8 +7,8 @@
 #include "harness/model/model.h"
 #include "harness/model/test/turned_end.h"
 #include "harness/newton/newton.h"
-#include "harness/time/increment.h"
 #include "harness/time/test/flight.h"
+#include "harness/time/time_impl.h"
 
 enum { STEPS = 30, SPIN_STAGES = 4, ITERATIONS = 40 };
 

@@ -2,8 +2,8 @@
  * follow the increments of a step of finite turns. */
 #include "elements/test/worst.h"
 #include "harness/model/model.h"
-#include "harness/time/inertia.h"
 #include "harness/time/test/masses.h"
+#include "harness/time/time_impl.h"
 
 /* Rates follow the increments. */
 static const double b = 7, g = 3;

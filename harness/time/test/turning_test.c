@@ -1,6 +1,6 @@
 /* The tangent operator of turns, its inverse and its derivative, against differences of the
  * rotations themselves: on both sides of where series take over. */
-#include "harness/time/turning.h"
+#include "harness/time/time_impl.h"
 
 #include <gsl/gsl_test.h>
 #include <math.h>
