@@ -1,4 +1,4 @@
-#include "harness/analysis/arnoldi.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <float.h>
 #include <lapacke.h>

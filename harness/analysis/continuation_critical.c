@@ -4,13 +4,13 @@
  * Along a path K x' = f' l', so at a critical point 0 = phi . K x' = (phi . f') l': either the load
  * has an extremum (limit point) or its work on phi is zero (bifurcation). K need not be symmetric:
  * phi is its left null vector. */
+#include "harness/analysis/analysis_impl.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/analysis/continuation_impl.h"
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
 static const double least_load_work = 1e-5; /* of a null vector that is not across the load */

@@ -1,11 +1,10 @@
-#include "harness/analysis/extract_path.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
 #include <stdio.h>
 
 #include "elements/math/pi.h"
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
 /* A value with its error, in parts of it; NAN with the reason where no digit is left. */

@@ -1,11 +1,10 @@
-#include "harness/analysis/flutter.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
 status flutter_system_alloc(const newton_run *n, flutter_system *s, fault *f)
@@ -97,4 +96,236 @@ const char *flutter_name(const flutter_system *s, flutter_kind kind)
     if (kind == FLUTTER_DIVERGES)
         return "divergence";
     return s->damped ? "flutter, growth with the members' damping" : "flutter, undamped";
+}
+
+enum { MOTIONS = 8 };                  /* least ones that are looked at */
+static const double most_error = 1e-2; /* beyond it nothing is known of a motion */
+static const double real_part = 1e-6;  /* beside which an imaginary one is rounding */
+
+status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
+{
+    if (j->begun)
+        return STATUS_OK;
+    j->begun = 1;
+    return newton_alloc(c, 0, &j->n, f);
+}
+
+/* An odd number of negative eigenvalues of K is a divergence, wherever they are. */
+static step_stability by_motions(const flutter_judge *j, const unsymmetric_result *r)
+{
+    int mode = 0;
+    if (factor_count(j->n.factor).determinant < 0)
+        return STEP_GROWS;
+    for (int i = 0; i < r->count; i++)
+        if (!(r->error[i] <= most_error))
+            return STEP_OPEN;
+    if (r->count == 0)
+        return STEP_OPEN;
+    return flutter_of(&j->of, r, &mode) == FLUTTER_NONE ? STEP_STABLE : STEP_GROWS;
+}
+
+static status ask_motions(flutter_judge *j, step_record *record, fault *f)
+{
+    unsymmetric_result r = {0};
+    fault why = {""};
+    const status outcome = flutter_motions(&j->n, &j->of, MOTIONS, 1, &r, &why);
+    if (outcome == STATUS_OK)
+        record->judged = by_motions(j, &r);
+    unsymmetric_free(&r);
+    return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
+}
+
+/* Two of them are known to have passed zero where they are real: a pair may have passed beside. */
+static status count_passed(flutter_judge *j, step_record *record, fault *f)
+{
+    left_of_axis left;
+    int pairs = 0;
+    TRY(left_count(j->n.factor, j->n.free, j->n.weight, &left, f));
+    j->n.c->run->counters.solutions += left.solutions;
+    for (int i = 0; i < left.nearest; i++)
+        pairs += creal(left.mu[i]) < 0 && fabs(cimag(left.mu[i])) > real_part * cabs(left.mu[i]);
+    record->by_eigenvalues = left.count >= 0 && (pairs == 0 || left.count % 2 != 0);
+    record->passed = left.count;
+    return STATUS_OK;
+}
+
+status flutter_judge_here(flutter_judge *j, step_record *record, fault *f)
+{
+    step_record at = {0};
+    fault why = {""};
+    const status factored = newton_direction(&j->n, kinematics_state_path(j->n.state), &at, &why);
+    record->negative_pivots = -1;
+    if (factored == STATUS_FAULT)
+        return fault_set(f, factored, "%s", why.text);
+    if (factored != STATUS_OK) /* singular: nothing is decided */
+        return STATUS_OK;
+    record->negative_pivots = at.negative_pivots;
+    if (at.negative_pivots >= 0)
+        return STATUS_OK;
+    if (j->of.M.value == NULL)
+        TRY(flutter_system_alloc(&j->n, &j->of, f));
+    if (!j->of.massless)
+        return ask_motions(j, record, f);
+    return record->by_eigenvalues ? STATUS_OK : count_passed(j, record, f);
+}
+
+status flutter_judge_state(flutter_judge *j, analysis_context *c, const model_state *state,
+                           step_record *record, fault *f)
+{
+    const counters work = c->run->counters;
+    const int singular = c->work->singular;
+    TRY(flutter_judge_begin(j, c, f));
+    kinematics_state_copy(c->model, state, j->n.state);
+    const status outcome = flutter_judge_here(j, record, f);
+    c->work->singular = singular;
+    c->run->counters = work;
+    return outcome;
+}
+
+void flutter_judge_free(flutter_judge *j)
+{
+    if (!j->begun)
+        return;
+    flutter_system_free(&j->of);
+    newton_free(&j->n);
+}
+
+enum { PARTS = 6 };
+static const double near_enough = 1e-5; /* correction that ends at a state that is looked at only */
+
+/* How unstable the present state is: negative eigenvalues, or 1 where a motion grows; -1: not
+ * known. */
+static status look(flutter_judge *j, int *unstable, fault *f)
+{
+    step_record record = {0};
+    TRY(flutter_judge_here(j, &record, f));
+    *unstable = record.negative_pivots;
+    if (record.by_eigenvalues)
+        *unstable = record.passed;
+    else if (record.judged != STEP_OPEN)
+        *unstable = record.judged != STEP_STABLE;
+    return STATUS_OK;
+}
+
+/* *reached 0: Newton does not converge. */
+static status go_to(newton_run *n, double path, int *reached, fault *f)
+{
+    step_record record = {0};
+    fault why = {""};
+    kinematics_state_copy(n->c->model, n->state, n->backup);
+    const status outcome = newton_to(n, path, &record, &why);
+    history_drop_step(n->c->result, &record);
+    *reached = outcome == STATUS_OK;
+    return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
+}
+
+static status look_at_parts(flutter_judge *j, const model_state *from, const model_state *to,
+                            double *found, fault *f)
+{
+    const model *m = j->n.c->model;
+    const double begin = kinematics_state_path(from), end = kinematics_state_path(to);
+    int first = -1, last = -1, here = -1, reached = 1;
+    kinematics_state_copy(m, to, j->n.state);
+    TRY(look(j, &last, f));
+    kinematics_state_copy(m, from, j->n.state);
+    TRY(look(j, &first, f));
+    for (int i = 1; i < PARTS && first >= 0 && last >= 0; i++) {
+        const double path = begin + (end - begin) * i / PARTS;
+        TRY(go_to(&j->n, path, &reached, f));
+        if (!reached)
+            return STATUS_OK;
+        TRY(look(j, &here, f));
+        if (here < 0 || (here >= fmin(first, last) && here <= fmax(first, last)))
+            continue;
+        *found = path;
+        return STATUS_OK;
+    }
+    return STATUS_OK;
+}
+
+status within_step(flutter_judge *j, analysis_context *c, const model_state *from,
+                   const model_state *to, double *found, fault *f)
+{
+    const counters work = c->run->counters;
+    const int singular = c->work->singular;
+    *found = INFINITY;
+    TRY(flutter_judge_begin(j, c, f));
+    j->n.arrival.criterion = fmax(near_enough, c->options->criterion);
+    const status outcome = look_at_parts(j, from, to, found, f);
+    c->work->singular = singular;
+    c->run->counters = work;
+    return outcome;
+}
+
+enum {
+    FEWEST = 6,
+    MOST = 48,
+    SPARE = 3
+}; /* eigenvalues that are looked at; beyond the last on the left */
+/* Of an eigenvalue beside those looked at: its sign may be. */
+static const double rounding = 1e-6;
+
+typedef struct metric_inverse {
+    matrix_factor *K;
+    int n;
+    const double *weight;
+} metric_inverse;
+
+/* y = D^1/2 K^-1 D^1/2 x */
+static void apply(void *context, const double x[], double y[])
+{
+    const metric_inverse *of = context;
+    for (int k = 0; k < of->n; k++)
+        y[k] = sqrt(of->weight[k]) * x[k];
+    factor_solve(of->K, y);
+    for (int k = 0; k < of->n; k++)
+        y[k] *= sqrt(of->weight[k]);
+}
+
+/* How many lie on the left; 0 for *sure: others may, beyond those that were looked at. */
+static int count_of(const arnoldi_result *r, int wanted, int determinant, int *sure)
+{
+    int left = 0;
+    for (int i = 0; i < r->count; i++)
+        left += creal(r->theta[i]) < 0;
+    const double least = cabs(r->theta[0]), last = cabs(r->theta[r->count - 1]);
+    const int parity = left % 2 == 0 ? 1 : -1;
+    *sure = (left <= wanted - SPARE || r->count < wanted) &&
+            (parity == determinant || last < rounding * least);
+    return left;
+}
+
+static void take(const arnoldi_result *r, left_of_axis *out)
+{
+    out->nearest = r->count < LEFT_NEAREST ? r->count : LEFT_NEAREST;
+    for (int i = 0; i < out->nearest; i++)
+        out->mu[i] = 1 / r->theta[i];
+}
+
+status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *out, fault *f)
+{
+    metric_inverse of = {K, n, weight};
+    memset(out, 0, sizeof *out);
+    for (int wanted = FEWEST;; wanted *= 2) {
+        arnoldi_result r = {0};
+        const arnoldi_problem p = {n, wanted < n ? wanted : n, apply, &of};
+        fault why = {""};
+        int sure = 0;
+        const status outcome = arnoldi_solve(&p, &r, &why);
+        out->solutions += r.applied;
+        out->nearest = 0;
+        if (outcome == STATUS_OK && r.count > 0) {
+            out->count = count_of(&r, p.wanted, factor_count(K).determinant, &sure);
+            take(&r, out);
+        }
+        arnoldi_free(&r);
+        if (outcome == STATUS_FAULT)
+            return fault_set(f, outcome, "%s", why.text);
+        if (sure)
+            return STATUS_OK;
+        if (outcome != STATUS_OK || wanted >= n || wanted >= MOST) {
+            out->count = -1;
+            return STATUS_OK;
+        }
+    }
 }

@@ -2,13 +2,13 @@
  * place between is looked into.  Then halving, and interpolation on the unstable side, where the
  * square of the imaginary part of s^2 (of a flutter), s^2 (of a divergence) or s (with damping) is
  * smooth. */
+#include "harness/analysis/analysis_impl.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/analysis/flutter.h"
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
 
 enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
 static const double first_step = 1e-3; /* of the path of the state followed */

@@ -2,7 +2,7 @@
  * K, falls to zero along the path.  Stable states ever closer before it are interpolated; the error
  * of an estimate is the product of their distances. (K is not extrapolated as a whole: turning a
  * stiff structure with the path would make it indefinite long before.) */
-#include "harness/analysis/loaded.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,12 +11,7 @@
 
 #include "cases/scene/along_path.h"
 #include "elements/math/pi.h"
-#include "harness/analysis/flutter.h"
-#include "harness/analysis/modal.h"
-#include "harness/analysis/static.h"
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
-#include "harness/numerics/numerics.h"
 
 enum { MAX_STATES = 60, POINTS = 3 };
 static const double first_step = 0.1; /* of the path so far */

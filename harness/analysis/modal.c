@@ -1,7 +1,7 @@
 /* Natural frequencies about the undeformed state, with the stresses of a linear analysis where one
  * is followed: M x = (1/omega^2) K x, so that a mass matrix singular in the rotations does no
  * harm. */
-#include "harness/analysis/modal.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,9 +9,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/analysis/flutter.h"
-#include "harness/newton/newton.h"
-#include "harness/numerics/numerics.h"
 
 int modal_wanted(const analysis_context *c, int analysis)
 {

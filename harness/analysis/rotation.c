@@ -1,18 +1,14 @@
 /* Stationary rotation: equilibrium in a frame that turns, at a rising angular velocity, and small
  * motions about it with the gyroscopic, centrifugal and geometric terms (J Eq. 76: K0 + N0 +
  * G0). */
-#include "harness/analysis/rotation.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/analysis/extract_path.h"
-#include "harness/analysis/static.h"
 #include "harness/model/model.h"
-#include "harness/newton/newton.h"
-#include "harness/numerics/numerics.h"
 
 enum { OTHERS = 2 }; /* modes of other families that may lie between those wanted */
 

@@ -1,23 +1,13 @@
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis_impl.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/scene/along_path.h"
 #include "cases/scene/inputs.h"
-#include "harness/analysis/buckling.h"
-#include "harness/analysis/collect.h"
-#include "harness/analysis/collect_systems.h"
-#include "harness/analysis/compliance.h"
-#include "harness/analysis/continuation.h"
-#include "harness/analysis/extract.h"
-#include "harness/analysis/linear.h"
-#include "harness/analysis/loaded.h"
-#include "harness/analysis/modal.h"
-#include "harness/analysis/rotation.h"
-#include "harness/analysis/static.h"
-#include "harness/newton/newton.h"
-#include "harness/numerics/numerics.h"
+#include "harness/model/model.h"
 #include "harness/time/time.h"
 
 typedef status analysis_function(analysis_context *, int analysis, analysis_outcome *, fault *);
@@ -196,4 +186,278 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
     if (result->status != STATUS_OK && f != NULL)
         snprintf(f->text, sizeof f->text, "%s", result->reason);
     return result->status;
+}
+
+/* Linear statics about the undeformed state. */
+
+/* With what linear_analysis frees. */
+static status displace(analysis_context *c, linear_system *s, analysis_outcome *o, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    o->left.x = calloc((size_t)(size.free + size.driven) + 1, sizeof *o->left.x);
+    if (o->left.x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
+    TRY(linear_system_alloc(c, s, f));
+    return linear_system_solve(c, s, 1, o->left.x, f);
+}
+
+status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    (void)analysis;
+    linear_system s = {0};
+    const status result = displace(c, &s, o, f);
+    linear_system_free(&s);
+    return result;
+}
+
+/* Linear buckling about the undeformed state: (K + G_0 + lambda G) x = 0 with G from the stresses
+ * of what the loads gain from path 0 to 1, and G_0 of what is there at path 0 and stays, with the
+ * strains that members have by themselves. */
+
+/* What grows with the factor, and what stays. */
+typedef struct prestresses {
+    quadratic_forms growing, staying;
+    int stays;         /* 0: nothing does */
+    sparse G, of_stay; /* geometric stiffness of both */
+    double *product;   /* [free] */
+} prestresses;
+
+static double stiffness_form(void *context, const double mode[])
+{
+    prestresses *p = context;
+    const double K = quadratic_forms_stiffness(&p->growing, mode);
+    return p->stays ? K + quadratic_forms_geometric(&p->staying, mode) : K;
+}
+
+static double stiffness_rounding(void *context, const double mode[])
+{
+    prestresses *p = context;
+    const double K = quadratic_forms_stiffness_rounding(&p->growing, mode);
+    return p->stays ? K + quadratic_forms_geometric_rounding(&p->staying, mode) : K;
+}
+
+static void stiffness_product(void *context, const double mode[], double y[])
+{
+    prestresses *p = context;
+    quadratic_forms_product(&p->growing, mode, y);
+    if (!p->stays)
+        return;
+    sparse_mul(&p->of_stay, mode, p->product);
+    for (int i = 0; i < p->growing.free; i++)
+        y[i] += p->product[i];
+}
+
+static double geometric_form(void *context, const double mode[])
+{
+    prestresses *p = context;
+    return quadratic_forms_geometric(&p->growing, mode);
+}
+
+static double geometric_rounding(void *context, const double mode[])
+{
+    prestresses *p = context;
+    return quadratic_forms_geometric_rounding(&p->growing, mode);
+}
+
+/* Moves the modes into the outcome, with lambda = 1/mu. */
+static void keep(eigen_side *side, outcome_side *to)
+{
+    for (int i = 0; i < side->count; i++)
+        side->mu[i] = 1 / side->mu[i];
+    outcome_take(side, to);
+}
+
+/* How many eigenvalues of each sign the quantities ask for. */
+static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
+{
+    for (int i = 0; i < c->scene->quantities; i++) {
+        const scene_quantity *q = &c->scene->quantity[i];
+        if (!scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))
+            continue;
+        const scene_critical_load *load = scene_critical_load_of(q);
+        int *side = load->sign > 0 ? &p->largest : &p->smallest;
+        if (*side < load->order + 1)
+            *side = load->order + 1;
+    }
+}
+
+static void subtract(const sparse *from, sparse *a)
+{
+    for (int i = 0; i < a->column[a->n]; i++)
+        a->value[i] -= from->value[i];
+}
+
+/* K += G of what stays, which alone must leave the structure stable; the rest grows. */
+static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
+{
+    const model_size size = model_sizes(c->model);
+    p->stays = 1;
+    p->product = calloc((size_t)size.free + 1, sizeof *p->product);
+    if (p->product == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for loads that stay");
+    TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->staying, f));
+    TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
+    TRY(quadratic_forms_load(&c->eq, &p->staying, 0, 1, f));
+    TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
+    TRY(linear_geometric_stiffness(&c->eq, p->staying.sigma, 0, &p->of_stay, f));
+    for (int i = 0; i < size.free + size.driven; i++)
+        p->growing.load_x[i] -= p->staying.load_x[i];
+    for (int i = 0; i < s->K.column[s->K.n]; i++)
+        s->K.value[i] += p->of_stay.value[i];
+    c->run->counters.factorisations++;
+    const status factored = context_factor(c, s->factor, &s->K, f);
+    if (factored == STATUS_SINGULAR ||
+        (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s, which stay, are critical by themselves: nothing is left to grow; "
+                         "make them smaller",
+                         linear_initial(c->model) == 0 ? "the loads at path 0"
+                         : !loads_begin(&c->eq)        ? "the strains of members"
+                                                : "the loads at path 0 and strains of members");
+    return factored;
+}
+
+/* The linear solution, its stresses and their geometric stiffness. */
+static status prestress(analysis_context *c, linear_system *s, prestresses *p, fault *f)
+{
+    if (!s->K.symmetric)
+        return fault_set(f, STATUS_REFUSED, "linear buckling needs a symmetric stiffness matrix");
+    TRY(along_path_proportional(c->scene, f));
+    TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->growing, f));
+    TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
+    if (loads_begin(&c->eq) || linear_initial(c->model) > 0)
+        TRY(split_stays(c, s, p, f));
+    TRY(quadratic_forms_load(&c->eq, &p->growing, 1, 0, f));
+    TRY(sparse_alloc_like(&s->K, &p->G, f));
+    TRY(linear_geometric_stiffness(&c->eq, p->growing.sigma, 1, &p->G, f));
+    if (p->stays) {
+        subtract(&p->staying.loads, &p->G);
+        subtract(&p->staying.loads, &p->growing.loads);
+    }
+    return STATUS_OK;
+}
+
+typedef struct buckling {
+    linear_system system;
+    prestresses of;
+    eigen_result found;
+} buckling;
+
+/* All but what was found. */
+static void buckling_free(buckling *b)
+{
+    linear_system_free(&b->system);
+    sparse_free_values(&b->of.G);
+    sparse_free_values(&b->of.of_stay);
+    quadratic_forms_free(&b->of.growing);
+    quadratic_forms_free(&b->of.staying);
+    free(b->of.product);
+}
+
+/* With what buckling_analysis frees. */
+static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
+{
+    TRY(linear_system_alloc(c, &b->system, f));
+    TRY(prestress(c, &b->system, &b->of, f));
+    eigen_problem p = {.K = &b->system.K,
+                       .A = &b->of.G,
+                       .K_factor = b->system.factor,
+                       .sign = -1,
+                       .K_energy = stiffness_form,
+                       .A_energy = geometric_form,
+                       .K_rounding = stiffness_rounding,
+                       .A_rounding = geometric_rounding,
+                       .K_product = stiffness_product,
+                       .context = &b->of};
+    wanted_of(c, analysis, &p);
+    const status result = eigen_solve(&p, &b->found, f);
+    context_count_eigen(c, &b->found);
+    return result;
+}
+
+/* Nodes that turn where they are, without a displacement: what shortens with the elements can be
+ * nothing but their own. */
+static int only_turns(const analysis_context *c, const eigen_side *side, int i)
+{
+    const double no_shift = 1e-6;
+    const model_size size = model_sizes(c->model);
+    double *x = calloc((size_t)(size.free + size.driven) + 1, sizeof *x);
+    if (x == NULL)
+        return 0;
+    memcpy(x, side->mode + (size_t)i * (size_t)size.free, (size_t)size.free * sizeof *x);
+    const double part = metric_shift_part(c->model, x);
+    free(x);
+    return part < no_shift;
+}
+
+/* The same problem on a mesh of half the element length. */
+static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
+{
+    model *halved = NULL;
+    run_state run = {0}; /* its work does not count */
+    context_work work = {0};
+    buckling b = {0};
+    status result = model_halved(c->model, &halved, f);
+    if (result == STATUS_OK)
+        result = run_state_begin(&run, halved, 1, f);
+    if (result == STATUS_OK) {
+        analysis_context finer = {.scene = c->scene,
+                                  .model = halved,
+                                  .run = &run,
+                                  .options = c->options,
+                                  .result = c->result,
+                                  .work = &work};
+        finer.eq = (equations){halved, loading_of(halved, analysis), &run};
+        result = solve(&finer, analysis, &b, f);
+    }
+    *found = b.found;
+    buckling_free(&b);
+    run_state_end(&run);
+    model_free(halved);
+    return result;
+}
+
+/* A load that grows with the square of the number of elements is no load of the structure (elements
+ * that are rigid in shear bend by themselves, with 12 EI/l^2 for GA): it and what lies beyond it
+ * go.
+ */
+static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
+{
+    const double diverging = 2;
+    const int is_there = i < finer->count && isfinite(finer->mu[i]);
+    const double ratio = is_there ? side->mu[i] / finer->mu[i] : INFINITY;
+    if (ratio < diverging)
+        return;
+    snprintf(side->reason, sizeof side->reason,
+             "%.4g is one of the mesh, whose nodes turn where they are: %s with elements half as "
+             "long",
+             1 / side->mu[i], is_there ? "it is several times as large" : "it is not there");
+    side->count = i;
+}
+
+static void judge_side(const analysis_context *c, int analysis, int positive, eigen_result *r)
+{
+    eigen_side *side = positive ? &r->positive : &r->negative;
+    eigen_result finer = {0};
+    for (int i = 0; i < side->count; i++) {
+        if (!isfinite(side->mu[i]) || !only_turns(c, side, i))
+            continue;
+        if (finer.n == 0 && solve_halved(c, analysis, &finer, NULL) == STATUS_FAULT)
+            break;
+        drop_of_mesh(side, positive ? &finer.positive : &finer.negative, i);
+    }
+    eigen_free(&finer);
+}
+
+status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
+{
+    buckling b = {0};
+    const status result = solve(c, analysis, &b, f);
+    for (int positive = 0; positive < 2; positive++)
+        judge_side(c, analysis, positive, &b.found);
+    keep(&b.found.positive, &o->left.spectrum.positive);
+    keep(&b.found.negative, &o->left.spectrum.negative);
+    eigen_free(&b.found);
+    buckling_free(&b);
+    return result;
 }

@@ -1,4 +1,4 @@
-#include "harness/analysis/unsymmetric.h"
+#include "harness/analysis/analysis_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
-#include "harness/analysis/arnoldi.h"
 
 /* Coordinates are measured by the roots of the diagonal of K, rates times `second`. */
 typedef struct unsymmetric_solver {

@@ -7,7 +7,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/quadrature.h"
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include "harness/experiments/checks.h"
 #include "harness/experiments/specimens.h"
 #include "harness/formulations/formulations.h"

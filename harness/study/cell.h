@@ -4,7 +4,7 @@
 
 #include "cases/case.h"
 #include "cases/scene/edit.h"
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
 
 typedef struct cell_request {

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 
 void table_path_steps(FILE *to, const solve_result *r);
 /* Critical points and branch jumps of continued paths. */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 #include "harness/tools/kit/accepted.h"

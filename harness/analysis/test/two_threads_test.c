@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/analysis/unsymmetric.h"
+#include "harness/analysis/analysis_impl.h"
 #include "harness/numerics/test/matrices.h"
 
 /* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` planes that do

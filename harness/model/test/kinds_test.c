@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include "harness/model/model_impl.h"
 #include "harness/tools/kit/accepted.h"
 #include "harness/tools/kit/ask.h"

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "elements/math/dense.h"
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include "harness/formulations/formulations.h"
 
 /* A beam on an arm: what the body at its foot carries is the tip's force, and its moment about the

@@ -1,6 +1,6 @@
 /* Members that are stiff in elongation cost no iterations, whatever the formulation: a swing of the
  * pendulum with EA times 1, 1e3 and 1e6, in long steps, of which none is halved. */
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 #include <math.h>
 
 #include "harness/formulations/formulations.h"

@@ -7,7 +7,7 @@
 
 #include "cases/case.h"
 #include "cases/scene/edit.h"
-#include "harness/analysis/solve.h"
+#include "harness/analysis/analysis.h"
 
 enum { ASK_QUANTITIES = 256, ASK_POINTS = 16 };
 

@@ -1,0 +1,369 @@
+/* The inside of analysis/. */
+#ifndef BEAMWORK_ANALYSIS_IMPL_H
+#define BEAMWORK_ANALYSIS_IMPL_H
+
+#include <complex.h>
+
+#include "elements/shared/status.h"
+#include "harness/analysis/analysis.h"
+#include "harness/newton/newton.h"
+#include "harness/numerics/numerics.h"
+
+/* Eigenpairs of largest size of a real operator without symmetry: the operator projected on a
+ * growing orthonormal basis (Arnoldi).  There is no inertia that counts them: when those wanted
+ * have converged, another start joins the basis until it brings nothing that is as large. */
+
+typedef struct arnoldi_problem {
+    int n, wanted;
+    void (*apply)(void *context, const double x[], double y[]); /* y = T x */
+    void *context;
+} arnoldi_problem;
+
+typedef struct arnoldi_result {
+    int count; /* fewer than wanted when no more are larger than rounding; one more where
+                  the last one is the first of a conjugate pair */
+    double complex *theta; /* [count] largest size first, conjugates one after the other */
+    double complex *mode;  /* [count x n] of length 1 */
+    double *residual;      /* [count] |T x - theta x|/|theta| */
+    long applied;
+} arnoldi_result;
+
+status arnoldi_solve(const arnoldi_problem *, arnoldi_result *, fault *);
+void arnoldi_free(arnoldi_result *);
+
+/* Linear buckling about the undeformed state. */
+
+status buckling_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+
+/* Centre lines of what has been solved, for pictures. */
+
+/* Of the undeformed structure, of at most `most` states of every path, of linear solutions and
+ * modes. */
+status collect_shapes(const analysis_context *, int most, shapes *, fault *);
+
+/* Matrices of small motions about what has been solved. */
+
+/* About the undeformed structure, every station of every path that was reached, and the loaded
+ * states of modal analyses: the matrices that those are made with. */
+status collect_systems(const analysis_context *, system_matrices *, fault *);
+
+/* Compliance and stiffness of a node in a deformed state. */
+
+status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* The analysis at a state that Newton has just reached, from his last tangent where that stands. */
+status compliance_take(analysis_context *, int analysis, const newton_run *, node_tangent *,
+                       station_matrices *out, fault *);
+
+/* Compliances along a path, taken while it is walked: where Newton's last correction changes the
+ * tangent by less than its rounding, the last tangent is that of the station, and no other one is
+ * made; one is made at once where members are condensed. */
+
+typedef struct compliance_walk compliance_walk;
+
+/* Of all analyses that follow `path`; *out NULL: there are none. */
+status compliance_walk_begin(newton_run *, int path, compliance_walk **out, fault *);
+/* Newton has reached the station; what cannot be had now is left to the analysis itself. w NULL:
+ * nothing follows. FAULT: out of memory. */
+status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
+void compliance_walk_end(compliance_walk *);
+
+/* Equilibrium paths under proportional loads, through limit points. */
+
+status continuation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+
+/* Quantities of a continued path. */
+
+/* Curves and critical points; 0: the quantity is something else. */
+int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
+                         quantity_result *);
+/* A curve of coordinates is wanted: the states of all points are kept for it. */
+int continuation_extract_keeps_states(const scene *, int analysis);
+
+/* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0,
+ * M symmetric and positive semidefinite, C of damping or absent.
+ *
+ * The least s are the largest 1/s^2 of -K^-1 M, or with C the largest 1/s of its companion with the
+ * rates of what has a mass.  What has no mass is a zero of these and no motion. */
+
+typedef struct unsymmetric_problem {
+    const sparse *K, *M, *C; /* same pattern; C NULL: nothing is damped */
+    matrix_factor *K_factor; /* factor_numeric done */
+    int wanted;              /* least motions */
+    int estimate;            /* 1: errors are wanted: twice the work */
+} unsymmetric_problem;
+
+/* s = growth + i frequency, ascending in size.  Without damping both motions of a flutter are
+ * there, which have one frequency and opposite rates; of a divergence the growing one.  With
+ * damping every motion that oscillates, and those that grow without. */
+typedef struct unsymmetric_result {
+    int n, count;
+    double *frequency, *growth; /* [count] [rad/s], [1/s]; growth 0: below what rounding makes of a
+                                   double value */
+    double *split; /* [count] imaginary part of s^2 in parts of its size; 1: divergence */
+    double *error; /* [count] estimate of what rounding changes, in parts of |s| */
+    double *mode;  /* [count x n] real */
+    long solutions;
+} unsymmetric_result;
+
+/* Below this part the imaginary part of s^2 is rounding of a double value. */
+static const double unsymmetric_same = 1e-6;
+
+status unsymmetric_solve(const unsymmetric_problem *, unsymmetric_result *, fault *);
+void unsymmetric_free(unsymmetric_result *);
+
+/* Small motions and stability about states whose tangent is not symmetric: loads that follow, and
+ * moments about fixed axes.  There stability is lost by divergence, where the tangent is singular,
+ * or by flutter, where two frequencies meet; with damping of members where a motion grows. */
+
+typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
+
+/* Matrices of small motions about Newton's present state, whose K is factored. */
+typedef struct flutter_system {
+    sparse M, C;
+    int damped;   /* 1: C is that of members; else motions are those without damping */
+    int massless; /* 1: nothing has a mass; M is the metric, which knows no direction, so that
+                     double values stay real: only what diverges has a meaning */
+} flutter_system;
+
+status flutter_system_alloc(const newton_run *, flutter_system *, fault *);
+void flutter_system_free(flutter_system *);
+/* The least `wanted` motions about the state. */
+status flutter_motions(const newton_run *, flutter_system *, int wanted, int estimate,
+                       unsymmetric_result *, fault *);
+/* Frequencies, modes and errors become those of an outcome; what has no digits is NAN there. */
+void flutter_take(unsymmetric_result *from, outcome_side *to);
+/* What the motions are of: "", "undamped" where members are damped and damped is 0, or "with the
+ * members' damping". */
+const char *flutter_damping(const scene *, int damped);
+/* What grows fastest, *mode of them. */
+flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);
+/* "flutter, undamped", "divergence", "flutter, growth with the members' damping" */
+const char *flutter_name(const flutter_system *, flutter_kind);
+
+/* The path at which stability is first lost, from path 0: Newton stands at a state of it. *mode
+ * [free], which the caller frees. */
+typedef struct flutter_point {
+    double path, error, frequency; /* error: in parts of the path; [rad/s] */
+    const char *what;              /* flutter_name */
+    int massless;
+    double *mode;
+} flutter_point;
+/* From the present path to `target`: static_walk. */
+typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
+status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
+
+/* Whether states are stable whose tangent is not symmetric: with a mass by the frequencies of small
+ * motions about them, without by the eigenvalues of the tangent that have passed zero. */
+
+/* Of one analysis; all zero at first. */
+typedef struct flutter_judge {
+    int begun;
+    newton_run n; /* with a tangent of all coordinates, which that of a path need not have */
+    flutter_system of;
+} flutter_judge;
+
+/* Into the record of the step that ended at the state. What is not known stays open. It is not
+ * counted as work. */
+status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
+                           fault *);
+/* The same of the state that j->n has; negative_pivots of the record become those of the state, -1:
+ * not symmetric, or singular. */
+status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
+status flutter_judge_here(flutter_judge *, step_record *, fault *);
+void flutter_judge_free(flutter_judge *);
+
+/* What counts instead of negative pivots where a tangent K is not symmetric: the eigenvalues next
+ * to zero of D^-1 K, D the metric, and which of them lie left of the imaginary axis.  That number
+ * changes where one passes zero, which is a critical point, and where a pair passes the axis beside
+ * zero, which is none; pairs that meet on the axis do not change it, nor does rounding that makes a
+ * pair of a double value.  A symmetric K has as many of them as negative pivots. */
+
+enum { LEFT_NEAREST = 6 };
+
+typedef struct left_of_axis {
+    int count; /* -1: not known */
+    int nearest;
+    double complex mu[LEFT_NEAREST]; /* [nearest] next to zero, least size first */
+    long solutions;
+} left_of_axis;
+
+/* K factored, [n]; weight [n] of the metric. */
+status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *, fault *);
+
+/* Continuation of equilibrium paths under proportional loads, inside of its files.
+ *
+ * The load factor is one more unknown and one coordinate, or the arc, is given instead:
+ *   K dx = r + f' dl,  g . dx = c,  hence dx = K^-1 r + dl K^-1 f',
+ *   dl = (c - g . K^-1 r)/(g . K^-1 f').
+ * K as it was factored last on the way to a point gives the tangent of the path there, the first
+ * direction of the next step and, where K is symmetric, the number of its negative eigenvalues: the
+ * last correction is at most the criterion, and so is, but for a factor, what K has changed by. */
+
+/* A point of the path. */
+typedef struct path_point {
+    double factor, control; /* [1], [m] */
+    double rate;            /* dfactor/ds with s in the model's metric */
+    double *tangent;        /* [free + driven] dx/ds */
+    int symmetric;
+    int negative; /* negative pivots of K, or what left_count counts in their place; -1: not known
+                   */
+    int determinant; /* sign of det K */
+    double least;    /* eigenvalue of K of least size, its real part where K is not
+                        symmetric; NAN: not asked for */
+    int nearest;
+    double complex mu[LEFT_NEAREST]; /* [nearest] eigenvalues next to zero, least size first, where
+                                        K is not symmetric */
+} path_point;
+
+/* Where a step goes: to this value of the control coordinate, or so far along the arc. */
+typedef struct path_goal {
+    int by_arc;
+    double value;
+} path_goal;
+
+typedef struct continuation {
+    analysis_context *c;
+    const scene_control *by;
+    const scene_path *path;
+    outcome_continuation *o;
+    int analysis, room; /* room: for points in the outcome */
+    int asks_critical;  /* 1: a quantity asks for critical points */
+    int keeps_states;   /* 1: the outcome keeps the state of every point */
+    newton_run n;       /* n.backup: state at the start of the step */
+    flutter_judge judge;
+    model_state *end; /* of the step, while a critical point inside it is looked for */
+    double *weight;   /* [free + driven] the metric */
+    double *load;     /* [free + driven] f' */
+    double *response; /* [free + driven] K^-1 f' */
+    double *moved;    /* [free + driven] sum of the increments of the step */
+    double *mode;     /* [free + driven] null vector */
+    path_goal goal;   /* of the step that is iterated */
+    path_point here, next, trial;
+    int first;    /* negative pivots at the begin */
+    int narrow;   /* 1: where something changes was told as near as can be */
+    int doubtful; /* 1: whether the step has critical points could not be decided */
+    int looked;   /* 1: n.dx, response and the factors belong to the present state */
+} continuation;
+
+status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
+                               continuation *, fault *);
+void continuation_step_free(continuation *);
+
+double continuation_step_dot(const continuation *, const double a[],
+                             const double b[]); /* in the metric */
+/* Newton to the goal from n.backup = the state of `here`; the arc is measured along its tangent. */
+status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
+/* The same from the present state, to which the last one led. */
+status continuation_step_go_on(continuation *, path_goal, step_record *, fault *);
+/* Factors K in the present state and fills the point; its tangent goes the way of along[free +
+ * driven] (NULL: to a larger load). */
+status continuation_step_look(continuation *, const double along[], path_point *, step_record *,
+                              fault *);
+/* After a correction that has converged: the point from the last factors, which belong to a state
+ * that is away by the last correction; nothing is left to correct. */
+status continuation_step_end(continuation *, path_point *, const step_record *, fault *);
+/* The state goes back to that of `here`. */
+void continuation_step_go_back(continuation *);
+
+/* continuation.c: why the step from `here` to `next` is too long or led to another branch;
+ * NULL: sound. *swing: how much it turns relative to what is allowed. last_resort: several critical
+ * points may lie in one step, as it cannot be shorter. */
+const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
+
+/* The end of a step in doubt. */
+typedef struct rival {
+    model_state *state; /* NULL: none */
+    double factor;
+} rival;
+
+/* The step from the control coordinate `from` had led to the rival, the path leads here: an event,
+ * and with constant steps the end. */
+status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
+
+/* continuation_critical.c: the critical points between `here` and `next`, if any, become events.
+ * The step was found with the goal. *jump: 1 when the tangent stiffness changes its inertia without
+ * a critical point, which is another branch. */
+status continuation_critical(continuation *, path_goal, int *jump, fault *);
+/* Where critical points are asked for: *hidden 1 when something changes within the step and back,
+ * as far as that lasts a fifth of it. */
+status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
+
+/* Quantities of a scene from the outcomes of its analyses. */
+
+void extract_quantity(const analysis_context *, const scene_quantity *, quantity_result *);
+
+/* Quantities of a path: at a station, the largest or least of all, or as a curve. */
+
+/* Without a value where the path ends before the stations that the quantity needs. */
+void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
+                  quantity_result *);
+
+/* Is a station of the path[stations] of an analysis one that some quantity other than a curve is
+ * taken at? */
+int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
+                      int station);
+/* The same, or are all stations wanted? */
+int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
+                       int station);
+/* Is more of the state at a station read than the motion of nodes: resultants, reactions, shapes,
+ * matrices, or what an analysis that follows begins with? Compliances that were taken on the way
+ * ask for nothing more. */
+int extract_path_whole(const analysis_context *, int analysis, int station);
+
+/* Quantities of the sections of a member. */
+
+/* At full load, about the undeformed state. */
+void extract_section_linear(const analysis_context *, const scene_quantity *,
+                            const analysis_outcome *, quantity_result *r);
+
+/* Quantities of eigenvalues: critical loads and frequencies. */
+
+/* Critical load factor of the wanted sign and order. */
+void extract_spectrum_buckling(const scene_quantity *, const analysis_outcome *, quantity_result *);
+/* Frequency [Hz] of the wanted kind and order of mode. */
+void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
+                            const analysis_outcome *, quantity_result *);
+
+/* Whether stability is lost and regained within a step of a static path, as far as that lasts a
+ * fifth of the step: its state is looked at after every sixth. */
+
+/* The step led from one state to the other. *found: path of a part of it whose stability is not
+ * between those of the ends; INFINITY: there is none that could be reached. It is not counted as
+ * work. */
+status within_step(flutter_judge *, analysis_context *, const model_state *from,
+                   const model_state *to, double *found, fault *);
+
+/* Linear statics about the undeformed state. */
+
+status linear_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+
+/* Small motions and stability about a loaded, deformed state: the last one of the static path that
+ * an analysis follows. */
+
+/* Natural frequencies: M x = (1/omega^2) K x with tangent K and mass M of the deformed state. */
+status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
+/* The value of the path parameter, beyond the end of the static path, at which the tangent of the
+ * nonlinear path first becomes singular (a bifurcation; loads and drivers go on as they are along
+ * the path). */
+status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f);
+
+/* Natural frequencies about the undeformed state. */
+
+status modal_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* How many modes the quantities of an analysis ask for. */
+int modal_wanted(const analysis_context *, int analysis);
+
+/* Stationary rotation and small motions about it. */
+
+status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* What the modes found say of the stability of the stations, when the steps have been judged. */
+void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
+
+/* Nonlinear equilibrium along a path. */
+
+status static_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* From the present path to `target` in steps that halve when Newton fails and double when it is
+ * easy; *increment: the first one, then the next. */
+status static_walk(newton_run *, double target, double *increment, fault *);
+
+#endif
